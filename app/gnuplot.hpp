@@ -1,0 +1,27 @@
+// Curves drawn by gnuplot as SVG.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscontact {
+
+struct Curve {
+  std::string legend;  ///< empty: none
+  std::string style;   ///< gnuplot's, such as "lines linewidth 2"
+  std::vector<std::pair<double, double>> points;  ///< a non-finite ordinate interrupts the line
+};
+
+struct Panel {
+  std::string title, x_label, y_label;
+  bool x_log = false, y_log = false;
+  std::vector<std::string> settings;  ///< further gnuplot commands
+  std::vector<Curve> curves;
+};
+
+/// The panels one below the other as one SVG element, to stand in an HTML page. Throws Error(kExternalProgram) if gnuplot is missing or
+/// fails.
+std::string draw_svg(const std::vector<Panel>& panels, int width, int height);
+
+}  // namespace viscontact

@@ -1,0 +1,169 @@
+#include "app/report_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/gnuplot.hpp"
+#include "common/error.hpp"
+#include "reduced_model/models.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr int kWidth = 860;
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
+
+/// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of models; curves that lie on each other differ
+/// in dash and width too.
+std::string line_style(std::string_view model, bool dashed = false) {
+  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73", "#CC79A7", "#D55E00"};
+  constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 2.0};
+  const auto models = all_models();
+  const auto place = static_cast<std::size_t>(std::ranges::find(models, model, &Model::name) - models.begin());
+  const auto i = std::min(place, kColours.size() - 1);
+  return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
+                     dashed ? "(8,5)" : (place == 2 ? "(10,4)" : "1"));
+}
+
+std::string legend_of(std::string_view model) {
+  const auto models = all_models();
+  const auto found = std::ranges::find(models, model, &Model::name);
+  return found == models.end() ? std::string(model) : std::string(found->description);
+}
+
+/// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so that no minimum is lost.
+std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows, double (*value)(const TrajectoryRow&)) {
+  constexpr std::size_t kRuns = 400;
+  std::vector<const TrajectoryRow*> kept;
+  const std::size_t run = std::max<std::size_t>(1, rows.size() / kRuns);
+  const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) { return value(a) < value(b); };
+  for (std::size_t i = 0; i < rows.size(); i += run) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), i + run));
+    const auto [low, high] = std::minmax_element(begin, end, less);
+    kept.push_back(&*begin);
+    for (const auto extreme : {std::min(low, high), std::max(low, high)})
+      if (&*extreme != kept.back()) kept.push_back(&*extreme);
+  }
+  if (kept.back() != &rows.back()) kept.push_back(&rows.back());
+  return kept;
+}
+
+double gap_of(const TrajectoryRow& row) { return row.gap; }
+
+}  // namespace
+
+std::string plot_fit(const ForceTable& table, const Fit& fit) {
+  Curve points{"table (FreeFEM)", "points pointtype 6 pointsize 0.7 linecolor rgb '#000000'", {}};
+  Curve line{fmt::format("fit, basis {}", fit.basis), "lines linecolor rgb '#0072B2' linewidth 2", {}};
+  Curve residual{"fit - table", "linespoints pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'", {}};
+  Curve estimate{"table's own error estimate", "points pointtype 2 pointsize 0.5 linecolor rgb '#D55E00'", {}};
+  const LubricationForce force(fit);
+  const double stokes = 6 * M_PI * fit.viscosity * fit.radius;
+  for (const auto& row : table.rows) {
+    points.points.emplace_back(row.gap, row.drag_factor);
+    residual.points.emplace_back(row.gap,
+                                 std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
+    if (row.relative_error_estimate > 0) estimate.points.emplace_back(row.gap, row.relative_error_estimate);
+  }
+  constexpr int kSamples = 300;
+  const auto [low, high] = fit.gap_interval;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double gap = std::clamp(low * std::pow(high / low, static_cast<double>(i) / kSamples), low, high);
+    line.points.emplace_back(gap, force.resistance(gap) / stokes);
+  }
+  return draw_svg({{"Drag factor: force over Stokes drag", "gap q", "lambda", true, true, {"set key top right"}, {line, points}},
+                   {"Relative residual of the fit", "gap q", "relative", true, true,
+                    {"set format y '10^{%T}'", "set key bottom right"}, {residual, estimate}}},
+                  kWidth, 720);
+}
+
+std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
+  Panel panel{"Gap between sphere and plane", "time t", "gap q", false, false, {"set key top center"}, {}};
+  for (const auto& trajectory : trajectories) {
+    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, gap_of)) curve.points.emplace_back(row->time, row->gap);
+    panel.curves.push_back(curve);
+  }
+  return draw_svg({panel}, kWidth, 460);
+}
+
+std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
+                                  const LubricationForce& force) {
+  Panel panel{"Gap, logarithmic; dashed: film recovered from gamma", "time t", "gap q", false, true,
+              {"set format y '10^{%T}'", "set key top center"}, {}};
+  for (const auto& trajectory : trajectories) {
+    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    Curve film{"", line_style(trajectory.model, true), {}};
+    const auto models = all_models();
+    const auto model = std::ranges::find(models, trajectory.model, &Model::name);
+    const auto contact = model != models.end() && model->contact != nullptr
+                             ? std::optional(model->contact(motion, force))
+                             : std::nullopt;
+    for (const auto* row : thinned(trajectory.rows, gap_of)) {
+      const bool in_contact = row->gamma && *row->gamma < 0;
+      curve.points.emplace_back(row->time, row->gap > 0 && !in_contact ? row->gap : kGap);
+      if (!contact) continue;
+      double thickness = kGap;
+      try {
+        if (in_contact) thickness = contact->film_thickness(*row->gamma);
+      } catch (const Error&) {
+        // Thinner than the fit knows: not drawn.
+      }
+      film.points.emplace_back(row->time, thickness);
+    }
+    panel.curves.push_back(curve);
+    if (std::ranges::any_of(film.points, [](const auto& point) { return std::isfinite(point.second); }))
+      panel.curves.push_back(film);
+  }
+  return draw_svg({panel}, kWidth, 520);
+}
+
+std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
+  Panel panel{"Adhesion potential: the impulse that the film has absorbed", "time t", "gamma", false, false,
+              {"set key bottom right"}, {}};
+  for (const auto& trajectory : trajectories) {
+    if (!trajectory.rows.back().gamma) continue;
+    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma.value_or(0); }))
+      curve.points.emplace_back(row->time, row->gamma.value_or(kGap));
+    panel.curves.push_back(curve);
+  }
+  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 420);
+}
+
+std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
+  // A row a model, from the top down.
+  const auto rows = static_cast<int>(comparison.models.size());
+  Panel panel{"Thinnest film of each model", "gap q", "", true, false, {}, {}};
+  std::string ticks;
+  std::vector<double> all;
+  for (int i = 0; i < rows; ++i) {
+    const auto& model = comparison.models[static_cast<std::size_t>(i)];
+    const double y = rows - i;
+    ticks += fmt::format("{}'{}' {}", ticks.empty() ? "" : ", ", model.model, y);
+    const bool recovered = model.recovered_minimal_gap.has_value();
+    const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
+    if (!(gap > 0)) continue;
+    all.push_back(gap);
+    panel.curves.push_back({"", fmt::format("points pointtype {} pointsize 1.2 linecolor rgb '#0072B2'", recovered ? 6 : 7), {{gap, y}}});
+  }
+  if (published) {
+    all.push_back(published->minimal_gap);
+    panel.curves.push_back({fmt::format("{}: {:.4g}", published->source, published->minimal_gap),
+                            "lines linecolor rgb '#D55E00' linewidth 2 dashtype (8,5)",
+                            {{published->minimal_gap, 0.4}, {published->minimal_gap, rows + 0.6}}});
+  }
+  if (all.empty()) return "";
+  const auto [low, high] = std::ranges::minmax(all);
+  panel.settings = {"set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6), "set lmargin 32",
+                    fmt::format("set xrange [{}:{}]", low / 1.6, high * 1.6), "set key outside bottom center"};
+  panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
+  return draw_svg({panel}, kWidth, 140 + 34 * rows);
+}
+
+}  // namespace viscontact

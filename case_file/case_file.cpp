@@ -1,0 +1,199 @@
+#include "case_file/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case_file/toml_section.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "fitting/terms.hpp"
+#include "reduced_model/models.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
+constexpr Allowed kOdeTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"};
+
+/// Runs a check of a value that lies deeper than the reader, so that its error names the key and the line.
+template <class Check>
+auto at_key(const TomlSection& section, std::string_view key, const Check& check) {
+  try {
+    return check();
+  } catch (const Error& error) {
+    section.fail(key, fmt::format("is wrong: {}", error.what()));
+  }
+}
+
+/// `gaps`: a list, or { from, to, count, spacing }.
+std::vector<double> read_gaps(const TomlSection& tabulation) {
+  if (tabulation.is_array("gaps")) {
+    auto gaps = tabulation.numbers("gaps", kPositive);
+    std::ranges::sort(gaps);
+    if (std::ranges::adjacent_find(gaps) != gaps.end()) tabulation.fail("gaps", "has the same gap twice");
+    return gaps;
+  }
+  const auto grid = tabulation.section("gaps");
+  const double from = grid.number("from", kPositive);
+  const double to = grid.number("to", kPositive);
+  const int count = grid.count("count", 2);
+  const std::string spacing = grid.text("spacing");
+  grid.finish();
+  if (!(to > from)) grid.fail("to", fmt::format("is {}; must be greater than from, {}", to, from));
+  if (spacing != "log" && spacing != "linear")
+    grid.fail("spacing", fmt::format("is '{}'; must be \"log\" or \"linear\"", spacing));
+  std::vector<double> gaps;
+  for (int i = 0; i < count; ++i) {
+    const double w = static_cast<double>(i) / (count - 1);
+    gaps.push_back(spacing == "log" ? from * std::pow(to / from, w) : std::lerp(from, to, w));
+  }
+  gaps.back() = to;
+  return gaps;
+}
+
+Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
+  Tabulation tabulation;
+  tabulation.viscosity = viscosity;
+  tabulation.radius = radius;
+  tabulation.gaps = read_gaps(section);
+  tabulation.reference_velocities = section.numbers("reference_velocities", kNotZero);
+  auto velocities = tabulation.reference_velocities;
+  std::ranges::sort(velocities);
+  if (std::ranges::adjacent_find(velocities) != velocities.end())
+    section.fail("reference_velocities", "has the same velocity twice");
+  tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
+  if (section.is_text("container"))
+    section.fail("container", "must be a table with radius and height (a fluid without walls is not available)");
+  const auto container = section.section("container");
+  tabulation.container_radius = container.number("radius", kPositive);
+  tabulation.container_height = container.number("height", kPositive);
+  container.finish();
+  if (!(tabulation.container_radius > radius))
+    container.fail("radius", fmt::format("is {}; must be greater than the sphere's radius, {}", tabulation.container_radius, radius));
+  const double widest = tabulation.gaps.back();
+  if (!(tabulation.container_height > widest + 2 * radius))
+    container.fail("height", fmt::format("is {}; must be greater than the largest gap and the sphere's diameter, {}",
+                                         tabulation.container_height, widest + 2 * radius));
+  if (section.has("geometry")) {
+    const auto geometry = section.section("geometry");
+    tabulation.geometry = geometry.text("kind");
+    at_key(geometry, "kind", [&] { return find_geometry(tabulation.geometry); });
+    geometry.finish();
+  }
+  section.finish();
+  return tabulation;
+}
+
+FitRequest read_fit_request(const TomlSection& section, const std::filesystem::path& case_folder) {
+  FitRequest fit;
+  if (section.has("file")) {
+    fit.file = case_folder / section.text("file");
+  } else {
+    fit.basis = section.text("basis");
+    at_key(section, "basis", [&] { return find_basis(fit.basis); });
+    fit.weights = at_key(section, "weights", [&] { return parse_weights(section.text("weights")); });
+  }
+  section.finish();
+  return fit;
+}
+
+ExternalForce read_external_force(const TomlSection& motion, double end_time) {
+  std::vector<ExternalForce::Piece> pieces;
+  for (const auto& piece : motion.sections("external_force")) {
+    pieces.push_back({piece.number("until", kPositive), piece.number("value", kFinite)});
+    piece.finish();
+  }
+  auto force = at_key(motion, "external_force", [&] { return ExternalForce(pieces); });
+  if (pieces.back().until < end_time)
+    motion.fail("external_force",
+                fmt::format("ends at {}; must reach motion.end_time, {}", pieces.back().until, end_time));
+  return force;
+}
+
+/// `models` of [motion]: which to run.
+std::vector<std::string> read_models(const TomlSection& section) {
+  if (!section.has("models")) return {};
+  auto models = section.texts("models");
+  for (const auto& model : models) at_key(section, "models", [&] { return find_model(model); });
+  return models;
+}
+
+Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius) {
+  const double end_time = section.number("end_time", kPositive);
+  Motion motion{mass,
+                section.number("initial_gap", kPositive),
+                section.number("initial_velocity", kFinite),
+                end_time,
+                read_external_force(section, end_time)};
+
+  const auto reference = root.section("reference");
+  motion.reference_time_step = reference.number("time_step", kPositive);
+  reference.finish();
+
+  const auto inertial = root.section("inertial");
+  motion.inertial_relative_tolerance = inertial.number("relative_tolerance", kOdeTolerance);
+  inertial.finish();
+
+  const auto contact = root.section("viscous_contact");
+  motion.contact_time_step = contact.number("time_step", kPositive);
+  motion.threshold_gap = contact.number("threshold_gap", kPositive);
+  const auto roughness = contact.numbers("roughness", kNotNegative);
+  if (roughness.size() != 2) contact.fail("roughness", "must be two numbers >= 0: the sphere's and the plane's");
+  motion.roughness = {roughness[0], roughness[1]};
+  if (!(roughness[0] + roughness[1] < radius))
+    contact.fail("roughness", fmt::format("adds up to {}; must be less than the sphere's radius, {}", roughness[0] + roughness[1], radius));
+  contact.finish();
+  return motion;
+}
+
+template <class Part>
+const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
+  if (!part)
+    throw_bad_input({c.path.string()}, fmt::format("has no section [{}], which this command needs", section));
+  return *part;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& path) {
+  Case c;
+  c.path = path;
+  c.text = read_file(path);
+  const auto root = TomlSection::parse(c.text, path.string());
+  c.title = root.text("title");
+
+  const auto fluid = root.section("fluid");
+  c.viscosity = fluid.number("viscosity", kPositive);
+  fluid.finish();
+  const auto sphere = root.section("sphere");
+  c.radius = sphere.number("radius", kPositive);
+  // The mass matters to the motion only.
+  const double mass = root.has("motion") || sphere.has("mass") ? sphere.number("mass", kPositive) : 1;
+  sphere.finish();
+
+  if (root.has("tabulation")) c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
+  if (root.has("fit")) c.fit = read_fit_request(root.section("fit"), path.parent_path());
+  if (root.has("motion")) {
+    const auto section = root.section("motion");
+    c.motion = read_motion(root, section, mass, c.radius);
+    c.models = read_models(section);
+    section.finish();
+  }
+  if (root.has("published")) {
+    const auto published = root.section("published");
+    c.published = PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
+    published.finish();
+  }
+  // Without [motion] these are not read, but they are no strangers.
+  for (const auto* key : {"reference", "inertial", "viscous_contact"}) (void)root.has(key);
+  root.finish();
+  return c;
+}
+
+const Tabulation& required_tabulation(const Case& c) { return required(c.tabulation, c, "tabulation"); }
+const FitRequest& required_fit(const Case& c) { return required(c.fit, c, "fit"); }
+const Motion& required_motion(const Case& c) { return required(c.motion, c, "motion"); }
+
+}  // namespace viscontact

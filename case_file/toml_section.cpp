@@ -1,0 +1,146 @@
+#include "case_file/toml_section.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <toml++/toml.h>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+struct TomlSection::Node {
+  std::shared_ptr<const toml::table> root;  // keeps `table` alive
+  const toml::table* table = nullptr;
+  std::string file;
+  std::string path;                   // "tabulation.container", empty for the root
+  std::set<std::string> asked;        // keys
+};
+
+namespace {
+
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+std::string show(const toml::node& node) {
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
+}  // namespace
+
+TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
+  try {
+    auto root = std::make_shared<const toml::table>(toml::parse(text, file));
+    const auto* table = root.get();
+    return TomlSection(std::make_shared<Node>(Node{std::move(root), table, file, "", {}}));
+  } catch (const toml::parse_error& error) {
+    throw_bad_input({file, static_cast<int>(error.source().begin.line)},
+                    fmt::format("is not valid TOML ({})", error.description()));
+  }
+}
+
+void TomlSection::fail(std::string_view key, const std::string& what) const {
+  const auto* node = node_->table->get(key);
+  const int line = node != nullptr ? line_of(*node) : line_of(*node_->table);
+  throw_bad_input({node_->file, line}, fmt::format("{}{}{} {}", node_->path, node_->path.empty() ? "" : ".", key, what));
+}
+
+bool TomlSection::has(std::string_view key) const {
+  node_->asked.emplace(key);
+  return node_->table->contains(key);
+}
+
+bool TomlSection::is_text(std::string_view key) const { return has(key) && node_->table->get(key)->is_string(); }
+
+bool TomlSection::is_array(std::string_view key) const { return has(key) && node_->table->get(key)->is_array(); }
+
+double TomlSection::number(std::string_view key, const Allowed& allowed) const {
+  if (!has(key)) fail(key, fmt::format("is missing; must be a number {}", allowed.words));
+  const auto* node = node_->table->get(key);
+  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value) || !allowed.test(*value))
+    fail(key, fmt::format("is {}; must be a number {}", show(*node), allowed.words));
+  return *value;
+}
+
+int TomlSection::count(std::string_view key, int least) const {
+  if (!has(key)) fail(key, fmt::format("is missing; must be a whole number >= {}", least));
+  const auto* node = node_->table->get(key);
+  const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
+  if (!value || *value < least) fail(key, fmt::format("is {}; must be a whole number >= {}", show(*node), least));
+  return *value;
+}
+
+std::string TomlSection::text(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing; must be text");
+  const auto* node = node_->table->get(key);
+  const auto value = node->is_string() ? node->value<std::string>() : std::nullopt;
+  if (!value) fail(key, fmt::format("is {}; must be text", show(*node)));
+  return *value;
+}
+
+std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& allowed) const {
+  if (!has(key)) fail(key, fmt::format("is missing; must be a list of numbers {}", allowed.words));
+  const auto* array = node_->table->get(key)->as_array();
+  if (array == nullptr || array->empty())
+    fail(key, fmt::format("is {}; must be a list of numbers {}", show(*node_->table->get(key)), allowed.words));
+  std::vector<double> values;
+  for (const auto& element : *array) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value) || !allowed.test(*value))
+      fail(key, fmt::format("holds {}; must be a list of numbers {}", show(element), allowed.words));
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::vector<std::string> TomlSection::texts(std::string_view key) const {
+  const auto* array = has(key) ? node_->table->get(key)->as_array() : nullptr;
+  if (array == nullptr || array->empty()) fail(key, "must be a list of texts");
+  std::vector<std::string> values;
+  for (const auto& element : *array) {
+    const auto value = element.value_exact<std::string>();
+    if (!value) fail(key, fmt::format("holds {}; must be a list of texts", show(element)));
+    values.push_back(*value);
+  }
+  return values;
+}
+
+TomlSection TomlSection::section(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing; must be a table");
+  const auto* table = node_->table->get(key)->as_table();
+  if (table == nullptr) fail(key, fmt::format("is {}; must be a table", show(*node_->table->get(key))));
+  const std::string path = node_->path.empty() ? std::string(key) : fmt::format("{}.{}", node_->path, key);
+  return TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}}));
+}
+
+std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing; must be a list of tables");
+  const auto* array = node_->table->get(key)->as_array();
+  if (array == nullptr || array->empty()) fail(key, "must be a list of at least one table");
+  std::vector<TomlSection> sections;
+  for (const auto& element : *array) {
+    const auto* table = element.as_table();
+    if (table == nullptr) fail(key, fmt::format("holds {}; must be a list of tables", show(element)));
+    const std::string path =
+        fmt::format("{}{}{}[{}]", node_->path, node_->path.empty() ? "" : ".", key, sections.size());
+    sections.push_back(TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}})));
+  }
+  return sections;
+}
+
+void TomlSection::finish() const {
+  for (const auto& [key, value] : *node_->table)
+    if (!node_->asked.contains(std::string(key.str()))) {
+      std::string known;
+      for (const auto& name : node_->asked) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+      throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
+                      fmt::format("{}{}{} is not a key that is known here; there are: {}", node_->path,
+                                  node_->path.empty() ? "" : ".", key.str(), known));
+    }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,35 @@
+#include "common/csv.hpp"
+
+#include <fmt/format.h>
+
+namespace viscontact {
+
+CsvComments read_csv_comments(const std::string& text) {
+  CsvComments comments;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty() || line[0] != '#') continue;
+    if (line.back() == '\r') line.pop_back();
+    const auto colon = line.find(": ");
+    const auto start = line.find_first_not_of("# \t");
+    if (colon == std::string::npos || start >= colon) continue;
+    comments[line.substr(start, colon - start)] = line.substr(colon + 2);
+  }
+  return comments;
+}
+
+std::string write_csv_comments(const CsvComments& comments) {
+  std::string text;
+  for (const auto& [key, value] : comments) text += fmt::format("# {}: {}\n", key, value);
+  return text;
+}
+
+double csv_comment_number(const CsvComments& comments, const std::string& key, const std::string& file) {
+  const auto found = comments.find(key);
+  if (found == comments.end()) throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
+  const auto value = parse_number(found->second);
+  if (!value) throw_bad_input({file}, fmt::format("# {}: is not a finite number ('{}')", key, found->second));
+  return *value;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,110 @@
+// CSV files as Viscontact writes them: "# key: value" lines, then a header line, then rows of numbers.
+#pragma once
+
+// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns all the same.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-truncation"
+#include <libfccp/csv.h>
+#pragma GCC diagnostic pop
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+
+/// The "# key: value" lines at the head of a file, in order of key.
+using CsvComments = std::map<std::string, std::string>;
+
+/// One row: the fields of the asked columns as numbers (empty: nothing), and its line in the file.
+template <std::size_t columns>
+struct CsvRow {
+  std::array<std::optional<double>, columns> fields;
+  int line = 0;
+};
+
+template <std::size_t columns>
+struct CsvFile {
+  CsvComments comments;
+  std::vector<CsvRow<columns>> rows;
+};
+
+/// The "# key: value" lines of `text`.
+CsvComments read_csv_comments(const std::string& text);
+
+/// "# key: value" lines for `comments`.
+std::string write_csv_comments(const CsvComments& comments);
+
+/// A comment that must be there as a finite number. Throws Error(kBadInput) naming file and key.
+double csv_comment_number(const CsvComments& comments, const std::string& key, const std::string& file);
+
+/// The asked columns of a CSV file, in the order of `names`; the file may have them in another order, and others besides.
+/// The first `required` columns must be there, the others read as empty where they are not.
+/// Throws Error(kBadInput) with file and line for a missing column, a row of another length, a field that is neither empty
+/// nor a finite number, or fewer rows than a line "# rows: N" promises (a truncated file).
+template <std::size_t columns>
+CsvFile<columns> read_csv(const std::filesystem::path& path, const std::array<std::string, columns>& names,
+                          std::size_t required) {
+  const std::string file = path.string();
+  const std::string text = read_file(path);
+  CsvFile<columns> result{read_csv_comments(text), {}};
+  std::istringstream stream(text);
+  // Fields are taken as text: the library's own conversion to double does not round-trip.
+  using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>, io::throw_on_overflow,
+                               io::single_line_comment<'#'>>;
+  try {
+    Reader reader("", stream);  // it would cut a long name; errors get ours below
+    std::apply([&](const auto&... name) { reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...); },
+               names);
+    for (std::size_t i = 0; i < required; ++i)
+      if (!reader.has_column(names[i]))
+        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line");
+    std::array<char*, columns> fields{};
+    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
+      CsvRow<columns> row;
+      row.line = static_cast<int>(reader.get_file_line());
+      for (std::size_t i = 0; i < columns; ++i) {
+        if (fields[i] == nullptr || *fields[i] == '\0') continue;
+        row.fields[i] = parse_number(fields[i]);
+        if (!row.fields[i])
+          throw_bad_input({file, row.line}, names[i] + " is not a finite number ('" + fields[i] + "')");
+      }
+      result.rows.push_back(row);
+    }
+  } catch (const io::error::duplicated_column_in_header& e) {
+    throw_bad_input({file}, std::string("column '") + e.column_name + "' is twice in the header line");
+  } catch (const io::error::header_missing&) {
+    throw_bad_input({file}, "has no header line; expected columns such as '" + names[0] + "'");
+  } catch (const io::error::too_few_columns& e) {
+    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
+  } catch (const io::error::too_many_columns& e) {
+    throw_bad_input({file, e.file_line}, "has more fields than the header line");
+  } catch (const io::error::line_length_limit_exceeded& e) {
+    throw_bad_input({file, e.file_line}, "is too long for a line of a CSV file");
+  } catch (const io::error::base& e) {
+    throw_bad_input({file}, e.what());
+  }
+  if (const auto promised = result.comments.find("rows");
+      promised != result.comments.end() && promised->second != std::to_string(result.rows.size()))
+    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) + " rows where its header says " +
+                                promised->second + "; is it truncated?");
+  return result;
+}
+
+/// The number in column `i` of a row. Throws Error(kBadInput) with file and line if the field is empty.
+template <std::size_t columns>
+double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names, std::size_t i,
+                      const std::string& file) {
+  if (!row.fields[i]) throw_bad_input({file, row.line}, names[i] + " is empty; must be a number");
+  return *row.fields[i];
+}
+
+}  // namespace viscontact

@@ -1,0 +1,23 @@
+// Whole files: read at once, written beside and renamed, so that a reader never sees half of one.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace viscontact {
+
+/// The bytes of a file. Throws Error(kBadInput) naming the path when it is missing, a folder or not readable.
+std::string read_file(const std::filesystem::path& path);
+
+/// Replaces `path` by `content` in one step: written to a new file in the same folder, flushed to disk, renamed. Missing
+/// parent folders are made. Throws Error(kBadInput) naming the path; then the old file, if any, is untouched.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Makes a folder and its parents. Throws Error(kBadInput) where that cannot be.
+void make_folder(const std::filesystem::path& path);
+
+/// Lower-case hexadecimal SHA-256 of the bytes (64 characters).
+std::string sha256(std::string_view bytes);
+
+}  // namespace viscontact

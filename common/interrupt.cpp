@@ -1,0 +1,31 @@
+#include "common/interrupt.hpp"
+
+#include <csignal>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+// A signal handler can reach nothing but a global.
+volatile std::sig_atomic_t signal_came = 0;
+
+void remember_signal(int) { signal_came = 1; }
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = remember_signal;  // no SA_RESTART: waits end at once
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return signal_came != 0; }
+
+void throw_if_interrupted() {
+  if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted; everything finished so far is kept");
+}
+
+}  // namespace viscontact

@@ -1,0 +1,66 @@
+#include "fitting/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/error.hpp"
+#include "fitting/least_squares.hpp"
+#include "fitting/terms.hpp"
+
+namespace viscontact {
+
+std::string_view to_string(Weights weights) { return weights == Weights::kRelative ? "relative" : "absolute"; }
+
+Weights parse_weights(std::string_view word) {
+  if (word == "relative") return Weights::kRelative;
+  if (word == "absolute") return Weights::kAbsolute;
+  throw Error(ExitCode::kBadInput, fmt::format("weights '{}'; must be relative or absolute", word));
+}
+
+Fit fit_force_table(const ForceTable& table, std::string_view basis_name, Weights weights) {
+  const Basis& basis = find_basis(basis_name);
+  std::set<double> gaps;
+  for (const auto& row : table.rows) gaps.insert(row.gap);
+  if (gaps.size() < basis.terms.size())
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the table has {} different gap(s); basis {} needs at least {}", gaps.size(), basis.name,
+                            basis.terms.size()));
+
+  const auto rows = static_cast<Eigen::Index>(table.rows.size());
+  const auto columns = static_cast<Eigen::Index>(basis.terms.size());
+  const double u0 = table.rows.front().reference_velocity;
+  Eigen::MatrixXd terms(rows, columns);
+  Eigen::VectorXd force(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto& row = table.rows[static_cast<std::size_t>(i)];
+    force(i) = row.force * (u0 / row.reference_velocity);
+    for (Eigen::Index j = 0; j < columns; ++j) terms(i, j) = basis.terms[static_cast<std::size_t>(j)].value(row.gap);
+  }
+  const Eigen::VectorXd weight =
+      weights == Weights::kRelative ? Eigen::VectorXd(force.cwiseAbs().cwiseInverse()) : Eigen::VectorXd::Ones(rows);
+  const auto solution = solve_least_squares(weight.asDiagonal() * terms, weight.cwiseProduct(force));
+  const Eigen::ArrayXd relative_residual = (terms * solution.coefficients - force).cwiseQuotient(force).array();
+
+  Fit fit;
+  fit.basis = basis.name;
+  fit.reference_velocity = u0;
+  fit.viscosity = table.viscosity;
+  fit.radius = table.radius;
+  fit.gap_interval = {*gaps.begin(), *gaps.rbegin()};
+  fit.weights = weights;
+  fit.largest_relative_residual = relative_residual.abs().maxCoeff();
+  fit.rms_relative_residual = std::sqrt(relative_residual.square().mean());
+  fit.condition_number = solution.condition_number;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    fit.terms.push_back({std::string(basis.terms[static_cast<std::size_t>(j)].name), solution.coefficients(j),
+                         std::sqrt(solution.covariance(j, j))});
+    const Eigen::VectorXd covariances = solution.covariance.row(j);
+    fit.covariance.emplace_back(covariances.begin(), covariances.end());
+  }
+  return fit;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,168 @@
+// The fit file: docs/fit.schema.json in words of C++.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/terms.hpp"
+
+namespace viscontact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as "terms[2].name is ...".
+class JsonObject {
+ public:
+  JsonObject(const Json& json, std::string file, std::string path)
+      : json_(json), file_(std::move(file)), path_(std::move(path)) {
+    if (!json_.is_object()) fail("", "must be an object");
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
+    throw_bad_input({file_}, fmt::format("{} {}", where.empty() ? "the file" : where, what));
+  }
+
+  const Json& at(const std::string& key) const {
+    if (!json_.contains(key)) fail(key, "is missing");
+    return json_.at(key);
+  }
+
+  double number(const std::string& key) const { return finite(key, at(key)); }
+
+  double finite(const std::string& key, const Json& value) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      fail(key, fmt::format("is {}; must be a finite number", value.dump()));
+    return value.get<double>();
+  }
+
+  double number_above(const std::string& key, double bound, bool bound_allowed) const {
+    const double value = number(key);
+    if (value < bound || (value == bound && !bound_allowed))
+      fail(key, fmt::format("is {}; must be {} {}", value, bound_allowed ? ">=" : ">", bound));
+    return value;
+  }
+
+  std::string text(const std::string& key) const {
+    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", at(key).dump()));
+    return at(key).get<std::string>();
+  }
+
+  const Json& array(const std::string& key) const {
+    if (!at(key).is_array()) fail(key, "must be an array");
+    return at(key);
+  }
+
+  void allow_only(std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : json_.items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) fail(key, "is not a key of a fit file");
+  }
+
+ private:
+  const Json& json_;
+  std::string file_, path_;
+};
+
+Json parse(const std::string& file, const std::string& text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
+    throw_bad_input({file, static_cast<int>(line)}, "is not valid JSON; write one with 'viscontact fit'");
+  } catch (const Json::exception& error) {
+    throw_bad_input({file}, error.what());
+  }
+}
+
+std::vector<FitTerm> read_terms(const JsonObject& root, const std::string& file) {
+  std::vector<FitTerm> terms;
+  const Json& array = root.array("terms");
+  if (array.empty()) root.fail("terms", "is empty");
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const JsonObject object(array[i], file, fmt::format("terms[{}]", i));
+    object.allow_only({"name", "coefficient", "standard_error"});
+    FitTerm term{object.text("name"), object.number("coefficient"), object.number_above("standard_error", 0, true)};
+    if (!find_term(term.name)) object.fail("name", fmt::format("is '{}', which is no term", term.name));
+    for (const auto& other : terms)
+      if (other.name == term.name) object.fail("name", fmt::format("is '{}', a second time", term.name));
+    terms.push_back(term);
+  }
+  return terms;
+}
+
+std::vector<std::vector<double>> read_covariance(const JsonObject& root, std::size_t size) {
+  std::vector<std::vector<double>> covariance;
+  for (const Json& row : root.array("covariance")) {
+    if (!row.is_array() || row.size() != size) root.fail("covariance", fmt::format("must be {} x {}", size, size));
+    covariance.emplace_back();
+    for (const Json& value : row) covariance.back().push_back(root.finite("covariance", value));
+  }
+  if (covariance.size() != size) root.fail("covariance", fmt::format("must be {} x {}", size, size));
+  return covariance;
+}
+
+}  // namespace
+
+Fit read_fit(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const Json json = parse(file, read_file(path));
+  const JsonObject root(json, file, "");
+  root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights", "terms",
+                   "largest_relative_residual", "rms_relative_residual", "condition_number", "covariance",
+                   "table_sha256", "versions"});
+  Fit fit;
+  fit.basis = root.text("basis");
+  fit.reference_velocity = root.number("reference_velocity");
+  if (fit.reference_velocity == 0) root.fail("reference_velocity", "is 0; must not be");
+  fit.viscosity = root.number_above("viscosity", 0, false);
+  fit.radius = root.number_above("radius", 0, false);
+  const Json& interval = root.array("gap_interval");
+  if (interval.size() != 2) root.fail("gap_interval", "must be two gaps");
+  fit.gap_interval = {root.finite("gap_interval[0]", interval[0]), root.finite("gap_interval[1]", interval[1])};
+  if (!(fit.gap_interval[0] > 0 && fit.gap_interval[1] > fit.gap_interval[0]))
+    root.fail("gap_interval", fmt::format("is {}; must be 0 < first < second", interval.dump()));
+  try {
+    fit.weights = parse_weights(root.text("weights"));
+  } catch (const Error&) {
+    root.fail("weights", fmt::format("is '{}'; must be relative or absolute", root.text("weights")));
+  }
+  fit.terms = read_terms(root, file);
+  fit.largest_relative_residual = root.number_above("largest_relative_residual", 0, true);
+  fit.rms_relative_residual = root.number_above("rms_relative_residual", 0, true);
+  fit.condition_number = root.number_above("condition_number", 1, true);
+  fit.covariance = read_covariance(root, fit.terms.size());
+  fit.table_sha256 = root.text("table_sha256");
+  if (!root.at("versions").is_object()) root.fail("versions", "must be an object");
+  for (const auto& [program, version] : root.at("versions").items()) {
+    if (!version.is_string()) root.fail("versions." + program, "must be text");
+    fit.versions[program] = version.get<std::string>();
+  }
+  return fit;
+}
+
+std::string write_fit(const Fit& fit) {
+  Json json;
+  json["basis"] = fit.basis;
+  json["reference_velocity"] = fit.reference_velocity;
+  json["viscosity"] = fit.viscosity;
+  json["radius"] = fit.radius;
+  json["gap_interval"] = fit.gap_interval;
+  json["weights"] = to_string(fit.weights);
+  json["terms"] = Json::array();
+  for (const auto& term : fit.terms)
+    json["terms"].push_back(
+        {{"name", term.name}, {"coefficient", term.coefficient}, {"standard_error", term.standard_error}});
+  json["largest_relative_residual"] = fit.largest_relative_residual;
+  json["rms_relative_residual"] = fit.rms_relative_residual;
+  json["condition_number"] = fit.condition_number;
+  json["covariance"] = fit.covariance;
+  json["table_sha256"] = fit.table_sha256;
+  json["versions"] = fit.versions;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace viscontact

@@ -1,0 +1,87 @@
+#include "fitting/force_table.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "common/csv.hpp"
+
+namespace viscontact {
+namespace {
+
+const std::array<std::string, 7> kColumns = {"gap",
+                                             "reference_velocity",
+                                             "force",
+                                             "drag_factor",
+                                             "relative_error_estimate",
+                                             "degrees_of_freedom",
+                                             "seconds"};
+constexpr std::size_t kRequiredColumns = 3;
+constexpr std::string_view kVersionPrefix = "version of ";
+
+std::string comment_or(const CsvComments& comments, const std::string& key) {
+  const auto found = comments.find(key);
+  return found == comments.end() ? "" : found->second;
+}
+
+double positive_comment(const CsvComments& comments, const std::string& key, const std::string& file) {
+  const double value = csv_comment_number(comments, key, file);
+  if (!(value > 0)) throw_bad_input({file}, fmt::format("# {}: is {}; must be > 0", key, value));
+  return value;
+}
+
+}  // namespace
+
+ForceTable read_force_table(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const auto csv = read_csv(path, kColumns, kRequiredColumns);
+  ForceTable table;
+  table.viscosity = positive_comment(csv.comments, "viscosity", file);
+  table.radius = positive_comment(csv.comments, "radius", file);
+  table.container = comment_or(csv.comments, "container");
+  table.case_hash = comment_or(csv.comments, "case");
+  for (const auto& [key, value] : csv.comments)
+    if (key.starts_with(kVersionPrefix)) table.versions[key.substr(kVersionPrefix.size())] = value;
+  for (const auto& fields : csv.rows) {
+    const FilePosition here{file, fields.line};
+    ForceTableRow row;
+    row.gap = required_field(fields, kColumns, 0, file);
+    row.reference_velocity = required_field(fields, kColumns, 1, file);
+    row.force = required_field(fields, kColumns, 2, file);
+    if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; must be > 0", row.gap));
+    if (row.reference_velocity == 0) throw_bad_input(here, "reference_velocity is 0; must not be");
+    if (!(row.force * row.reference_velocity < 0))
+      throw_bad_input(here, fmt::format("force is {} at velocity {}; a drag is opposed to the velocity", row.force,
+                                        row.reference_velocity));
+    const double stokes = 6 * std::numbers::pi * table.viscosity * table.radius * row.reference_velocity;
+    row.drag_factor = fields.fields[3].value_or(-row.force / stokes);
+    row.relative_error_estimate = fields.fields[4].value_or(0);
+    row.degrees_of_freedom = fields.fields[5].value_or(0);
+    row.seconds = fields.fields[6].value_or(0);
+    if (row.relative_error_estimate < 0)
+      throw_bad_input(here, fmt::format("relative_error_estimate is {}; must be >= 0", row.relative_error_estimate));
+    table.rows.push_back(row);
+  }
+  if (table.rows.empty()) throw_bad_input({file}, "has no rows");
+  return table;
+}
+
+std::string write_force_table(const ForceTable& table) {
+  CsvComments comments = {{"viscontact", "force table"},
+                          {"viscosity", format_number(table.viscosity)},
+                          {"radius", format_number(table.radius)},
+                          {"container", table.container},
+                          {"rows", std::to_string(table.rows.size())}};
+  if (!table.case_hash.empty()) comments["case"] = table.case_hash;
+  for (const auto& [program, version] : table.versions) comments[std::string(kVersionPrefix) + program] = version;
+  std::string text = write_csv_comments(comments);
+  text += fmt::format("{}\n", fmt::join(kColumns, ","));
+  for (const auto& row : table.rows)
+    text += fmt::format("{},{},{},{},{},{},{}\n", format_number(row.gap), format_number(row.reference_velocity),
+                        format_number(row.force), format_number(row.drag_factor),
+                        format_number(row.relative_error_estimate), format_number(row.degrees_of_freedom),
+                        format_number(row.seconds));
+  return text;
+}
+
+}  // namespace viscontact

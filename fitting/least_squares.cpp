@@ -1,0 +1,96 @@
+#include "fitting/least_squares.hpp"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <cassert>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+/// The residuals A x - b as one block, their Jacobian A.
+class LinearResiduals : public ceres::CostFunction {
+ public:
+  LinearResiduals(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side)
+      : matrix_(matrix), right_hand_side_(right_hand_side) {
+    set_num_residuals(static_cast<int>(matrix.rows()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(matrix.cols()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> x(parameters[0], matrix_.cols());
+    Eigen::Map<Eigen::VectorXd>(residuals, matrix_.rows()) = matrix_ * x - right_hand_side_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Eigen::Map<RowMajor>(jacobians[0], matrix_.rows(), matrix_.cols()) = matrix_;
+    }
+    return true;
+  }
+
+ private:
+  const Eigen::MatrixXd& matrix_;
+  const Eigen::VectorXd& right_hand_side_;
+};
+
+}  // namespace
+
+LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side) {
+  assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 && matrix.rows() == right_hand_side.size());
+  const Eigen::VectorXd scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+  const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
+
+  LeastSquaresSolution solution;
+  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
+  const double smallest = singular(singular.size() - 1);
+  if (!(smallest > singular(0) * std::numeric_limits<double>::epsilon()))
+    throw Error(ExitCode::kNotConverged,
+                "the fit's terms cannot be told apart on this table; give more or wider spread gaps, or fewer terms");
+  solution.condition_number = singular(0) / smallest;
+
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(matrix.cols());
+  ceres::Problem problem;
+  problem.AddResidualBlock(new LinearResiduals(scaled, right_hand_side), nullptr, x.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  // The problem is linear: without damping the first step is the solution, the next ones are iterative refinement, and the
+  // iteration ends where the cost cannot fall any more in double precision.
+  options.initial_trust_region_radius = 1e32;
+  options.max_trust_region_radius = 1e32;
+  options.min_lm_diagonal = 1e-32;
+  options.jacobi_scaling = false;
+  options.max_num_iterations = 20;
+  options.function_tolerance = 1e-16;
+  options.parameter_tolerance = 1e-16;
+  options.gradient_tolerance = 1e-300;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable() || !x.allFinite())
+    throw Error(ExitCode::kNotConverged, "the least squares failed: " + summary.message);
+  solution.coefficients = x.cwiseQuotient(scale);
+
+  const Eigen::Index freedom = matrix.rows() - matrix.cols();
+  solution.covariance = Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols());
+  if (freedom > 0) {
+    ceres::Covariance::Options covariance_options;
+    covariance_options.algorithm_type = ceres::DENSE_SVD;
+    covariance_options.min_reciprocal_condition_number = 1e-32;  // judged above, on singular values
+    ceres::Covariance covariance(covariance_options);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unit(matrix.cols(), matrix.cols());
+    const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
+    if (!covariance.Compute(blocks, &problem) ||
+        !covariance.GetCovarianceBlock(x.data(), x.data(), unit.data()))
+      throw Error(ExitCode::kNotConverged, "the covariance of the fit cannot be computed");
+    const double variance = (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(freedom);
+    solution.covariance = variance * scale.cwiseInverse().asDiagonal() * unit * scale.cwiseInverse().asDiagonal();
+  }
+  return solution;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,67 @@
+#include "fitting/terms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr std::array kTerms = {
+    Term{kLeadingTerm,  //
+         [](double q) { return 1 / q; }, [](double q) { return -1 / (q * q); }, [](double q) { return std::log(q); }},
+    Term{"ln q",  //
+         [](double q) { return std::log(q); }, [](double q) { return 1 / q; },
+         [](double q) { return q * (std::log(q) - 1); }},
+    Term{"1",  //
+         [](double) { return 1.0; }, [](double) { return 0.0; }, [](double q) { return q; }},
+    Term{"q ln q",  //
+         [](double q) { return q * std::log(q); }, [](double q) { return std::log(q) + 1; },
+         [](double q) { return q * q / 2 * (std::log(q) - 0.5); }},
+    Term{"q",  //
+         [](double q) { return q; }, [](double) { return 1.0; }, [](double q) { return q * q / 2; }},
+    Term{"q^2",  //
+         [](double q) { return q * q; }, [](double q) { return 2 * q; }, [](double q) { return q * q * q / 3; }},
+    Term{"q^3",  //
+         [](double q) { return q * q * q; }, [](double q) { return 3 * q * q; },
+         [](double q) { return q * q * q * q / 4; }},
+};
+
+Basis make_basis(std::string_view name, std::initializer_list<std::string_view> terms) {
+  Basis basis{name, {}};
+  for (const auto term : terms) basis.terms.push_back(find_term(term).value());
+  return basis;
+}
+
+}  // namespace
+
+std::span<const Term> all_terms() { return kTerms; }
+
+std::optional<Term> find_term(std::string_view name) {
+  const auto found = std::ranges::find(kTerms, name, &Term::name);
+  return found == kTerms.end() ? std::nullopt : std::optional(*found);
+}
+
+const std::vector<Basis>& all_bases() {
+  static const std::vector<Basis> bases = {
+      make_basis("lecture", {"1/q", "1", "q", "q^2", "q^3"}),
+      make_basis("asymptotic", {"1/q", "ln q", "1", "q ln q", "q"}),
+  };
+  return bases;
+}
+
+const Basis& find_basis(std::string_view name) {
+  const auto& bases = all_bases();
+  const auto found = std::ranges::find(bases, name, &Basis::name);
+  if (found != bases.end()) return *found;
+  std::string names;
+  for (const auto& basis : bases) names += fmt::format("{}{}", names.empty() ? "" : ", ", basis.name);
+  throw Error(ExitCode::kBadInput, fmt::format("no basis is named '{}'; there are {}", name, names));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,66 @@
+#include "freefem_axi/freefem.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+// Debian's FreeFEM looks for its own files in folders that its package does not have (a trap of 4.11): it is told.
+constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
+constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
+
+}  // namespace
+
+FreeFem default_freefem() {
+  FreeFem freefem;
+  const char* named = std::getenv("VISCONTACT_FREEFEM");
+  freefem.executable = named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
+  const auto program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const auto* up : {".", "..", "../.."}) {
+    auto folder = (program_folder / up / "share/viscontact/freefem_axi").lexically_normal();
+    if (!std::filesystem::exists(folder / "plane.edp")) continue;
+    freefem.script_folder = folder;
+    return freefem;
+  }
+  throw Error(ExitCode::kExternalProgram,
+              fmt::format("the FreeFEM scripts are not in share/viscontact/freefem_axi beside {}; build or install again",
+                          program_folder.string()));
+}
+
+ProcessResult run_freefem(const FreeFem& freefem, std::string_view script, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {freefem.executable, "-nw", "-v", "0", (freefem.script_folder / script).string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  // One process per row fills the cores; threads inside one would only get in each other's way.
+  const auto result = run_process(command, {fmt::format("FF_INCLUDEPATH={};{}", freefem.script_folder.string(), kIncludeFolder),
+                                            fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
+                                            "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"});
+  if (!result.started || result.exit_status == 127)
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or set VISCONTACT_FREEFEM to it",
+                            freefem.executable, result.output));
+  return result;
+}
+
+std::string line_after(const std::string& output, std::string_view prefix) {
+  std::istringstream lines(output);
+  const std::string start = std::string(prefix) + " ";
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(start)) return line.substr(start.size());
+  return {};
+}
+
+std::string freefem_version(const FreeFem& freefem) {
+  const auto result = run_freefem(freefem, "version.edp", {});
+  const std::string version = line_after(result.output, "viscontact-version");
+  if (result.exit_status != 0 || version.empty())
+    throw Error(ExitCode::kExternalProgram, fmt::format("{} does not answer as FreeFEM does (exit status {})",
+                                                        freefem.executable, result.exit_status));
+  return version;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,107 @@
+#include "reduced_model/cvode.hpp"
+
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+std::span<double> values(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
+}
+
+constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back with a smaller step
+
+}  // namespace
+
+Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_tolerance,
+             std::span<const double> absolute_tolerances)
+    : system_(std::move(system)),
+      state_(N_VNew_Serial(system_.dimension, context_)),
+      matrix_(SUNDenseMatrix(system_.dimension, system_.dimension, context_)),
+      solver_(SUNLinSol_Dense(state_.get(), matrix_.get(), context_)),
+      memory_(CVodeCreate(CV_BDF, context_)) {
+  if (!state_ || !matrix_ || !solver_ || memory_ == nullptr) throw std::bad_alloc();
+  std::ranges::copy(state, values(state_.get()).begin());
+  check(CVodeInit(memory_, evaluate_derivative, 0, state_.get()), "CVodeInit");
+  const Owned<N_Vector> tolerances(N_VClone(state_.get()));
+  std::ranges::copy(absolute_tolerances, values(tolerances.get()).begin());
+  check(CVodeSVtolerances(memory_, relative_tolerance, tolerances.get()), "CVodeSVtolerances");
+  check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
+  check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // failures come as Error, not as text on stderr
+  check(CVodeSetLinearSolver(memory_, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
+  check(CVodeSetJacFn(memory_, evaluate_jacobian), "CVodeSetJacFn");
+  check(CVodeRootInit(memory_, 1, evaluate_event), "CVodeRootInit");
+  check(CVodeSetNoInactiveRootWarn(memory_), "CVodeSetNoInactiveRootWarn");
+  check(CVodeSetMaxNumSteps(memory_, 1000000), "CVodeSetMaxNumSteps");
+}
+
+Cvode::~Cvode() { CVodeFree(&memory_); }
+
+std::span<const double> Cvode::state() const { return values(state_.get()); }
+
+long Cvode::steps() const {
+  long steps = 0;
+  check(CVodeGetNumSteps(memory_, &steps), "CVodeGetNumSteps");
+  return steps_before_restart_ + steps;
+}
+
+void Cvode::restart(double time, double stop_time) {
+  steps_before_restart_ = steps();
+  time_ = time;
+  check(CVodeReInit(memory_, time, state_.get()), "CVodeReInit");
+  // A stop time outlives CVodeReInit, so a new one is set each time.
+  check(CVodeSetStopTime(memory_, stop_time), "CVodeSetStopTime");
+}
+
+Cvode::Stop Cvode::advance(double until) {
+  const int code = CVode(memory_, until, state_.get(), &time_, CV_NORMAL);
+  if (code < 0 && system_error_) std::rethrow_exception(system_error_);
+  check(code, "CVode");
+  system_error_ = nullptr;
+  return code == CV_ROOT_RETURN ? Stop::kAtEvent : Stop::kAtTime;
+}
+
+void Cvode::check(int code, const char* call) const {
+  if (code >= 0) return;
+  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
+  throw Error(ExitCode::kNotConverged, fmt::format("CVODE gave up at time {:.6g}: {} returned {}", time_, call, name.get()));
+}
+
+int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self) {
+  auto& cvode = *static_cast<Cvode*>(self);
+  try {
+    cvode.system_.derivative(time, values(y), values(derivative));
+  } catch (const Error&) {
+    cvode.system_error_ = std::current_exception();
+    return kTryAgain;
+  }
+  return 0;
+}
+
+int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector, N_Vector,
+                             N_Vector) {
+  auto& cvode = *static_cast<Cvode*>(self);
+  const auto size = static_cast<std::size_t>(cvode.system_.dimension * cvode.system_.dimension);
+  try {
+    cvode.system_.jacobian(time, values(y), {SUNDenseMatrix_Data(jacobian), size});
+  } catch (const Error&) {
+    cvode.system_error_ = std::current_exception();
+    return kTryAgain;
+  }
+  return 0;
+}
+
+int Cvode::evaluate_event(double, N_Vector y, double* value, void* self) {
+  *value = static_cast<Cvode*>(self)->system_.event(values(y));
+  return 0;
+}
+
+}  // namespace viscontact

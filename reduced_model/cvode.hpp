@@ -1,0 +1,73 @@
+// SUNDIALS CVODE as a value with RAII: every return code is checked here and nowhere else.
+#pragma once
+
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_nvector.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <sundials/sundials_context.hpp>
+
+namespace viscontact {
+
+/// A stiff system y' = f(t, y) with its Jacobian, and one function of y whose zeros are of interest.
+struct StiffSystem {
+  int dimension = 0;
+  std::function<void(double time, std::span<const double> y, std::span<double> derivative)> derivative;
+  /// Column-major, entry (i, j) = d f_i / d y_j.
+  std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
+  std::function<double(std::span<const double> y)> event;
+};
+
+/// BDF of variable order and step with Newton's method and dense linear algebra.
+/// An Error(kBadInput) thrown by the system (a state that it cannot judge) makes CVODE try a smaller step; if it persists, it is
+/// thrown on from advance().
+class Cvode {
+ public:
+  enum class Stop { kAtTime, kAtEvent };
+
+  /// `relative_tolerance` > 0 for all components, `absolute_tolerances` > 0 for each.
+  Cvode(StiffSystem system, std::span<const double> state, double relative_tolerance,
+        std::span<const double> absolute_tolerances);
+  Cvode(const Cvode&) = delete;
+  Cvode& operator=(const Cvode&) = delete;
+  ~Cvode();
+
+  /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may change there.
+  void restart(double time, double stop_time);
+
+  /// Integrates to `until` or to the next event, whichever is first. Throws Error(kNotConverged) if CVODE gives up.
+  Stop advance(double until);
+
+  double time() const { return time_; }
+  std::span<const double> state() const;
+  long steps() const;  ///< since construction
+
+ private:
+  struct Deleters {
+    void operator()(N_Vector vector) const { N_VDestroy(vector); }
+    void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+    void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+  };
+  template <class T>
+  using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
+
+  static int evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self);
+  static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector, N_Vector, N_Vector);
+  static int evaluate_event(double time, N_Vector y, double* value, void* self);
+  void check(int code, const char* call) const;
+
+  sundials::Context context_;
+  StiffSystem system_;
+  Owned<N_Vector> state_;
+  Owned<SUNMatrix> matrix_;
+  Owned<SUNLinearSolver> solver_;
+  void* memory_ = nullptr;
+  double time_ = 0;
+  long steps_before_restart_ = 0;
+  std::exception_ptr system_error_;  // the last one that the system threw
+};
+
+}  // namespace viscontact

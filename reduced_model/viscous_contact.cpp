@@ -1,0 +1,15 @@
+#include "reduced_model/viscous_contact.hpp"
+
+namespace viscontact {
+
+ContactModel viscous_contact(const Motion& motion, const LubricationForce& force) {
+  ContactModel model = contact_with_leading_term(motion, force);
+  model.resolved_resistance = [](double) { return 0.0; };
+  return model;
+}
+
+Trajectory simulate_viscous_contact(const Motion& motion, const LubricationForce& force) {
+  return run_contact_model(motion, viscous_contact(motion, force));
+}
+
+}  // namespace viscontact
