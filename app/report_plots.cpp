@@ -15,6 +15,8 @@ namespace viscontact {
 namespace {
 
 constexpr int kWidth = 860;
+constexpr const char* kKeyBelow = "set key outside bottom center horizontal maxcols 2";
+constexpr const char* kDecades = "set format y '1e%T'";
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
 
 /// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of models; curves that lie on each other differ
@@ -73,29 +75,30 @@ std::string plot_fit(const ForceTable& table, const Fit& fit) {
   constexpr int kSamples = 300;
   const auto [low, high] = fit.gap_interval;
   for (int i = 0; i <= kSamples; ++i) {
-    const double gap = std::clamp(low * std::pow(high / low, static_cast<double>(i) / kSamples), low, high);
+    const double gap = std::clamp(std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / kSamples)), low, high);
     line.points.emplace_back(gap, force.resistance(gap) / stokes);
   }
   return draw_svg({{"Drag factor: force over Stokes drag", "gap q", "lambda", true, true, {"set key top right"}, {line, points}},
                    {"Relative residual of the fit", "gap q", "relative", true, true,
-                    {"set format y '10^{%T}'", "set key bottom right"}, {residual, estimate}}},
+                    {kDecades, "set key bottom right"}, {residual, estimate}}},
                   kWidth, 720);
 }
 
 std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"Gap between sphere and plane", "time t", "gap q", false, false, {"set key top center"}, {}};
+  Panel panel{"Gap between sphere and plane", "time t", "gap q", false, false, {kKeyBelow}, {}};
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     for (const auto* row : thinned(trajectory.rows, gap_of)) curve.points.emplace_back(row->time, row->gap);
     panel.curves.push_back(curve);
   }
-  return draw_svg({panel}, kWidth, 460);
+  return draw_svg({panel}, kWidth, 520);
 }
 
 std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
                                   const LubricationForce& force) {
   Panel panel{"Gap, logarithmic; dashed: film recovered from gamma", "time t", "gap q", false, true,
-              {"set format y '10^{%T}'", "set key top center"}, {}};
+              {kDecades, kKeyBelow}, {}};
+  double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a released sphere's first step
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     Curve film{"", line_style(trajectory.model, true), {}};
@@ -115,17 +118,21 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
         // Thinner than the fit knows: not drawn.
       }
       film.points.emplace_back(row->time, thickness);
+      if (thickness > 0) thinnest = std::min(thinnest, thickness);
     }
+    if (!contact)
+      thinnest = std::min(thinnest, std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap)->gap);
     panel.curves.push_back(curve);
     if (std::ranges::any_of(film.points, [](const auto& point) { return std::isfinite(point.second); }))
       panel.curves.push_back(film);
   }
-  return draw_svg({panel}, kWidth, 520);
+  if (thinnest > 0 && std::isfinite(thinnest)) panel.settings.push_back(fmt::format("set yrange [{}:*]", thinnest / 2));
+  return draw_svg({panel}, kWidth, 560);
 }
 
 std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
   Panel panel{"Adhesion potential: the impulse that the film has absorbed", "time t", "gamma", false, false,
-              {"set key bottom right"}, {}};
+              {kKeyBelow}, {}};
   for (const auto& trajectory : trajectories) {
     if (!trajectory.rows.back().gamma) continue;
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
@@ -133,13 +140,13 @@ std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
       curve.points.emplace_back(row->time, row->gamma.value_or(kGap));
     panel.curves.push_back(curve);
   }
-  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 420);
+  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
 }
 
 std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
   // A row a model, from the top down.
   const auto rows = static_cast<int>(comparison.models.size());
-  Panel panel{"Thinnest film of each model", "gap q", "", true, false, {}, {}};
+  Panel panel{"Thinnest film of each model", "gap q", "", false, false, {}, {}};
   std::string ticks;
   std::vector<double> all;
   for (int i = 0; i < rows; ++i) {
@@ -160,10 +167,13 @@ std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<
   }
   if (all.empty()) return "";
   const auto [low, high] = std::ranges::minmax(all);
+  constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
+  panel.x_log = high / low > kManyDecades;
   panel.settings = {"set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6), "set lmargin 32",
-                    fmt::format("set xrange [{}:{}]", low / 1.6, high * 1.6), "set key outside bottom center"};
+                    panel.x_log ? fmt::format("set xrange [{}:{}]", low / 3, high * 3) : fmt::format("set xrange [0:{}]", high * 1.15),
+                    kKeyBelow};
   panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
-  return draw_svg({panel}, kWidth, 140 + 34 * rows);
+  return draw_svg({panel}, kWidth, 160 + 34 * rows);
 }
 
 }  // namespace viscontact

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case_file/case_file.hpp"
+#include "fitting/lubrication_force.hpp"
 #include "reduced_model/comparison.hpp"
 
 namespace viscontact {

@@ -23,7 +23,7 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below)
     const auto [smallest, largest] = fitted_interval_;
     const double gap = i == 0         ? smallest
                        : i == kProbes ? largest
-                                      : smallest * std::pow(largest / smallest, static_cast<double>(i) / kProbes);
+                                      : std::exp(std::lerp(std::log(smallest), std::log(largest), static_cast<double>(i) / kProbes));
     if (!(resistance(gap) > 0))
       throw Error(ExitCode::kBadInput,
                   fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, inside its interval; a drag must be positive: "

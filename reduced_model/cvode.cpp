@@ -7,6 +7,8 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "common/error.hpp"
 
@@ -25,10 +27,11 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_
              std::span<const double> absolute_tolerances)
     : system_(std::move(system)),
       state_(N_VNew_Serial(system_.dimension, context_)),
+      weights_(N_VClone(state_.get())),
       matrix_(SUNDenseMatrix(system_.dimension, system_.dimension, context_)),
       solver_(SUNLinSol_Dense(state_.get(), matrix_.get(), context_)),
       memory_(CVodeCreate(CV_BDF, context_)) {
-  if (!state_ || !matrix_ || !solver_ || memory_ == nullptr) throw std::bad_alloc();
+  if (!state_ || !weights_ || !matrix_ || !solver_ || memory_ == nullptr) throw std::bad_alloc();
   std::ranges::copy(state, values(state_.get()).begin());
   check(CVodeInit(memory_, evaluate_derivative, 0, state_.get()), "CVodeInit");
   const Owned<N_Vector> tolerances(N_VClone(state_.get()));
@@ -38,6 +41,12 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_
   check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // failures come as Error, not as text on stderr
   check(CVodeSetLinearSolver(memory_, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(memory_, evaluate_jacobian), "CVodeSetJacFn");
+  // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades within a few steps (a film that opens), a Jacobian
+  // from before makes Newton's corrections vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
+  check(CVodeSetLSetupFrequency(memory_, 1), "CVodeSetLSetupFrequency");
+  check(CVodeSetJacEvalFrequency(memory_, 1), "CVodeSetJacEvalFrequency");
+  check(CVodeSetProjFn(memory_, project), "CVodeSetProjFn");
+  check(CVodeSetProjErrEst(memory_, SUNFALSE), "CVodeSetProjErrEst");
   check(CVodeRootInit(memory_, 1, evaluate_event), "CVodeRootInit");
   check(CVodeSetNoInactiveRootWarn(memory_), "CVodeSetNoInactiveRootWarn");
   check(CVodeSetMaxNumSteps(memory_, 1000000), "CVodeSetMaxNumSteps");
@@ -97,6 +106,38 @@ int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobi
     return kTryAgain;
   }
   return 0;
+}
+
+int Cvode::project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector, void* self) {
+  auto& cvode = *static_cast<Cvode*>(self);
+  const auto size = static_cast<std::size_t>(cvode.system_.dimension);
+  if (CVodeGetErrWeights(cvode.memory_, cvode.weights_.get()) != CV_SUCCESS) return kTryAgain;
+  const auto weight = values(cvode.weights_.get());
+  const auto total = values(correction);
+  const auto from = values(y);
+  std::vector<double> moved(from.begin(), from.end());
+  std::vector<double> gradient(size);
+  std::ranges::fill(total, 0);
+  // The smallest correction in the norm in which CVODE measures errors, by Newton's method on the linearised invariant.
+  constexpr int kMaxIterations = 10;
+  try {
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+      const double residual = cvode.system_.invariant(time, moved, gradient);
+      double scale = 0;
+      for (std::size_t i = 0; i < size; ++i) scale += gradient[i] * gradient[i] / (weight[i] * weight[i]);
+      double length = 0;
+      for (std::size_t i = 0; i < size; ++i) {
+        const double change = -residual / scale * gradient[i] / (weight[i] * weight[i]);
+        length = std::max(length, std::abs(change * weight[i]));
+        total[i] += change;
+        moved[i] += change;
+      }
+      if (length <= tolerance) return 0;
+    }
+  } catch (const Error&) {
+    cvode.system_error_ = std::current_exception();
+  }
+  return kTryAgain;
 }
 
 int Cvode::evaluate_event(double, N_Vector y, double* value, void* self) {

@@ -19,6 +19,8 @@ struct StiffSystem {
   /// Column-major, entry (i, j) = d f_i / d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
   std::function<double(std::span<const double> y)> event;
+  /// A function that is 0 along every solution, and its gradient by y: each step is projected back onto it.
+  std::function<double(double time, std::span<const double> y, std::span<double> gradient)> invariant;
 };
 
 /// BDF of variable order and step with Newton's method and dense linear algebra.
@@ -56,12 +58,14 @@ class Cvode {
 
   static int evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self);
   static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector, N_Vector, N_Vector);
+  static int project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector error, void* self);
   static int evaluate_event(double time, N_Vector y, double* value, void* self);
   void check(int code, const char* call) const;
 
   sundials::Context context_;
   StiffSystem system_;
   Owned<N_Vector> state_;
+  Owned<N_Vector> weights_;
   Owned<SUNMatrix> matrix_;
   Owned<SUNLinearSolver> solver_;
   void* memory_ = nullptr;

@@ -29,6 +29,15 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   };
   system.event = [](std::span<const double> y) { return y[1]; };
 
+  // (I): m u + Gamma(q) = P(t). The film forgets nothing, so neither may the integration: without this, errors of w add up in s.
+  const double momentum_at_start = m * motion.initial_velocity + force.impulse(motion.initial_gap);
+  system.invariant = [&, momentum_at_start](double t, std::span<const double> y, std::span<double> gradient) {
+    const double q = std::exp(y[0]);
+    gradient[0] = m * q * y[1] + force.resistance(q) * q;
+    gradient[1] = m * q;
+    return m * q * y[1] + force.impulse(q) - momentum_at_start - motion.external_force.impulse(t);
+  };
+
   // s is a logarithm, so its absolute error is the relative error of the gap; an error of w of tolerance / end_time kept up
   // over the whole motion changes s by the tolerance. CVODE bounds the error of a step; a tenth of what is asked leaves room for
   // their sum.
