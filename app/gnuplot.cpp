@@ -35,8 +35,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
     script += data_block(fmt::format("panel{}curve{}", index, i), panel.curves[i]);
-  script += fmt::format("unset logscale\nset title {}\nset xlabel {}\nset ylabel {}\n", quoted(panel.title),
-                        quoted(panel.x_label), quoted(panel.y_label));
+  script += fmt::format("unset logscale\nset title {}\nset xlabel {}\nset ylabel {}\n",
+                        quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label));
   if (panel.x_log) script += "set logscale x\n";
   if (panel.y_log) script += "set logscale y\n";
   for (const auto& setting : panel.settings) script += setting + "\n";
@@ -44,7 +44,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const auto& curve = panel.curves[i];
     if (curve.points.empty()) continue;  // gnuplot refuses an empty block
-    plots += fmt::format("{}$panel{}curve{} using 1:2 with {} {}", plots.empty() ? "plot " : ", ", index, i, curve.style,
+    plots += fmt::format("{}$panel{}curve{} using 1:2 with {} {}", plots.empty() ? "plot " : ", ",
+                         index, i, curve.style,
                          curve.legend.empty() ? "notitle" : "title " + quoted(curve.legend));
   }
   return script + plots + "\n";
@@ -56,20 +57,22 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   std::string script = fmt::format(
       "set encoding utf8\n"
       "set terminal svg size {},{} dynamic noenhanced font 'sans-serif,14' background 'white'\n"
-      "set grid linecolor '#dddddd'\nset border linecolor '#444444'\nset key opaque spacing 1.15\n"
-      "set multiplot layout {},1\n",
-      width, height, panels.size());
+      "set grid linecolor '#dddddd'\nset border linecolor '#444444'\nset key opaque spacing 1.15\n",
+      width, height);
+  if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
-  script += "unset multiplot\n";
+  if (panels.size() > 1) script += "unset multiplot\n";
   const auto result = run_process({"gnuplot"}, {"LC_ALL=C"}, script);
   if (!result.started)
     throw Error(ExitCode::kExternalProgram,
-                fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)", result.output));
+                fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
+                            result.output));
   const auto start = result.output.find("<svg");
   const auto end = result.output.rfind("</svg>");
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
     throw Error(ExitCode::kExternalProgram,
-                fmt::format("gnuplot failed (exit status {}): {}", result.exit_status, result.output.substr(0, 300)));
+                fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
+                            result.output.substr(0, 300)));
   return result.output.substr(start, end + 6 - start);
 }
 

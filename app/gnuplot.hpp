@@ -8,8 +8,8 @@
 namespace viscontact {
 
 struct Curve {
-  std::string legend;  ///< empty: none
-  std::string style;   ///< gnuplot's, such as "lines linewidth 2"
+  std::string legend;                             ///< empty: none
+  std::string style;                              ///< gnuplot's, such as "lines linewidth 2"
   std::vector<std::pair<double, double>> points;  ///< a non-finite ordinate interrupts the line
 };
 
@@ -20,8 +20,8 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-/// The panels one below the other as one SVG element, to stand in an HTML page. Throws Error(kExternalProgram) if gnuplot is missing or
-/// fails.
+/// The panels one below the other as one SVG element, to stand in an HTML page. Throws
+/// Error(kExternalProgram) if gnuplot is missing or fails.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height);
 
 }  // namespace viscontact

@@ -1,4 +1,5 @@
-// viscontact: the command line. Arguments are read here, the work is done in pipeline.cpp, every Error ends up at the bottom.
+// viscontact: the command line. Arguments are read here, the work is done in pipeline.cpp, every
+// Error ends up at the bottom.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +25,8 @@ namespace {
 template <class Range>
 std::string names_of(const Range& range) {
   std::string names;
-  for (const auto& element : range) names += fmt::format("{}{}", names.empty() ? "" : ", ", element.name);
+  for (const auto& element : range)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", element.name);
   return names;
 }
 
@@ -32,7 +34,8 @@ std::string version_text() {
   std::string text;
   for (const auto& [program, version] : library_versions())
     if (program != "Viscontact") text += fmt::format("{} {}\n", program, version);
-  return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION, freefem_version_or_not_found(), text);
+  return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION,
+                     freefem_version_or_not_found(), text);
 }
 
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
@@ -42,11 +45,14 @@ void add_tabulate(CLI::App& app) {
     std::string case_file, table;
     int jobs = default_jobs();
   };
-  auto* command = app.add_subcommand("tabulate", "FreeFEM over the case's grid of gaps and velocities");
+  auto* command =
+      app.add_subcommand("tabulate", "FreeFEM over the case's grid of gaps and velocities");
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->case_file, "case file (TOML)")->required();
   command->add_option("-o,--output", o->table, "table to write (CSV)")->required();
-  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([o] { tabulate_stage(read_case(o->case_file), o->table, o->jobs); });
 }
 
@@ -58,8 +64,10 @@ void add_fit(CLI::App& app) {
   auto o = std::make_shared<Options>();
   command->add_option("TABLE", o->table, "table of forces (CSV)")->required();
   command->add_option("-o,--output", o->fit, "fit to write (JSON)")->required();
-  command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))->capture_default_str();
-  command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")->capture_default_str();
+  command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))
+      ->capture_default_str();
+  command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
+      ->capture_default_str();
   command->callback([o] { fit_stage(o->table, o->fit, o->basis, parse_weights(o->weights)); });
 }
 
@@ -73,10 +81,17 @@ void add_simulate(CLI::App& app) {
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->case_file, "case file (TOML)")->required();
   command->add_option("--fit", o->fit, "fit of the lubrication force (JSON)")->required();
-  command->add_option("-o,--output", o->folder, "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")->required();
-  command->add_option("--models", o->models, "comma-separated; default: the case's, or all of: " + names_of(all_models()))->delimiter(',');
+  command
+      ->add_option("-o,--output", o->folder,
+                   "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
+      ->required();
+  command
+      ->add_option("--models", o->models,
+                   "comma-separated; default: the case's, or all of: " + names_of(all_models()))
+      ->delimiter(',');
   command->add_flag("--lubrication-limit", o->lubrication_limit,
-                    "below the fit's smallest gap use the leading term and what the fit adds to it there, instead of stopping");
+                    "below the fit's smallest gap use the leading term and what the fit adds to it "
+                    "there, instead of stopping");
   command->callback([o] {
     simulate_stage(read_case(o->case_file), o->fit, o->folder, o->models,
                    o->lubrication_limit ? BelowInterval::kLubricationLimit : BelowInterval::kError);
@@ -88,20 +103,27 @@ void add_compare(CLI::App& app) {
     std::string folder, reference = "inertial", output;
     std::vector<std::string> others;
   };
-  auto* command = app.add_subcommand("compare", "distances between trajectories, smallest gaps, times of contact");
+  auto* command = app.add_subcommand(
+      "compare", "distances between trajectories, smallest gaps, times of contact");
   auto o = std::make_shared<Options>();
-  command->add_option("DIR", o->folder, "folder of a run, or with trajectory files in it")->required();
-  command->add_option("TRAJECTORY", o->others, "further trajectory files (CSV with columns time, gap, velocity)");
-  command->add_option("--reference", o->reference, "model that the others are compared with")->capture_default_str();
-  command->add_option("-o,--output", o->output, "comparison to write (JSON); default: DIR/comparison.json");
+  command->add_option("DIR", o->folder, "folder of a run, or with trajectory files in it")
+      ->required();
+  command->add_option("TRAJECTORY", o->others,
+                      "further trajectory files (CSV with columns time, gap, velocity)");
+  command->add_option("--reference", o->reference, "model that the others are compared with")
+      ->capture_default_str();
+  command->add_option("-o,--output", o->output,
+                      "comparison to write (JSON); default: DIR/comparison.json");
   command->callback([o] {
-    const std::filesystem::path output = o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
+    const std::filesystem::path output =
+        o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
     compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output);
   });
 }
 
 void add_report(CLI::App& app) {
-  auto* command = app.add_subcommand("report", "report.html: one self-contained page with the plots");
+  auto* command =
+      app.add_subcommand("report", "report.html: one self-contained page with the plots");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "folder of a run")->required();
   command->callback([folder] { write_report(*folder); });
@@ -112,22 +134,31 @@ void add_run(CLI::App& app) {
     std::string case_file, folder;
     int jobs = default_jobs();
   };
-  auto* command = app.add_subcommand("run", "the main job: tabulate, fit, simulate, compare, report");
+  auto* command =
+      app.add_subcommand("run", "the main job: tabulate, fit, simulate, compare, report");
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->case_file, "case file (TOML)")->required();
-  command->add_option("-o,--output", o->folder, "folder for the results; what is up to date there is not made again")->required();
-  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")->check(CLI::Range(1, 1024))->capture_default_str();
+  command
+      ->add_option("-o,--output", o->folder,
+                   "folder for the results; what is up to date there is not made again")
+      ->required();
+  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([o] { run_stages(read_case(o->case_file), o->folder, o->jobs); });
 }
 
 void add_doctor(CLI::App& app, bool& healthy) {
-  app.add_subcommand("doctor", "what is installed, and how to mend what is not")->callback([&healthy] { healthy = examine(); });
+  app.add_subcommand("doctor", "what is installed, and how to mend what is not")
+      ->callback([&healthy] { healthy = examine(); });
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Lubrication force of a sphere near contact: tabulate, fit, simulate, compare.", "viscontact");
+  CLI::App app("Lubrication force of a sphere near contact: tabulate, fit, simulate, compare.",
+               "viscontact");
   app.require_subcommand(1);
-  app.set_version_flag("--version", version_text, "versions of Viscontact and of what it is built with");
+  app.set_version_flag("--version", version_text,
+                       "versions of Viscontact and of what it is built with");
   bool healthy = true;
   add_run(app);
   add_tabulate(app);

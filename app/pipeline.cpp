@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if the file can be read and passes the test; a file that is no such file at all does not count as up to date.
+/// True if the file can be read and passes the test; a file that is no such file at all does not
+/// count as up to date.
 template <class Test>
 bool up_to_date(const fs::path& path, const Test& test) {
   if (!fs::is_regular_file(path)) return false;
@@ -35,13 +36,17 @@ bool up_to_date(const fs::path& path, const Test& test) {
 void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
   for (const auto& row : table.rows)
     if (row.relative_error_estimate > asked)
-      say(fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate {:.2g}, {:.2g} was asked", row.gap,
-                      row.reference_velocity, row.relative_error_estimate, asked));
+      say(
+          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
+                      "{:.2g}, {:.2g} was asked",
+                      row.gap, row.reference_velocity, row.relative_error_estimate, asked));
 }
 
 /// What identifies the inputs of a trajectory, in its "# key: value" lines.
 CsvComments trajectory_provenance(const Case& c, const std::string& fit_text) {
-  return {{"case", sha256(c.text)}, {"fit", sha256(fit_text)}, {"version of Viscontact", VISCONTACT_VERSION}};
+  return {{"case", sha256(c.text)},
+          {"fit", sha256(fit_text)},
+          {"version of Viscontact", VISCONTACT_VERSION}};
 }
 
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
@@ -56,14 +61,17 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
   return model == "reference" ? format_number(motion.reference_time_step) : "variable";
 }
 
-/// The trajectory files of a folder: those in trajectories/ if it is a run's folder, else its own .csv files.
+/// The trajectory files of a folder: those in trajectories/ if it is a run's folder, else its own
+/// .csv files.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
   const auto inner = RunFolder{folder}.trajectories();
   const fs::path place = fs::is_directory(inner) ? inner : folder;
-  if (!fs::is_directory(place)) throw_bad_input({folder.string()}, "is no folder with trajectories");
+  if (!fs::is_directory(place))
+    throw_bad_input({folder.string()}, "is no folder with trajectories");
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(place))
-    if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv") files.push_back(entry.path());
+    if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
+      files.push_back(entry.path());
   // In the order of the table of models, then by name.
   const auto rank = [](const fs::path& file) {
     const auto models = all_models();
@@ -77,16 +85,21 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 
 void tabulate_stage(const Case& c, const fs::path& table_path, int jobs) {
   const auto& tabulation = required_tabulation(c);
-  if (up_to_date(table_path, [&] { return read_force_table(table_path).case_hash == tabulation_hash(tabulation); })) {
+  if (up_to_date(table_path, [&] {
+        return read_force_table(table_path).case_hash == tabulation_hash(tabulation);
+      })) {
     say(fmt::format("tabulate: {} is up to date", table_path.string()));
     return;
   }
   fs::path journal = table_path;
   journal += ".rows";
-  say(fmt::format("tabulate: {} rows on {} processes", tabulation.gaps.size() * tabulation.reference_velocities.size(), jobs));
-  auto table = tabulate(default_freefem(), tabulation, jobs, journal, [](const TabulateProgress& progress) {
-    show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done, progress.rows, progress.seconds_left));
-  });
+  say(fmt::format("tabulate: {} rows on {} processes",
+                  tabulation.gaps.size() * tabulation.reference_velocities.size(), jobs));
+  auto table =
+      tabulate(default_freefem(), tabulation, jobs, journal, [](const TabulateProgress& progress) {
+        show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
+                                  progress.rows, progress.seconds_left));
+      });
   clear_progress();
   table.versions["Viscontact"] = VISCONTACT_VERSION;
   write_file(table_path, write_force_table(table));
@@ -94,12 +107,14 @@ void tabulate_stage(const Case& c, const fs::path& table_path, int jobs) {
   warn_of_unmet_accuracy(table, tabulation.relative_accuracy);
 }
 
-void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::string& basis, Weights weights) {
+void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::string& basis,
+               Weights weights) {
   const std::string table_sha256 = sha256(read_file(table_path));
   const auto versions = library_versions();
   if (up_to_date(fit_path, [&] {
         const Fit fit = read_fit(fit_path);
-        return fit.table_sha256 == table_sha256 && fit.basis == basis && fit.weights == weights && fit.versions == versions;
+        return fit.table_sha256 == table_sha256 && fit.basis == basis && fit.weights == weights &&
+               fit.versions == versions;
       })) {
     say(fmt::format("fit: {} is up to date", fit_path.string()));
     return;
@@ -114,20 +129,23 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::
   fit.table_sha256 = table_sha256;
   fit.versions = versions;
   write_file(fit_path, write_fit(fit));
-  say(fmt::format("fit: basis {}, largest relative residual {:.2g}, condition number {:.2g}", fit.basis,
-                  fit.largest_relative_residual, fit.condition_number));
+  say(fmt::format("fit: basis {}, largest relative residual {:.2g}, condition number {:.2g}",
+                  fit.basis, fit.largest_relative_residual, fit.condition_number));
 }
 
-void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder, std::vector<std::string> models,
-                    BelowInterval below) {
+void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
+                    std::vector<std::string> models, BelowInterval below) {
   const auto& motion = required_motion(c);
   const std::string fit_text = read_file(fit_path);
   const Fit fit = read_fit(fit_path);
-  // A fit of another viscosity could be scaled, one of another radius could not; neither is done silently.
+  // A fit of another viscosity could be scaled, one of another radius could not; neither is done
+  // silently.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
-    throw_bad_input({fit_path.string()},
-                    fmt::format("is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
-                                fit.viscosity, fit.radius, c.viscosity, c.radius));
+    throw_bad_input(
+        {fit_path.string()},
+        fmt::format(
+            "is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
+            fit.viscosity, fit.radius, c.viscosity, c.radius));
   const LubricationForce force(fit, below);
   std::vector<Trajectory> trajectories;
   for (const auto& name : models_to_run(c, std::move(models))) {
@@ -137,14 +155,15 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     trajectories.back().provenance["time_step"] = time_step_of(name, motion);
   }
   const RunFolder run{folder};
-  for (const auto& trajectory : trajectories) write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
+  for (const auto& trajectory : trajectories)
+    write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
   write_file(run.case_file(), c.text);
   write_file(run.fit(), fit_text);
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 
-void compare_stage(const fs::path& folder, const std::vector<fs::path>& others, const std::string& reference_model,
-                   const fs::path& comparison_path) {
+void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
+                   const std::string& reference_model, const fs::path& comparison_path) {
   auto files = trajectory_files(folder);
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
@@ -188,7 +207,8 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
       return;
     }
   } else {
-    // What was made from the old trajectories goes first, so that no crash leaves it beside new ones.
+    // What was made from the old trajectories goes first, so that no crash leaves it beside new
+    // ones.
     fs::remove(run.comparison());
     fs::remove(run.report());
     for (const auto& model : all_models()) fs::remove(run.trajectory(model.name));

@@ -14,20 +14,24 @@ namespace viscontact {
 void tabulate_stage(const Case& c, const std::filesystem::path& table_path, int jobs);
 
 /// Fits a table file into `fit_path`.
-void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path, const std::string& basis,
-               Weights weights);
+void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
+               const std::string& basis, Weights weights);
 
-/// Runs models (names; none: those that the case names, or all) with a fit file into the run folder's trajectories; copies case and
-/// fit beside them. All files are written, or none.
-/// Throws Error(kBadInput) if the fit is of another viscosity or radius than the case.
-void simulate_stage(const Case& c, const std::filesystem::path& fit_path, const std::filesystem::path& folder,
-                    std::vector<std::string> models, BelowInterval below);
+/// Runs models (names; none: those that the case names, or all) with a fit file into the run
+/// folder's trajectories; copies case and fit beside them. All files are written, or none. Throws
+/// Error(kBadInput) if the fit is of another viscosity or radius than the case.
+void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
+                    const std::filesystem::path& folder, std::vector<std::string> models,
+                    BelowInterval below);
 
 /// Compares a folder's trajectories, and other files, into `comparison_path`.
-void compare_stage(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& others,
-                   const std::string& reference_model, const std::filesystem::path& comparison_path);
+void compare_stage(const std::filesystem::path& folder,
+                   const std::vector<std::filesystem::path>& others,
+                   const std::string& reference_model,
+                   const std::filesystem::path& comparison_path);
 
-/// All of it: tabulate, fit, simulate, compare, report. Stages whose inputs did not change are not run again.
+/// All of it: tabulate, fit, simulate, compare, report. Stages whose inputs did not change are not
+/// run again.
 void run_stages(const Case& c, const std::filesystem::path& folder, int jobs);
 
 }  // namespace viscontact

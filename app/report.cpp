@@ -16,17 +16,24 @@ namespace {
 constexpr std::string_view kStyle =
     "body{font:16px/1.5 sans-serif;color:#222;max-width:900px;margin:2em auto;padding:0 1em}"
     "h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}svg{width:100%;height:auto}"
-    "table{border-collapse:collapse;font-size:.9em}td,th{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:right}"
-    "td:first-child,th:first-child{text-align:left}.scroll{overflow-x:auto}footer{color:#666;font-size:.85em;margin-top:3em}";
+    "table{border-collapse:collapse;font-size:.9em}td,th{padding:.25em .8em;border-bottom:1px "
+    "solid #ddd;text-align:right;white-space:nowrap}"
+    "td:first-child,th:first-child{text-align:left}.scroll{overflow-x:auto}footer{color:#666;font-"
+    "size:.85em;margin-top:3em}";
 
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
   }
   return result;
 }
@@ -38,34 +45,47 @@ std::string section(const std::string& heading, const std::string& body) {
 std::string parameters(const Case& c, const Fit& fit) {
   const auto& motion = required_motion(c);
   return fmt::format(
-      "<p>Sphere of radius {} and mass {} in a fluid of viscosity {}; initial gap {}, initial velocity {}, until time {}. Drag from "
+      "<p>Sphere of radius {} and mass {} in a fluid of viscosity {}; initial gap {}, initial "
+      "velocity {}, until time {}. Drag from "
       "{}.</p>\n",
-      c.radius, motion.mass, c.viscosity, motion.initial_gap, motion.initial_velocity, motion.end_time,
-      fit.table_sha256.empty() ? "a given fit" : fmt::format("a fit for gaps from {:.4g} to {:.4g}", fit.gap_interval[0], fit.gap_interval[1]));
+      c.radius, motion.mass, c.viscosity, motion.initial_gap, motion.initial_velocity,
+      motion.end_time,
+      fit.table_sha256.empty() ? "a given fit"
+                               : fmt::format("a fit for gaps from {:.4g} to {:.4g}",
+                                             fit.gap_interval[0], fit.gap_interval[1]));
 }
 
 std::string coefficients(const Fit& fit) {
   std::string rows;
   for (const auto& term : fit.terms)
-    rows += fmt::format("<tr><td>{}</td><td>{:.8g}</td><td>{:.2g}</td></tr>\n", escaped(term.name), term.coefficient, term.standard_error);
+    rows += fmt::format("<tr><td>{}</td><td>{:.8g}</td><td>{:.2g}</td></tr>\n", escaped(term.name),
+                        term.coefficient, term.standard_error);
   return fmt::format(
-      "<p>F(q) at velocity {}, {} weights: largest relative residual {:.3g}, root mean square {:.3g}, condition number {:.3g}.</p>\n"
-      "<div class=scroll><table><tr><th>term</th><th>coefficient</th><th>standard error</th></tr>\n{}</table></div>\n",
-      fit.reference_velocity, to_string(fit.weights), fit.largest_relative_residual, fit.rms_relative_residual,
-      fit.condition_number, rows);
+      "<p>F(q) at velocity {}, {} weights: largest relative residual {:.3g}, root mean square "
+      "{:.3g}, condition number {:.3g}.</p>\n"
+      "<div class=scroll><table><tr><th>term</th><th>coefficient</th><th>standard "
+      "error</th></tr>\n{}</table></div>\n",
+      fit.reference_velocity, to_string(fit.weights), fit.largest_relative_residual,
+      fit.rms_relative_residual, fit.condition_number, rows);
 }
 
 std::string model_table(const Comparison& comparison) {
   std::string rows;
   for (const auto& model : comparison.models)
-    rows += fmt::format("<tr><td>{}</td><td>{:.6g}</td><td>{:.6g}</td><td>{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td></tr>\n",
-                        escaped(model.model), model.minimal_gap, model.minimal_gap_time,
-                        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap) : "",
-                        model.contact_interval ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0], (*model.contact_interval)[1]) : "",
-                        model.sup_gap_distance, model.l1_gap_distance, model.l1_velocity_distance);
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{:.6g}</td><td>{:.6g}</td><td>{}</td><td>{}</td><td>{:.3g}</"
+        "td><td>{:.3g}</td><td>{:.3g}</td></tr>\n",
+        escaped(model.model), model.minimal_gap, model.minimal_gap_time,
+        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap) : "",
+        model.contact_interval ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0],
+                                             (*model.contact_interval)[1])
+                               : "",
+        model.sup_gap_distance, model.l1_gap_distance, model.l1_velocity_distance);
   return fmt::format(
-      "<div class=scroll><table><tr><th>model</th><th>smallest gap</th><th>at time</th><th>recovered from gamma</th><th>in contact</th>"
-      "<th>sup |q - q<sub>ref</sub>|</th><th>&int; |q - q<sub>ref</sub>|</th><th>&int; |u - u<sub>ref</sub>|</th></tr>\n{}</table></div>\n"
+      "<div class=scroll><table><tr><th>model</th><th>smallest gap</th><th>at "
+      "time</th><th>recovered from gamma</th><th>in contact</th>"
+      "<th>sup |q - q<sub>ref</sub>|</th><th>&int; |q - q<sub>ref</sub>|</th><th>&int; |u - "
+      "u<sub>ref</sub>|</th></tr>\n{}</table></div>\n"
       "<p>Distances are to <code>{}</code>.</p>\n",
       rows, escaped(comparison.reference_model));
 }
@@ -75,7 +95,8 @@ std::string versions(const Fit& fit, const std::optional<ForceTable>& table) {
   all.insert(fit.versions.begin(), fit.versions.end());
   if (table) all.insert(table->versions.begin(), table->versions.end());
   std::string text;
-  for (const auto& [program, version] : all) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", escaped(program), escaped(version));
+  for (const auto& [program, version] : all)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", escaped(program), escaped(version));
   return text;
 }
 
@@ -85,26 +106,36 @@ void write_report(const std::filesystem::path& folder) {
   const RunFolder run{folder};
   const Case c = read_case(run.case_file());
   const Fit fit = read_fit(run.fit());
-  // Below the fit's interval only pictures are at stake, and what lies there was computed with the user's consent.
+  // Below the fit's interval only pictures are at stake, and what lies there was computed with the
+  // user's consent.
   const LubricationForce force(fit, BelowInterval::kLubricationLimit);
   const Comparison comparison = read_comparison(run.comparison());
   std::vector<Trajectory> trajectories;
   for (const auto& model : comparison.models)
-    if (const auto file = run.trajectory(model.model); std::filesystem::exists(file)) trajectories.push_back(read_trajectory(file));
-  if (trajectories.empty()) throw_bad_input({run.trajectories().string()}, "has none of the comparison's trajectories");
-  const auto table = std::filesystem::exists(run.table()) ? std::optional(read_force_table(run.table())) : std::nullopt;
+    if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
+      trajectories.push_back(read_trajectory(file));
+  if (trajectories.empty())
+    throw_bad_input({run.trajectories().string()}, "has none of the comparison's trajectories");
+  const auto table = std::filesystem::exists(run.table())
+                         ? std::optional(read_force_table(run.table()))
+                         : std::nullopt;
 
   std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content=\"width=device-width,initial-scale=1\">"
+      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+      "content=\"width=device-width,initial-scale=1\">"
       "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
       escaped(c.title), kStyle);
   page += parameters(c, fit);
   page += section("Thinnest film", plot_minimal_gaps(comparison, c.published));
   page += section("Models", model_table(comparison));
-  page += section("Trajectories", plot_gaps(trajectories) + plot_gaps_logarithmic(trajectories, required_motion(c), force));
+  page +=
+      section("Trajectories", plot_gaps(trajectories) +
+                                  plot_gaps_logarithmic(trajectories, required_motion(c), force));
   page += section("Contact", plot_gamma(trajectories));
-  page += section("Lubrication force and fit", (table ? plot_fit(*table, fit) : "") + coefficients(fit));
-  page += fmt::format("<footer>Made by Viscontact {}. {}.</footer>\n</body></html>\n", VISCONTACT_VERSION, versions(fit, table));
+  page += section("Lubrication force and fit",
+                  (table ? plot_fit(*table, fit) : "") + coefficients(fit));
+  page += fmt::format("<footer>Made by Viscontact {}. {}.</footer>\n</body></html>\n",
+                      VISCONTACT_VERSION, versions(fit, table));
   write_file(run.report(), page);
   say(fmt::format("report: {}", run.report().string()));
 }

@@ -15,17 +15,19 @@ namespace viscontact {
 namespace {
 
 constexpr int kWidth = 860;
-constexpr const char* kKeyBelow = "set key outside bottom center horizontal maxcols 2";
+constexpr const char* kKeyBelow = "set key below Left reverse noopaque\nset xlabel offset 0,0.4";
 constexpr const char* kDecades = "set format y '1e%T'";
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
 
-/// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of models; curves that lie on each other differ
-/// in dash and width too.
+/// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of
+/// models; curves that lie on each other differ in dash and width too.
 std::string line_style(std::string_view model, bool dashed = false) {
-  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73", "#CC79A7", "#D55E00"};
+  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00",
+                                   "#009E73", "#CC79A7", "#D55E00"};
   constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 2.0};
   const auto models = all_models();
-  const auto place = static_cast<std::size_t>(std::ranges::find(models, model, &Model::name) - models.begin());
+  const auto place =
+      static_cast<std::size_t>(std::ranges::find(models, model, &Model::name) - models.begin());
   const auto i = std::min(place, kColours.size() - 1);
   return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
                      dashed ? "(8,5)" : (place == 2 ? "(10,4)" : "1"));
@@ -37,12 +39,16 @@ std::string legend_of(std::string_view model) {
   return found == models.end() ? std::string(model) : std::string(found->description);
 }
 
-/// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so that no minimum is lost.
-std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows, double (*value)(const TrajectoryRow&)) {
+/// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
+/// that no minimum is lost.
+std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows,
+                                          double (*value)(const TrajectoryRow&)) {
   constexpr std::size_t kRuns = 400;
   std::vector<const TrajectoryRow*> kept;
   const std::size_t run = std::max<std::size_t>(1, rows.size() / kRuns);
-  const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) { return value(a) < value(b); };
+  const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) {
+    return value(a) < value(b);
+  };
   for (std::size_t i = 0; i < rows.size(); i += run) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), i + run));
@@ -61,26 +67,43 @@ double gap_of(const TrajectoryRow& row) { return row.gap; }
 
 std::string plot_fit(const ForceTable& table, const Fit& fit) {
   Curve points{"table (FreeFEM)", "points pointtype 6 pointsize 0.7 linecolor rgb '#000000'", {}};
-  Curve line{fmt::format("fit, basis {}", fit.basis), "lines linecolor rgb '#0072B2' linewidth 2", {}};
-  Curve residual{"fit - table", "linespoints pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'", {}};
-  Curve estimate{"table's own error estimate", "points pointtype 2 pointsize 0.5 linecolor rgb '#D55E00'", {}};
+  Curve line{
+      fmt::format("fit, basis {}", fit.basis), "lines linecolor rgb '#0072B2' linewidth 2", {}};
+  Curve residual{
+      "fit - table", "linespoints pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'", {}};
+  Curve estimate{
+      "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#D55E00'", {}};
   const LubricationForce force(fit);
   const double stokes = 6 * M_PI * fit.viscosity * fit.radius;
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
-    residual.points.emplace_back(row.gap,
-                                 std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
-    if (row.relative_error_estimate > 0) estimate.points.emplace_back(row.gap, row.relative_error_estimate);
+    residual.points.emplace_back(
+        row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
+    if (row.relative_error_estimate > 0)
+      estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
   constexpr int kSamples = 300;
   const auto [low, high] = fit.gap_interval;
   for (int i = 0; i <= kSamples; ++i) {
-    const double gap = std::clamp(std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / kSamples)), low, high);
+    const double gap = std::clamp(
+        std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / kSamples)), low,
+        high);
     line.points.emplace_back(gap, force.resistance(gap) / stokes);
   }
-  return draw_svg({{"Drag factor: force over Stokes drag", "gap q", "lambda", true, true, {"set key top right"}, {line, points}},
-                   {"Relative residual of the fit", "gap q", "relative", true, true,
-                    {kDecades, "set key bottom right"}, {residual, estimate}}},
+  return draw_svg({{"Drag factor: force over Stokes drag",
+                    "gap q",
+                    "lambda",
+                    true,
+                    true,
+                    {"set key top right"},
+                    {line, points}},
+                   {"Relative residual of the fit",
+                    "gap q",
+                    "relative",
+                    true,
+                    true,
+                    {kDecades, "set key bottom right"},
+                    {residual, estimate}}},
                   kWidth, 720);
 }
 
@@ -88,7 +111,8 @@ std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
   Panel panel{"Gap between sphere and plane", "time t", "gap q", false, false, {kKeyBelow}, {}};
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    for (const auto* row : thinned(trajectory.rows, gap_of)) curve.points.emplace_back(row->time, row->gap);
+    for (const auto* row : thinned(trajectory.rows, gap_of))
+      curve.points.emplace_back(row->time, row->gap);
     panel.curves.push_back(curve);
   }
   return draw_svg({panel}, kWidth, 520);
@@ -96,9 +120,15 @@ std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
 
 std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
                                   const LubricationForce& force) {
-  Panel panel{"Gap, logarithmic; dashed: film recovered from gamma", "time t", "gap q", false, true,
-              {kDecades, kKeyBelow}, {}};
-  double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a released sphere's first step
+  Panel panel{"Gap, logarithmic; dashed: film recovered from gamma",
+              "time t",
+              "gap q",
+              false,
+              true,
+              {kDecades, kKeyBelow},
+              {}};
+  double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a
+                                                              // released sphere's first step
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     Curve film{"", line_style(trajectory.model, true), {}};
@@ -121,29 +151,39 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
     }
     if (!contact)
-      thinnest = std::min(thinnest, std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap)->gap);
+      thinnest = std::min(thinnest,
+                          std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap)->gap);
     panel.curves.push_back(curve);
-    if (std::ranges::any_of(film.points, [](const auto& point) { return std::isfinite(point.second); }))
+    if (std::ranges::any_of(film.points,
+                            [](const auto& point) { return std::isfinite(point.second); }))
       panel.curves.push_back(film);
   }
-  if (thinnest > 0 && std::isfinite(thinnest)) panel.settings.push_back(fmt::format("set yrange [{}:*]", thinnest / 2));
+  if (thinnest > 0 && std::isfinite(thinnest))
+    panel.settings.push_back(fmt::format("set yrange [{}:*]", thinnest / 2));
   return draw_svg({panel}, kWidth, 560);
 }
 
 std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"Adhesion potential: the impulse that the film has absorbed", "time t", "gamma", false, false,
-              {kKeyBelow}, {}};
+  Panel panel{"Adhesion potential: the impulse that the film has absorbed",
+              "time t",
+              "gamma",
+              false,
+              false,
+              {kKeyBelow},
+              {}};
   for (const auto& trajectory : trajectories) {
     if (!trajectory.rows.back().gamma) continue;
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    for (const auto* row : thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma.value_or(0); }))
+    for (const auto* row :
+         thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma.value_or(0); }))
       curve.points.emplace_back(row->time, row->gamma.value_or(kGap));
     panel.curves.push_back(curve);
   }
   return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
 }
 
-std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
+std::string plot_minimal_gaps(const Comparison& comparison,
+                              const std::optional<PublishedGap>& published) {
   // A row a model, from the top down.
   const auto rows = static_cast<int>(comparison.models.size());
   Panel panel{"Thinnest film of each model", "gap q", "", false, false, {}, {}};
@@ -157,7 +197,10 @@ std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<
     const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
     if (!(gap > 0)) continue;
     all.push_back(gap);
-    panel.curves.push_back({"", fmt::format("points pointtype {} pointsize 1.2 linecolor rgb '#0072B2'", recovered ? 6 : 7), {{gap, y}}});
+    panel.curves.push_back({"",
+                            fmt::format("points pointtype {} pointsize 1.2 linecolor rgb '#0072B2'",
+                                        recovered ? 6 : 7),
+                            {{gap, y}}});
   }
   if (published) {
     all.push_back(published->minimal_gap);
@@ -169,8 +212,10 @@ std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<
   const auto [low, high] = std::ranges::minmax(all);
   constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
   panel.x_log = high / low > kManyDecades;
-  panel.settings = {"set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6), "set lmargin 32",
-                    panel.x_log ? fmt::format("set xrange [{}:{}]", low / 3, high * 3) : fmt::format("set xrange [0:{}]", high * 1.15),
+  panel.settings = {"set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6),
+                    "set lmargin 32",
+                    panel.x_log ? fmt::format("set xrange [{}:{}]", low / 3, high * 3)
+                                : fmt::format("set xrange [0:{}]", high * 1.15),
                     kKeyBelow};
   panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
   return draw_svg({panel}, kWidth, 160 + 34 * rows);

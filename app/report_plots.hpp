@@ -11,20 +11,24 @@
 
 namespace viscontact {
 
-/// The table's drag factor with the fit, and below it their relative difference beside the table's own error estimates.
+/// The table's drag factor with the fit, and below it their relative difference beside the table's
+/// own error estimates.
 std::string plot_fit(const ForceTable& table, const Fit& fit);
 
 /// q(t) of all trajectories, on a linear scale.
 std::string plot_gaps(const std::vector<Trajectory>& trajectories);
 
-/// q(t) on a logarithmic scale; where a contact model is in contact, the film thickness that its gamma stands for, dashed.
+/// q(t) on a logarithmic scale; where a contact model is in contact, the film thickness that its
+/// gamma stands for, dashed.
 std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
                                   const LubricationForce& force);
 
 /// gamma(t) of the contact models; empty if there is none.
 std::string plot_gamma(const std::vector<Trajectory>& trajectories);
 
-/// The thinnest film of each model, recovered from gamma for contact models, beside the published value if the case has one.
-std::string plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published);
+/// The thinnest film of each model, recovered from gamma for contact models, beside the published
+/// value if the case has one.
+std::string plot_minimal_gaps(const Comparison& comparison,
+                              const std::optional<PublishedGap>& published);
 
 }  // namespace viscontact

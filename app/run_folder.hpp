@@ -9,11 +9,15 @@ namespace viscontact {
 struct RunFolder {
   std::filesystem::path path;
 
-  std::filesystem::path case_file() const { return path / "case.toml"; }  ///< a copy of the case that was run
+  std::filesystem::path case_file() const {
+    return path / "case.toml";
+  }  ///< a copy of the case that was run
   std::filesystem::path table() const { return path / "table.csv"; }
   std::filesystem::path fit() const { return path / "fit.json"; }
   std::filesystem::path trajectories() const { return path / "trajectories"; }
-  std::filesystem::path trajectory(std::string_view model) const { return trajectories() / (std::string(model) + ".csv"); }
+  std::filesystem::path trajectory(std::string_view model) const {
+    return trajectories() / (std::string(model) + ".csv");
+  }
   std::filesystem::path comparison() const { return path / "comparison.json"; }
   std::filesystem::path report() const { return path / "report.html"; }
 };

@@ -15,7 +15,8 @@ std::map<std::string, std::string> library_versions() {
   return {{"Viscontact", VISCONTACT_VERSION},
           {"Ceres", CERES_VERSION_STRING},
           {"SUNDIALS", SUNDIALS_VERSION},
-          {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+          {"Eigen",
+           fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 
 std::string freefem_version_or_not_found() {

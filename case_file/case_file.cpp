@@ -15,9 +15,11 @@ namespace viscontact {
 namespace {
 
 constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
-constexpr Allowed kOdeTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"};
+constexpr Allowed kOdeTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
+                                   "between 1e-13 and 1e-2"};
 
-/// Runs a check of a value that lies deeper than the reader, so that its error names the key and the line.
+/// Runs a check of a value that lies deeper than the reader, so that its error names the key and
+/// the line.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check) {
   try {
@@ -32,7 +34,8 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   if (tabulation.is_array("gaps")) {
     auto gaps = tabulation.numbers("gaps", kPositive);
     std::ranges::sort(gaps);
-    if (std::ranges::adjacent_find(gaps) != gaps.end()) tabulation.fail("gaps", "has the same gap twice");
+    if (std::ranges::adjacent_find(gaps) != gaps.end())
+      tabulation.fail("gaps", "has the same gap twice");
     return gaps;
   }
   const auto grid = tabulation.section("gaps");
@@ -65,17 +68,21 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
     section.fail("reference_velocities", "has the same velocity twice");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   if (section.is_text("container"))
-    section.fail("container", "must be a table with radius and height (a fluid without walls is not available)");
+    section.fail("container",
+                 "must be a table with radius and height (a fluid without walls is not available)");
   const auto container = section.section("container");
   tabulation.container_radius = container.number("radius", kPositive);
   tabulation.container_height = container.number("height", kPositive);
   container.finish();
   if (!(tabulation.container_radius > radius))
-    container.fail("radius", fmt::format("is {}; must be greater than the sphere's radius, {}", tabulation.container_radius, radius));
+    container.fail("radius", fmt::format("is {}; must be greater than the sphere's radius, {}",
+                                         tabulation.container_radius, radius));
   const double widest = tabulation.gaps.back();
   if (!(tabulation.container_height > widest + 2 * radius))
-    container.fail("height", fmt::format("is {}; must be greater than the largest gap and the sphere's diameter, {}",
-                                         tabulation.container_height, widest + 2 * radius));
+    container.fail(
+        "height",
+        fmt::format("is {}; must be greater than the largest gap and the sphere's diameter, {}",
+                    tabulation.container_height, widest + 2 * radius));
   if (section.has("geometry")) {
     const auto geometry = section.section("geometry");
     tabulation.geometry = geometry.text("kind");
@@ -93,7 +100,8 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   } else {
     fit.basis = section.text("basis");
     at_key(section, "basis", [&] { return find_basis(fit.basis); });
-    fit.weights = at_key(section, "weights", [&] { return parse_weights(section.text("weights")); });
+    fit.weights =
+        at_key(section, "weights", [&] { return parse_weights(section.text("weights")); });
   }
   section.finish();
   return fit;
@@ -107,8 +115,8 @@ ExternalForce read_external_force(const TomlSection& motion, double end_time) {
   }
   auto force = at_key(motion, "external_force", [&] { return ExternalForce(pieces); });
   if (pieces.back().until < end_time)
-    motion.fail("external_force",
-                fmt::format("ends at {}; must reach motion.end_time, {}", pieces.back().until, end_time));
+    motion.fail("external_force", fmt::format("ends at {}; must reach motion.end_time, {}",
+                                              pieces.back().until, end_time));
   return force;
 }
 
@@ -120,12 +128,11 @@ std::vector<std::string> read_models(const TomlSection& section) {
   return models;
 }
 
-Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius) {
+Motion read_motion(const TomlSection& root, const TomlSection& section, double mass,
+                   double radius) {
   const double end_time = section.number("end_time", kPositive);
-  Motion motion{mass,
-                section.number("initial_gap", kPositive),
-                section.number("initial_velocity", kFinite),
-                end_time,
+  Motion motion{mass, section.number("initial_gap", kPositive),
+                section.number("initial_velocity", kFinite), end_time,
                 read_external_force(section, end_time)};
 
   const auto reference = root.section("reference");
@@ -140,10 +147,13 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
   motion.contact_time_step = contact.number("time_step", kPositive);
   motion.threshold_gap = contact.number("threshold_gap", kPositive);
   const auto roughness = contact.numbers("roughness", kNotNegative);
-  if (roughness.size() != 2) contact.fail("roughness", "must be two numbers >= 0: the sphere's and the plane's");
+  if (roughness.size() != 2)
+    contact.fail("roughness", "must be two numbers >= 0: the sphere's and the plane's");
   motion.roughness = {roughness[0], roughness[1]};
   if (!(roughness[0] + roughness[1] < radius))
-    contact.fail("roughness", fmt::format("adds up to {}; must be less than the sphere's radius, {}", roughness[0] + roughness[1], radius));
+    contact.fail("roughness",
+                 fmt::format("adds up to {}; must be less than the sphere's radius, {}",
+                             roughness[0] + roughness[1], radius));
   contact.finish();
   return motion;
 }
@@ -151,7 +161,8 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
 template <class Part>
 const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
   if (!part)
-    throw_bad_input({c.path.string()}, fmt::format("has no section [{}], which this command needs", section));
+    throw_bad_input({c.path.string()},
+                    fmt::format("has no section [{}], which this command needs", section));
   return *part;
 }
 
@@ -170,10 +181,12 @@ Case read_case(const std::filesystem::path& path) {
   const auto sphere = root.section("sphere");
   c.radius = sphere.number("radius", kPositive);
   // The mass matters to the motion only.
-  const double mass = root.has("motion") || sphere.has("mass") ? sphere.number("mass", kPositive) : 1;
+  const double mass =
+      root.has("motion") || sphere.has("mass") ? sphere.number("mass", kPositive) : 1;
   sphere.finish();
 
-  if (root.has("tabulation")) c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
+  if (root.has("tabulation"))
+    c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
   if (root.has("fit")) c.fit = read_fit_request(root.section("fit"), path.parent_path());
   if (root.has("motion")) {
     const auto section = root.section("motion");
@@ -183,7 +196,8 @@ Case read_case(const std::filesystem::path& path) {
   }
   if (root.has("published")) {
     const auto published = root.section("published");
-    c.published = PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
+    c.published =
+        PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
     published.finish();
   }
   // Without [motion] these are not read, but they are no strangers.
@@ -192,7 +206,9 @@ Case read_case(const std::filesystem::path& path) {
   return c;
 }
 
-const Tabulation& required_tabulation(const Case& c) { return required(c.tabulation, c, "tabulation"); }
+const Tabulation& required_tabulation(const Case& c) {
+  return required(c.tabulation, c, "tabulation");
+}
 const FitRequest& required_fit(const Case& c) { return required(c.fit, c, "fit"); }
 const Motion& required_motion(const Case& c) { return required(c.motion, c, "motion"); }
 

@@ -30,7 +30,8 @@ struct Case {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double radius = 0;     ///< r [L], > 0
   std::string text;      ///< the file as it was read
-  // A part is there if the file has its sections; a command that needs it asks with the functions below.
+  // A part is there if the file has its sections; a command that needs it asks with the functions
+  // below.
   std::optional<Tabulation> tabulation;
   std::optional<FitRequest> fit;
   std::optional<Motion> motion;
@@ -39,10 +40,12 @@ struct Case {
   std::filesystem::path path;
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with file, line, key, value and what is allowed.
+/// Reads and checks a case file. Throws Error(kBadInput) with file, line, key, value and what is
+/// allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// The parts of a case that a command cannot do without. Throw Error(kBadInput) naming the missing section.
+/// The parts of a case that a command cannot do without. Throw Error(kBadInput) naming the missing
+/// section.
 const Tabulation& required_tabulation(const Case& c);
 const FitRequest& required_fit(const Case& c);
 const Motion& required_motion(const Case& c);

@@ -1,11 +1,11 @@
 #include "case_file/toml_section.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <cmath>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "common/error.hpp"
 
@@ -15,8 +15,8 @@ struct TomlSection::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
-  std::string path;                   // "tabulation.container", empty for the root
-  std::set<std::string> asked;        // keys
+  std::string path;             // "tabulation.container", empty for the root
+  std::set<std::string> asked;  // keys
 };
 
 namespace {
@@ -45,7 +45,8 @@ TomlSection TomlSection::parse(const std::string& text, const std::string& file)
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   const auto* node = node_->table->get(key);
   const int line = node != nullptr ? line_of(*node) : line_of(*node_->table);
-  throw_bad_input({node_->file, line}, fmt::format("{}{}{} {}", node_->path, node_->path.empty() ? "" : ".", key, what));
+  throw_bad_input({node_->file, line},
+                  fmt::format("{}{}{} {}", node_->path, node_->path.empty() ? "" : ".", key, what));
 }
 
 bool TomlSection::has(std::string_view key) const {
@@ -53,9 +54,13 @@ bool TomlSection::has(std::string_view key) const {
   return node_->table->contains(key);
 }
 
-bool TomlSection::is_text(std::string_view key) const { return has(key) && node_->table->get(key)->is_string(); }
+bool TomlSection::is_text(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_string();
+}
 
-bool TomlSection::is_array(std::string_view key) const { return has(key) && node_->table->get(key)->is_array(); }
+bool TomlSection::is_array(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_array();
+}
 
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   if (!has(key)) fail(key, fmt::format("is missing; must be a number {}", allowed.words));
@@ -70,7 +75,8 @@ int TomlSection::count(std::string_view key, int least) const {
   if (!has(key)) fail(key, fmt::format("is missing; must be a whole number >= {}", least));
   const auto* node = node_->table->get(key);
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
-  if (!value || *value < least) fail(key, fmt::format("is {}; must be a whole number >= {}", show(*node), least));
+  if (!value || *value < least)
+    fail(key, fmt::format("is {}; must be a whole number >= {}", show(*node), least));
   return *value;
 }
 
@@ -86,12 +92,14 @@ std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& al
   if (!has(key)) fail(key, fmt::format("is missing; must be a list of numbers {}", allowed.words));
   const auto* array = node_->table->get(key)->as_array();
   if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; must be a list of numbers {}", show(*node_->table->get(key)), allowed.words));
+    fail(key, fmt::format("is {}; must be a list of numbers {}", show(*node_->table->get(key)),
+                          allowed.words));
   std::vector<double> values;
   for (const auto& element : *array) {
     const auto value = element.is_number() ? element.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value) || !allowed.test(*value))
-      fail(key, fmt::format("holds {}; must be a list of numbers {}", show(element), allowed.words));
+      fail(key,
+           fmt::format("holds {}; must be a list of numbers {}", show(element), allowed.words));
     values.push_back(*value);
   }
   return values;
@@ -112,8 +120,10 @@ std::vector<std::string> TomlSection::texts(std::string_view key) const {
 TomlSection TomlSection::section(std::string_view key) const {
   if (!has(key)) fail(key, "is missing; must be a table");
   const auto* table = node_->table->get(key)->as_table();
-  if (table == nullptr) fail(key, fmt::format("is {}; must be a table", show(*node_->table->get(key))));
-  const std::string path = node_->path.empty() ? std::string(key) : fmt::format("{}.{}", node_->path, key);
+  if (table == nullptr)
+    fail(key, fmt::format("is {}; must be a table", show(*node_->table->get(key))));
+  const std::string path =
+      node_->path.empty() ? std::string(key) : fmt::format("{}.{}", node_->path, key);
   return TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}}));
 }
 
@@ -124,10 +134,12 @@ std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
   std::vector<TomlSection> sections;
   for (const auto& element : *array) {
     const auto* table = element.as_table();
-    if (table == nullptr) fail(key, fmt::format("holds {}; must be a list of tables", show(element)));
-    const std::string path =
-        fmt::format("{}{}{}[{}]", node_->path, node_->path.empty() ? "" : ".", key, sections.size());
-    sections.push_back(TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}})));
+    if (table == nullptr)
+      fail(key, fmt::format("holds {}; must be a list of tables", show(element)));
+    const std::string path = fmt::format("{}{}{}[{}]", node_->path, node_->path.empty() ? "" : ".",
+                                         key, sections.size());
+    sections.push_back(
+        TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}})));
   }
   return sections;
 }
@@ -136,10 +148,11 @@ void TomlSection::finish() const {
   for (const auto& [key, value] : *node_->table)
     if (!node_->asked.contains(std::string(key.str()))) {
       std::string known;
-      for (const auto& name : node_->asked) known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
+      for (const auto& name : node_->asked)
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
       throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
-                      fmt::format("{}{}{} is not a key that is known here; there are: {}", node_->path,
-                                  node_->path.empty() ? "" : ".", key.str(), known));
+                      fmt::format("{}{}{} is not a key that is known here; there are: {}",
+                                  node_->path, node_->path.empty() ? "" : ".", key.str(), known));
     }
 }
 

@@ -1,4 +1,5 @@
-// A table of a TOML file, read strictly: every key is asked for by name, and one that nobody asked for is an error.
+// A table of a TOML file, read strictly: every key is asked for by name, and one that nobody asked
+// for is an error.
 #pragma once
 
 #include <memory>
@@ -20,11 +21,12 @@ inline constexpr Allowed kNotNegative = {[](double v) { return v >= 0; }, ">= 0"
 inline constexpr Allowed kNotZero = {[](double v) { return v != 0; }, "different from 0"};
 inline constexpr Allowed kFinite = {[](double) { return true; }, "a finite number"};
 
-/// Every function throws Error(kBadInput) with file, line, key and what is allowed for a missing key (optional_... excepted), a wrong
-/// type, a value that is not finite or not allowed.
+/// Every function throws Error(kBadInput) with file, line, key and what is allowed for a missing
+/// key (optional_... excepted), a wrong type, a value that is not finite or not allowed.
 class TomlSection {
  public:
-  /// The root table of a text; `file` is for messages. Throws Error(kBadInput) with the line where the text is no TOML.
+  /// The root table of a text; `file` is for messages. Throws Error(kBadInput) with the line where
+  /// the text is no TOML.
   static TomlSection parse(const std::string& text, const std::string& file);
 
   bool has(std::string_view key) const;
@@ -34,15 +36,18 @@ class TomlSection {
   double number(std::string_view key, const Allowed& allowed) const;
   int count(std::string_view key, int least) const;  ///< a whole number >= least
   std::string text(std::string_view key) const;
-  std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;  ///< an array of at least one number
+  std::vector<double> numbers(std::string_view key,
+                              const Allowed& allowed) const;   ///< an array of at least one number
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
   TomlSection section(std::string_view key) const;
-  std::vector<TomlSection> sections(std::string_view key) const;  ///< an array of tables, at least one
+  std::vector<TomlSection> sections(
+      std::string_view key) const;  ///< an array of tables, at least one
 
   /// Throws for a key of this table that none of the functions above was asked for.
   void finish() const;
 
-  /// Throws Error(kBadInput) at this key's line (this table's, if the key is not there): "section.key what".
+  /// Throws Error(kBadInput) at this key's line (this table's, if the key is not there):
+  /// "section.key what".
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 
  private:

@@ -24,11 +24,14 @@ std::string write_csv_comments(const CsvComments& comments) {
   return text;
 }
 
-double csv_comment_number(const CsvComments& comments, const std::string& key, const std::string& file) {
+double csv_comment_number(const CsvComments& comments, const std::string& key,
+                          const std::string& file) {
   const auto found = comments.find(key);
-  if (found == comments.end()) throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
+  if (found == comments.end())
+    throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
   const auto value = parse_number(found->second);
-  if (!value) throw_bad_input({file}, fmt::format("# {}: is not a finite number ('{}')", key, found->second));
+  if (!value)
+    throw_bad_input({file}, fmt::format("# {}: is not a finite number ('{}')", key, found->second));
   return *value;
 }
 

@@ -1,7 +1,9 @@
-// CSV files as Viscontact writes them: "# key: value" lines, then a header line, then rows of numbers.
+// CSV files as Viscontact writes them: "# key: value" lines, then a header line, then rows of
+// numbers.
 #pragma once
 
-// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns all the same.
+// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
+// all the same.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wstringop-truncation"
 #include <libfccp/csv.h>
@@ -44,26 +46,31 @@ CsvComments read_csv_comments(const std::string& text);
 std::string write_csv_comments(const CsvComments& comments);
 
 /// A comment that must be there as a finite number. Throws Error(kBadInput) naming file and key.
-double csv_comment_number(const CsvComments& comments, const std::string& key, const std::string& file);
+double csv_comment_number(const CsvComments& comments, const std::string& key,
+                          const std::string& file);
 
-/// The asked columns of a CSV file, in the order of `names`; the file may have them in another order, and others besides.
-/// The first `required` columns must be there, the others read as empty where they are not.
-/// Throws Error(kBadInput) with file and line for a missing column, a row of another length, a field that is neither empty
-/// nor a finite number, or fewer rows than a line "# rows: N" promises (a truncated file).
+/// The asked columns of a CSV file, in the order of `names`; the file may have them in another
+/// order, and others besides. The first `required` columns must be there, the others read as empty
+/// where they are not. Throws Error(kBadInput) with file and line for a missing column, a row of
+/// another length, a field that is neither empty nor a finite number, or fewer rows than a line "#
+/// rows: N" promises (a truncated file).
 template <std::size_t columns>
-CsvFile<columns> read_csv(const std::filesystem::path& path, const std::array<std::string, columns>& names,
-                          std::size_t required) {
+CsvFile<columns> read_csv(const std::filesystem::path& path,
+                          const std::array<std::string, columns>& names, std::size_t required) {
   const std::string file = path.string();
   const std::string text = read_file(path);
   CsvFile<columns> result{read_csv_comments(text), {}};
   std::istringstream stream(text);
   // Fields are taken as text: the library's own conversion to double does not round-trip.
-  using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>, io::throw_on_overflow,
-                               io::single_line_comment<'#'>>;
+  using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
+                               io::throw_on_overflow, io::single_line_comment<'#'>>;
   try {
     Reader reader("", stream);  // it would cut a long name; errors get ours below
-    std::apply([&](const auto&... name) { reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...); },
-               names);
+    std::apply(
+        [&](const auto&... name) {
+          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
+        },
+        names);
     for (std::size_t i = 0; i < required; ++i)
       if (!reader.has_column(names[i]))
         throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line");
@@ -75,12 +82,14 @@ CsvFile<columns> read_csv(const std::filesystem::path& path, const std::array<st
         if (fields[i] == nullptr || *fields[i] == '\0') continue;
         row.fields[i] = parse_number(fields[i]);
         if (!row.fields[i])
-          throw_bad_input({file, row.line}, names[i] + " is not a finite number ('" + fields[i] + "')");
+          throw_bad_input({file, row.line},
+                          names[i] + " is not a finite number ('" + fields[i] + "')");
       }
       result.rows.push_back(row);
     }
   } catch (const io::error::duplicated_column_in_header& e) {
-    throw_bad_input({file}, std::string("column '") + e.column_name + "' is twice in the header line");
+    throw_bad_input({file},
+                    std::string("column '") + e.column_name + "' is twice in the header line");
   } catch (const io::error::header_missing&) {
     throw_bad_input({file}, "has no header line; expected columns such as '" + names[0] + "'");
   } catch (const io::error::too_few_columns& e) {
@@ -94,15 +103,17 @@ CsvFile<columns> read_csv(const std::filesystem::path& path, const std::array<st
   }
   if (const auto promised = result.comments.find("rows");
       promised != result.comments.end() && promised->second != std::to_string(result.rows.size()))
-    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) + " rows where its header says " +
-                                promised->second + "; is it truncated?");
+    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) +
+                                " rows where its header says " + promised->second +
+                                "; is it truncated?");
   return result;
 }
 
-/// The number in column `i` of a row. Throws Error(kBadInput) with file and line if the field is empty.
+/// The number in column `i` of a row. Throws Error(kBadInput) with file and line if the field is
+/// empty.
 template <std::size_t columns>
-double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names, std::size_t i,
-                      const std::string& file) {
+double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names,
+                      std::size_t i, const std::string& file) {
   if (!row.fields[i]) throw_bad_input({file, row.line}, names[i] + " is empty; must be a number");
   return *row.fields[i];
 }

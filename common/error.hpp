@@ -1,4 +1,5 @@
-// The one way to fail: every error that a user can cause or meet is a viscontact::Error, caught once in app/.
+// The one way to fail: every error that a user can cause or meet is a viscontact::Error, caught
+// once in app/.
 #pragma once
 
 #include <stdexcept>
@@ -6,17 +7,19 @@
 
 namespace viscontact {
 
-/// What the process reports to its caller when an Error ends it (interfaces of the command line, docs/interfaces.md).
+/// What the process reports to its caller when an Error ends it (interfaces of the command line,
+/// docs/interfaces.md).
 enum class ExitCode {
   kDone = 0,
-  kWrongUsage = 2,        ///< the command line itself
-  kBadInput = 3,          ///< a file or a value in it
-  kNotConverged = 4,      ///< a computation did not reach what was asked
-  kExternalProgram = 5,   ///< FreeFEM or gnuplot failed or is missing
-  kInterrupted = 130,     ///< Ctrl-C; everything finished so far is kept
+  kWrongUsage = 2,       ///< the command line itself
+  kBadInput = 3,         ///< a file or a value in it
+  kNotConverged = 4,     ///< a computation did not reach what was asked
+  kExternalProgram = 5,  ///< FreeFEM or gnuplot failed or is missing
+  kInterrupted = 130,    ///< Ctrl-C; everything finished so far is kept
 };
 
-/// An error fit for a user: `what()` reads "FILE:LINE: what is wrong (the value); what is allowed or what to do".
+/// An error fit for a user: `what()` reads "FILE:LINE: what is wrong (the value); what is allowed
+/// or what to do".
 class Error : public std::runtime_error {
  public:
   Error(ExitCode exit_code, const std::string& message)

@@ -16,7 +16,8 @@
 namespace viscontact {
 namespace {
 
-[[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action, int code) {
+[[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action,
+                                     int code) {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 

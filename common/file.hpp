@@ -7,11 +7,13 @@
 
 namespace viscontact {
 
-/// The bytes of a file. Throws Error(kBadInput) naming the path when it is missing, a folder or not readable.
+/// The bytes of a file. Throws Error(kBadInput) naming the path when it is missing, a folder or not
+/// readable.
 std::string read_file(const std::filesystem::path& path);
 
-/// Replaces `path` by `content` in one step: written to a new file in the same folder, flushed to disk, renamed. Missing
-/// parent folders are made. Throws Error(kBadInput) naming the path; then the old file, if any, is untouched.
+/// Replaces `path` by `content` in one step: written to a new file in the same folder, flushed to
+/// disk, renamed. Missing parent folders are made. Throws Error(kBadInput) naming the path; then
+/// the old file, if any, is untouched.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// Makes a folder and its parents. Throws Error(kBadInput) where that cannot be.

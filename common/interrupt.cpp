@@ -25,7 +25,8 @@ void catch_interrupts() {
 bool interrupted() { return signal_came != 0; }
 
 void throw_if_interrupted() {
-  if (interrupted()) throw Error(ExitCode::kInterrupted, "interrupted; everything finished so far is kept");
+  if (interrupted())
+    throw Error(ExitCode::kInterrupted, "interrupted; everything finished so far is kept");
 }
 
 }  // namespace viscontact

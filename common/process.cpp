@@ -25,7 +25,8 @@ struct Pipe {
 
 Pipe make_pipe() {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "pipe");
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -45,17 +46,20 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& adde
 
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
-  for (const auto& text : texts) result.push_back(const_cast<char*>(text.c_str()));  // what execve's signature asks for
+  for (const auto& text : texts)
+    result.push_back(const_cast<char*>(text.c_str()));  // what execve's signature asks for
   result.push_back(nullptr);
   return result;
 }
 
-/// Feeds `input` to the child and collects what it says, until it closes its output or the user interrupts.
+/// Feeds `input` to the child and collects what it says, until it closes its output or the user
+/// interrupts.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input) {
   std::string output;
   if (input.empty()) to_child.close();
   for (;;) {
-    std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0}, pollfd{to_child.get(), POLLOUT, 0}};
+    std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
+                                   pollfd{to_child.get(), POLLOUT, 0}};
     constexpr int kMilliseconds = 100;  // how late an interrupt may be noticed
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (interrupted()) return output;
@@ -76,8 +80,8 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
-                          const std::string& input) {
+ProcessResult run_process(const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& environment, const std::string& input) {
   Pipe in = make_pipe();
   Pipe out = make_pipe();
   ::fcntl(in.write_end.get(), F_SETFL, O_NONBLOCK);
@@ -92,8 +96,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const std::
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   const auto variables = merged_environment(environment);
   pid_t child = 0;
-  const int error = ::posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes, pointers(arguments).data(),
-                                   pointers(variables).data());
+  const int error = ::posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes,
+                                   pointers(arguments).data(), pointers(variables).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) return {false, 127, std::strerror(error), 0};

@@ -12,7 +12,9 @@
 
 namespace viscontact {
 
-std::string_view to_string(Weights weights) { return weights == Weights::kRelative ? "relative" : "absolute"; }
+std::string_view to_string(Weights weights) {
+  return weights == Weights::kRelative ? "relative" : "absolute";
+}
 
 Weights parse_weights(std::string_view word) {
   if (word == "relative") return Weights::kRelative;
@@ -26,8 +28,8 @@ Fit fit_force_table(const ForceTable& table, std::string_view basis_name, Weight
   for (const auto& row : table.rows) gaps.insert(row.gap);
   if (gaps.size() < basis.terms.size())
     throw Error(ExitCode::kBadInput,
-                fmt::format("the table has {} different gap(s); basis {} needs at least {}", gaps.size(), basis.name,
-                            basis.terms.size()));
+                fmt::format("the table has {} different gap(s); basis {} needs at least {}",
+                            gaps.size(), basis.name, basis.terms.size()));
 
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
   const auto columns = static_cast<Eigen::Index>(basis.terms.size());
@@ -37,12 +39,16 @@ Fit fit_force_table(const ForceTable& table, std::string_view basis_name, Weight
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto& row = table.rows[static_cast<std::size_t>(i)];
     force(i) = row.force * (u0 / row.reference_velocity);
-    for (Eigen::Index j = 0; j < columns; ++j) terms(i, j) = basis.terms[static_cast<std::size_t>(j)].value(row.gap);
+    for (Eigen::Index j = 0; j < columns; ++j)
+      terms(i, j) = basis.terms[static_cast<std::size_t>(j)].value(row.gap);
   }
-  const Eigen::VectorXd weight =
-      weights == Weights::kRelative ? Eigen::VectorXd(force.cwiseAbs().cwiseInverse()) : Eigen::VectorXd::Ones(rows);
-  const auto solution = solve_least_squares(weight.asDiagonal() * terms, weight.cwiseProduct(force));
-  const Eigen::ArrayXd relative_residual = (terms * solution.coefficients - force).cwiseQuotient(force).array();
+  const Eigen::VectorXd weight = weights == Weights::kRelative
+                                     ? Eigen::VectorXd(force.cwiseAbs().cwiseInverse())
+                                     : Eigen::VectorXd::Ones(rows);
+  const auto solution =
+      solve_least_squares(weight.asDiagonal() * terms, weight.cwiseProduct(force));
+  const Eigen::ArrayXd relative_residual =
+      (terms * solution.coefficients - force).cwiseQuotient(force).array();
 
   Fit fit;
   fit.basis = basis.name;
@@ -55,8 +61,8 @@ Fit fit_force_table(const ForceTable& table, std::string_view basis_name, Weight
   fit.rms_relative_residual = std::sqrt(relative_residual.square().mean());
   fit.condition_number = solution.condition_number;
   for (Eigen::Index j = 0; j < columns; ++j) {
-    fit.terms.push_back({std::string(basis.terms[static_cast<std::size_t>(j)].name), solution.coefficients(j),
-                         std::sqrt(solution.covariance(j, j))});
+    fit.terms.push_back({std::string(basis.terms[static_cast<std::size_t>(j)].name),
+                         solution.coefficients(j), std::sqrt(solution.covariance(j, j))});
     const Eigen::VectorXd covariances = solution.covariance.row(j);
     fit.covariance.emplace_back(covariances.begin(), covariances.end());
   }

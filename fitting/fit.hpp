@@ -1,4 +1,5 @@
-// A fit of the lubrication force: coefficients of a basis at one velocity, with what is needed to trust and to use it.
+// A fit of the lubrication force: coefficients of a basis at one velocity, with what is needed to
+// trust and to use it.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace viscontact {
 
-/// What the least squares minimises: residuals over the force (`relative`) or residuals as they are (`absolute`).
+/// What the least squares minimises: residuals over the force (`relative`) or residuals as they are
+/// (`absolute`).
 enum class Weights { kRelative, kAbsolute };
 
 std::string_view to_string(Weights weights);
@@ -29,9 +31,9 @@ struct FitTerm {
 /// F_lub(q, u0) = sum of coefficient * term(q) for q in gap_interval.
 struct Fit {
   std::string basis;
-  double reference_velocity = 0;           ///< u0 [L/T], not 0
-  double viscosity = 0;                    ///< mu [M/(L T)], > 0
-  double radius = 0;                       ///< r [L], > 0
+  double reference_velocity = 0;            ///< u0 [L/T], not 0
+  double viscosity = 0;                     ///< mu [M/(L T)], > 0
+  double radius = 0;                        ///< r [L], > 0
   std::array<double, 2> gap_interval = {};  ///< [L], 0 < first < second
   Weights weights = Weights::kRelative;
   std::vector<FitTerm> terms;
@@ -43,12 +45,14 @@ struct Fit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// Fits a basis (by name) to a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes flow is linear.
-/// The field table_sha256 and versions are left to the caller.
-/// Throws Error(kBadInput) for an unknown basis or fewer different gaps than terms; Error(kNotConverged) from the least squares.
+/// Fits a basis (by name) to a table. Rows of other velocities than the first row's count as F (u0
+/// / u): Stokes flow is linear. The field table_sha256 and versions are left to the caller. Throws
+/// Error(kBadInput) for an unknown basis or fewer different gaps than terms; Error(kNotConverged)
+/// from the least squares.
 Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
 
-/// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) naming the offending key.
+/// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) naming the
+/// offending key.
 Fit read_fit(const std::filesystem::path& path);
 
 /// The text of the fit file (JSON).

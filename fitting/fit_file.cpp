@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as "terms[2].name is ...".
+/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
+/// "terms[2].name is ...".
 class JsonObject {
  public:
   JsonObject(const Json& json, std::string file, std::string path)
@@ -59,7 +60,8 @@ class JsonObject {
 
   void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : json_.items())
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) fail(key, "is not a key of a fit file");
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail(key, "is not a key of a fit file");
   }
 
  private:
@@ -71,8 +73,13 @@ Json parse(const std::string& file, const std::string& text) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())), '\n');
-    throw_bad_input({file, static_cast<int>(line)}, "is not valid JSON; write one with 'viscontact fit'");
+    const auto line =
+        1 +
+        std::count(text.begin(),
+                   text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())),
+                   '\n');
+    throw_bad_input({file, static_cast<int>(line)},
+                    "is not valid JSON; write one with 'viscontact fit'");
   } catch (const Json::exception& error) {
     throw_bad_input({file}, error.what());
   }
@@ -85,10 +92,13 @@ std::vector<FitTerm> read_terms(const JsonObject& root, const std::string& file)
   for (std::size_t i = 0; i < array.size(); ++i) {
     const JsonObject object(array[i], file, fmt::format("terms[{}]", i));
     object.allow_only({"name", "coefficient", "standard_error"});
-    FitTerm term{object.text("name"), object.number("coefficient"), object.number_above("standard_error", 0, true)};
-    if (!find_term(term.name)) object.fail("name", fmt::format("is '{}', which is no term", term.name));
+    FitTerm term{object.text("name"), object.number("coefficient"),
+                 object.number_above("standard_error", 0, true)};
+    if (!find_term(term.name))
+      object.fail("name", fmt::format("is '{}', which is no term", term.name));
     for (const auto& other : terms)
-      if (other.name == term.name) object.fail("name", fmt::format("is '{}', a second time", term.name));
+      if (other.name == term.name)
+        object.fail("name", fmt::format("is '{}', a second time", term.name));
     terms.push_back(term);
   }
   return terms;
@@ -97,11 +107,13 @@ std::vector<FitTerm> read_terms(const JsonObject& root, const std::string& file)
 std::vector<std::vector<double>> read_covariance(const JsonObject& root, std::size_t size) {
   std::vector<std::vector<double>> covariance;
   for (const Json& row : root.array("covariance")) {
-    if (!row.is_array() || row.size() != size) root.fail("covariance", fmt::format("must be {} x {}", size, size));
+    if (!row.is_array() || row.size() != size)
+      root.fail("covariance", fmt::format("must be {} x {}", size, size));
     covariance.emplace_back();
     for (const Json& value : row) covariance.back().push_back(root.finite("covariance", value));
   }
-  if (covariance.size() != size) root.fail("covariance", fmt::format("must be {} x {}", size, size));
+  if (covariance.size() != size)
+    root.fail("covariance", fmt::format("must be {} x {}", size, size));
   return covariance;
 }
 
@@ -111,9 +123,9 @@ Fit read_fit(const std::filesystem::path& path) {
   const std::string file = path.string();
   const Json json = parse(file, read_file(path));
   const JsonObject root(json, file, "");
-  root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights", "terms",
-                   "largest_relative_residual", "rms_relative_residual", "condition_number", "covariance",
-                   "table_sha256", "versions"});
+  root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights",
+                   "terms", "largest_relative_residual", "rms_relative_residual",
+                   "condition_number", "covariance", "table_sha256", "versions"});
   Fit fit;
   fit.basis = root.text("basis");
   fit.reference_velocity = root.number("reference_velocity");
@@ -122,13 +134,15 @@ Fit read_fit(const std::filesystem::path& path) {
   fit.radius = root.number_above("radius", 0, false);
   const Json& interval = root.array("gap_interval");
   if (interval.size() != 2) root.fail("gap_interval", "must be two gaps");
-  fit.gap_interval = {root.finite("gap_interval[0]", interval[0]), root.finite("gap_interval[1]", interval[1])};
+  fit.gap_interval = {root.finite("gap_interval[0]", interval[0]),
+                      root.finite("gap_interval[1]", interval[1])};
   if (!(fit.gap_interval[0] > 0 && fit.gap_interval[1] > fit.gap_interval[0]))
     root.fail("gap_interval", fmt::format("is {}; must be 0 < first < second", interval.dump()));
   try {
     fit.weights = parse_weights(root.text("weights"));
   } catch (const Error&) {
-    root.fail("weights", fmt::format("is '{}'; must be relative or absolute", root.text("weights")));
+    root.fail("weights",
+              fmt::format("is '{}'; must be relative or absolute", root.text("weights")));
   }
   fit.terms = read_terms(root, file);
   fit.largest_relative_residual = root.number_above("largest_relative_residual", 0, true);
@@ -154,8 +168,9 @@ std::string write_fit(const Fit& fit) {
   json["weights"] = to_string(fit.weights);
   json["terms"] = Json::array();
   for (const auto& term : fit.terms)
-    json["terms"].push_back(
-        {{"name", term.name}, {"coefficient", term.coefficient}, {"standard_error", term.standard_error}});
+    json["terms"].push_back({{"name", term.name},
+                             {"coefficient", term.coefficient},
+                             {"standard_error", term.standard_error}});
   json["largest_relative_residual"] = fit.largest_relative_residual;
   json["rms_relative_residual"] = fit.rms_relative_residual;
   json["condition_number"] = fit.condition_number;

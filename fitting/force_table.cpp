@@ -9,13 +9,10 @@
 namespace viscontact {
 namespace {
 
-const std::array<std::string, 7> kColumns = {"gap",
-                                             "reference_velocity",
-                                             "force",
-                                             "drag_factor",
-                                             "relative_error_estimate",
-                                             "degrees_of_freedom",
-                                             "seconds"};
+const std::array<std::string, 7> kColumns = {
+    "gap",         "reference_velocity",      "force",
+    "drag_factor", "relative_error_estimate", "degrees_of_freedom",
+    "seconds"};
 constexpr std::size_t kRequiredColumns = 3;
 constexpr std::string_view kVersionPrefix = "version of ";
 
@@ -24,7 +21,8 @@ std::string comment_or(const CsvComments& comments, const std::string& key) {
   return found == comments.end() ? "" : found->second;
 }
 
-double positive_comment(const CsvComments& comments, const std::string& key, const std::string& file) {
+double positive_comment(const CsvComments& comments, const std::string& key,
+                        const std::string& file) {
   const double value = csv_comment_number(comments, key, file);
   if (!(value > 0)) throw_bad_input({file}, fmt::format("# {}: is {}; must be > 0", key, value));
   return value;
@@ -51,15 +49,18 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; must be > 0", row.gap));
     if (row.reference_velocity == 0) throw_bad_input(here, "reference_velocity is 0; must not be");
     if (!(row.force * row.reference_velocity < 0))
-      throw_bad_input(here, fmt::format("force is {} at velocity {}; a drag is opposed to the velocity", row.force,
-                                        row.reference_velocity));
-    const double stokes = 6 * std::numbers::pi * table.viscosity * table.radius * row.reference_velocity;
+      throw_bad_input(here,
+                      fmt::format("force is {} at velocity {}; a drag is opposed to the velocity",
+                                  row.force, row.reference_velocity));
+    const double stokes =
+        6 * std::numbers::pi * table.viscosity * table.radius * row.reference_velocity;
     row.drag_factor = fields.fields[3].value_or(-row.force / stokes);
     row.relative_error_estimate = fields.fields[4].value_or(0);
     row.degrees_of_freedom = fields.fields[5].value_or(0);
     row.seconds = fields.fields[6].value_or(0);
     if (row.relative_error_estimate < 0)
-      throw_bad_input(here, fmt::format("relative_error_estimate is {}; must be >= 0", row.relative_error_estimate));
+      throw_bad_input(here, fmt::format("relative_error_estimate is {}; must be >= 0",
+                                        row.relative_error_estimate));
     table.rows.push_back(row);
   }
   if (table.rows.empty()) throw_bad_input({file}, "has no rows");
@@ -73,14 +74,15 @@ std::string write_force_table(const ForceTable& table) {
                           {"container", table.container},
                           {"rows", std::to_string(table.rows.size())}};
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
-  for (const auto& [program, version] : table.versions) comments[std::string(kVersionPrefix) + program] = version;
+  for (const auto& [program, version] : table.versions)
+    comments[std::string(kVersionPrefix) + program] = version;
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& row : table.rows)
-    text += fmt::format("{},{},{},{},{},{},{}\n", format_number(row.gap), format_number(row.reference_velocity),
-                        format_number(row.force), format_number(row.drag_factor),
-                        format_number(row.relative_error_estimate), format_number(row.degrees_of_freedom),
-                        format_number(row.seconds));
+    text += fmt::format("{},{},{},{},{},{},{}\n", format_number(row.gap),
+                        format_number(row.reference_velocity), format_number(row.force),
+                        format_number(row.drag_factor), format_number(row.relative_error_estimate),
+                        format_number(row.degrees_of_freedom), format_number(row.seconds));
   return text;
 }
 

@@ -23,7 +23,8 @@ class LinearResiduals : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(matrix.cols()));
   }
 
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> x(parameters[0], matrix_.cols());
     Eigen::Map<Eigen::VectorXd>(residuals, matrix_.rows()) = matrix_ * x - right_hand_side_;
     if (jacobians != nullptr && jacobians[0] != nullptr) {
@@ -40,9 +41,12 @@ class LinearResiduals : public ceres::CostFunction {
 
 }  // namespace
 
-LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side) {
-  assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 && matrix.rows() == right_hand_side.size());
-  const Eigen::VectorXd scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
+                                         const Eigen::VectorXd& right_hand_side) {
+  assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 &&
+         matrix.rows() == right_hand_side.size());
+  const Eigen::VectorXd scale =
+      matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
 
   LeastSquaresSolution solution;
@@ -50,7 +54,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix, const Ei
   const double smallest = singular(singular.size() - 1);
   if (!(smallest > singular(0) * std::numeric_limits<double>::epsilon()))
     throw Error(ExitCode::kNotConverged,
-                "the fit's terms cannot be told apart on this table; give more or wider spread gaps, or fewer terms");
+                "the fit's terms cannot be told apart on this table; give more or wider spread "
+                "gaps, or fewer terms");
   solution.condition_number = singular(0) / smallest;
 
   Eigen::VectorXd x = Eigen::VectorXd::Zero(matrix.cols());
@@ -59,8 +64,9 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix, const Ei
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  // The problem is linear: without damping the first step is the solution, the next ones are iterative refinement, and the
-  // iteration ends where the cost cannot fall any more in double precision.
+  // The problem is linear: without damping the first step is the solution, the next ones are
+  // iterative refinement, and the iteration ends where the cost cannot fall any more in double
+  // precision.
   options.initial_trust_region_radius = 1e32;
   options.max_trust_region_radius = 1e32;
   options.min_lm_diagonal = 1e-32;
@@ -82,13 +88,16 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix, const Ei
     covariance_options.algorithm_type = ceres::DENSE_SVD;
     covariance_options.min_reciprocal_condition_number = 1e-32;  // judged above, on singular values
     ceres::Covariance covariance(covariance_options);
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unit(matrix.cols(), matrix.cols());
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unit(matrix.cols(),
+                                                                                matrix.cols());
     const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
     if (!covariance.Compute(blocks, &problem) ||
         !covariance.GetCovarianceBlock(x.data(), x.data(), unit.data()))
       throw Error(ExitCode::kNotConverged, "the covariance of the fit cannot be computed");
-    const double variance = (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(freedom);
-    solution.covariance = variance * scale.cwiseInverse().asDiagonal() * unit * scale.cwiseInverse().asDiagonal();
+    const double variance =
+        (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(freedom);
+    solution.covariance =
+        variance * scale.cwiseInverse().asDiagonal() * unit * scale.cwiseInverse().asDiagonal();
   }
   return solution;
 }

@@ -11,7 +11,10 @@
 namespace viscontact {
 
 LubricationForce::LubricationForce(const Fit& fit, BelowInterval below)
-    : radius_(fit.radius), viscosity_(fit.viscosity), fitted_interval_(fit.gap_interval), below_(below) {
+    : radius_(fit.radius),
+      viscosity_(fit.viscosity),
+      fitted_interval_(fit.gap_interval),
+      below_(below) {
   for (const auto& term : fit.terms) {
     terms_.push_back({find_term(term.name).value(), -term.coefficient / fit.reference_velocity});
     if (term.name == kLeadingTerm) leading_ = terms_.back().weight;
@@ -23,12 +26,13 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below)
     const auto [smallest, largest] = fitted_interval_;
     const double gap = i == 0         ? smallest
                        : i == kProbes ? largest
-                                      : std::exp(std::lerp(std::log(smallest), std::log(largest), static_cast<double>(i) / kProbes));
+                                      : std::exp(std::lerp(std::log(smallest), std::log(largest),
+                                                           static_cast<double>(i) / kProbes));
     if (!(resistance(gap) > 0))
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, inside its interval; a drag must be positive: "
-                              "fit again with another basis or other weights",
-                              resistance(gap), gap));
+      throw Error(ExitCode::kBadInput, fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
+                                                   "inside its interval; a drag must be positive: "
+                                                   "fit again with another basis or other weights",
+                                                   resistance(gap), gap));
   }
 }
 
@@ -39,25 +43,28 @@ double LubricationForce::sum(double (*Term::*function)(double), double gap) cons
 }
 
 std::array<double, 2> LubricationForce::interval() const {
-  return {below_ == BelowInterval::kLubricationLimit ? 0.0 : fitted_interval_[0], fitted_interval_[1]};
+  return {below_ == BelowInterval::kLubricationLimit ? 0.0 : fitted_interval_[0],
+          fitted_interval_[1]};
 }
 
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
-  const bool allowed = gap <= largest && (gap >= smallest || (below_ == BelowInterval::kLubricationLimit && gap > 0));
+  const bool allowed = gap <= largest &&
+                       (gap >= smallest || (below_ == BelowInterval::kLubricationLimit && gap > 0));
   if (!allowed)
     throw Error(ExitCode::kBadInput,
-                fmt::format("gap {:.6g} is outside the fitted interval [{:.6g}, {:.6g}]; tabulate and fit further{}", gap,
-                            smallest, largest,
+                fmt::format("gap {:.6g} is outside the fitted interval [{:.6g}, {:.6g}]; tabulate "
+                            "and fit further{}",
+                            gap, smallest, largest,
                             gap < smallest ? ", or ask for the lubrication limit below it" : ""));
 }
 
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
-    throw Error(ExitCode::kBadInput,
-                fmt::format("the fit's coefficient of 1/q in the resistance is {}; a contact model and the lubrication limit "
-                            "need it > 0",
-                            leading_));
+    throw Error(ExitCode::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
+                                                 "is {}; a contact model and the lubrication limit "
+                                                 "need it > 0",
+                                                 leading_));
   return leading_;
 }
 
@@ -86,32 +93,39 @@ double LubricationForce::impulse(double gap) const {
   check_gap(gap);
   const double smallest = fitted_interval_[0];
   if (gap < smallest)
-    return impulse(smallest) + leading_coefficient() * std::log(gap / smallest) + regular_resistance(smallest) * (gap - smallest);
+    return impulse(smallest) + leading_coefficient() * std::log(gap / smallest) +
+           regular_resistance(smallest) * (gap - smallest);
   return sum(&Term::antiderivative, gap) - impulse_at_radius_;
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a bracket that shrinks.
+  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a
+  // bracket that shrinks.
   const auto [smallest, largest] = fitted_interval_;
   double low = std::log(smallest);
   double high = std::log(largest);
   if (impulse_wanted < impulse(smallest)) {
     if (below_ == BelowInterval::kError)
       throw Error(ExitCode::kBadInput,
-                  fmt::format("the film would be thinner than the fitted interval [{:.6g}, {:.6g}]; tabulate and fit further, "
+                  fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
+                              "{:.6g}]; tabulate and fit further, "
                               "or ask for the lubrication limit below it",
                               smallest, largest));
     high = low;
-    // The regular part can only hold the film open further than k ln q alone does, by at most R_reg q / k in s.
+    // The regular part can only hold the film open further than k ln q alone does, by at most R_reg
+    // q / k in s.
     low += (impulse_wanted - impulse(smallest)) / leading_coefficient();
     if (low < std::log(std::numeric_limits<double>::min()))
-      throw Error(ExitCode::kNotConverged, "the film is thinner than the smallest number that a double can hold");
-    if (regular_resistance(smallest) < 0) low -= -regular_resistance(smallest) * smallest / leading_coefficient();
-    else high = std::min(high, low + regular_resistance(smallest) * smallest / leading_coefficient());
+      throw Error(ExitCode::kNotConverged,
+                  "the film is thinner than the smallest number that a double can hold");
+    if (regular_resistance(smallest) < 0)
+      low -= -regular_resistance(smallest) * smallest / leading_coefficient();
+    else
+      high = std::min(high, low + regular_resistance(smallest) * smallest / leading_coefficient());
   } else if (impulse_wanted > impulse(largest)) {
-    throw Error(ExitCode::kBadInput,
-                fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; tabulate and fit further",
-                            smallest, largest));
+    throw Error(ExitCode::kBadInput, fmt::format("the gap would be wider than the fitted interval "
+                                                 "[{:.6g}, {:.6g}]; tabulate and fit further",
+                                                 smallest, largest));
   }
   double s = high - (high - low) / 2;
   constexpr int kMaxSteps = 200;  // bisection alone needs about 60
@@ -123,7 +137,8 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
     const double newton = s - excess / (resistance(gap) * gap);
     const double next = newton > low && newton < high ? newton : low + (high - low) / 2;
     // Steps below the rounding of s change nothing any more.
-    if (std::abs(next - s) <= 2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
+    if (std::abs(next - s) <=
+        2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
       return std::clamp(std::exp(next), interval()[0], largest);
     s = next;
   }

@@ -1,5 +1,5 @@
-// The fitted lubrication force as a function: F_lub(q, u) = -R(q) u, its resistance R, and Gamma, the impulse that the
-// film has absorbed.
+// The fitted lubrication force as a function: F_lub(q, u) = -R(q) u, its resistance R, and Gamma,
+// the impulse that the film has absorbed.
 #pragma once
 
 #include <array>
@@ -13,11 +13,13 @@ namespace viscontact {
 /// What the force is at gaps below the fitted interval.
 enum class BelowInterval {
   kError,             ///< nothing: asking is an error
-  kLubricationLimit,  ///< k/q, plus R - k/q as it is at the smallest fitted gap (what theory adds to k/q varies as ln q only)
+  kLubricationLimit,  ///< k/q, plus R - k/q as it is at the smallest fitted gap (what theory adds
+                      ///< to k/q varies as ln q only)
 };
 
-/// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).
-/// Every function throws Error(kBadInput) that names the interval for a gap outside the fit's, unless `below` allows it.
+/// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0)
+/// F_lub(q, u0). Every function throws Error(kBadInput) that names the interval for a gap outside
+/// the fit's, unless `below` allows it.
 class LubricationForce {
  public:
   /// Throws Error(kBadInput) if the fit's resistance is not positive everywhere in its interval.
@@ -38,11 +40,12 @@ class LubricationForce {
   /// The gap q with Gamma(q) = impulse, to round-off.
   double gap_of_impulse(double impulse) const;
 
-  /// k [M L/T]: coefficient of 1/q in R; 6 pi mu r^2 in theory for a plane. Throws Error(kBadInput) if the fit has none, or it is not
-  /// positive.
+  /// k [M L/T]: coefficient of 1/q in R; 6 pi mu r^2 in theory for a plane. Throws Error(kBadInput)
+  /// if the fit has none, or it is not positive.
   double leading_coefficient() const;
 
-  /// The gaps [L] at which the functions above may be called; the first is 0 with BelowInterval::kLubricationLimit.
+  /// The gaps [L] at which the functions above may be called; the first is 0 with
+  /// BelowInterval::kLubricationLimit.
   std::array<double, 2> interval() const;
 
   double radius() const { return radius_; }        ///< r [L]

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array kTerms = {
     Term{kLeadingTerm,  //
-         [](double q) { return 1 / q; }, [](double q) { return -1 / (q * q); }, [](double q) { return std::log(q); }},
+         [](double q) { return 1 / q; }, [](double q) { return -1 / (q * q); },
+         [](double q) { return std::log(q); }},
     Term{"ln q",  //
          [](double q) { return std::log(q); }, [](double q) { return 1 / q; },
          [](double q) { return q * (std::log(q) - 1); }},
@@ -24,9 +25,11 @@ constexpr std::array kTerms = {
          [](double q) { return q * std::log(q); }, [](double q) { return std::log(q) + 1; },
          [](double q) { return q * q / 2 * (std::log(q) - 0.5); }},
     Term{"q",  //
-         [](double q) { return q; }, [](double) { return 1.0; }, [](double q) { return q * q / 2; }},
+         [](double q) { return q; }, [](double) { return 1.0; },
+         [](double q) { return q * q / 2; }},
     Term{"q^2",  //
-         [](double q) { return q * q; }, [](double q) { return 2 * q; }, [](double q) { return q * q * q / 3; }},
+         [](double q) { return q * q; }, [](double q) { return 2 * q; },
+         [](double q) { return q * q * q / 3; }},
     Term{"q^3",  //
          [](double q) { return q * q * q; }, [](double q) { return 3 * q * q; },
          [](double q) { return q * q * q * q / 4; }},
@@ -60,8 +63,10 @@ const Basis& find_basis(std::string_view name) {
   const auto found = std::ranges::find(bases, name, &Basis::name);
   if (found != bases.end()) return *found;
   std::string names;
-  for (const auto& basis : bases) names += fmt::format("{}{}", names.empty() ? "" : ", ", basis.name);
-  throw Error(ExitCode::kBadInput, fmt::format("no basis is named '{}'; there are {}", name, names));
+  for (const auto& basis : bases)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", basis.name);
+  throw Error(ExitCode::kBadInput,
+              fmt::format("no basis is named '{}'; there are {}", name, names));
 }
 
 }  // namespace viscontact

@@ -33,7 +33,8 @@ struct Basis {
 
 /// Every basis there is:
 ///   lecture     1/q, 1, q, q^2, q^3        (Lefebvre 2008: a/q + b + c q + d q^2 + e q^3)
-///   asymptotic  1/q, ln q, 1, q ln q, q    (near-contact expansion: Cox & Brenner 1967; Cooley & O'Neill 1969)
+///   asymptotic  1/q, ln q, 1, q ln q, q    (near-contact expansion: Cox & Brenner 1967; Cooley &
+///   O'Neill 1969)
 const std::vector<Basis>& all_bases();
 
 /// The basis of that name. Throws Error(kBadInput) that lists the names there are.

@@ -10,7 +10,8 @@
 namespace viscontact {
 namespace {
 
-// Debian's FreeFEM looks for its own files in folders that its package does not have (a trap of 4.11): it is told.
+// Debian's FreeFEM looks for its own files in folders that its package does not have (a trap
+// of 4.11): it is told.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
@@ -28,20 +29,25 @@ FreeFem default_freefem() {
     return freefem;
   }
   throw Error(ExitCode::kExternalProgram,
-              fmt::format("the FreeFEM scripts are not in share/viscontact/freefem_axi beside {}; build or install again",
+              fmt::format("the FreeFEM scripts are not in share/viscontact/freefem_axi beside {}; "
+                          "build or install again",
                           program_folder.string()));
 }
 
-ProcessResult run_freefem(const FreeFem& freefem, std::string_view script, const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {freefem.executable, "-nw", "-v", "0", (freefem.script_folder / script).string()};
+ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
+                          const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {freefem.executable, "-nw", "-v", "0",
+                                      (freefem.script_folder / script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   // One process per row fills the cores; threads inside one would only get in each other's way.
-  const auto result = run_process(command, {fmt::format("FF_INCLUDEPATH={};{}", freefem.script_folder.string(), kIncludeFolder),
-                                            fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
-                                            "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"});
+  const auto result = run_process(
+      command, {fmt::format("FF_INCLUDEPATH={};{}", freefem.script_folder.string(), kIncludeFolder),
+                fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
+                "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"});
   if (!result.started || result.exit_status == 127)
     throw Error(ExitCode::kExternalProgram,
-                fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or set VISCONTACT_FREEFEM to it",
+                fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or "
+                            "set VISCONTACT_FREEFEM to it",
                             freefem.executable, result.output));
   return result;
 }
@@ -58,8 +64,9 @@ std::string freefem_version(const FreeFem& freefem) {
   const auto result = run_freefem(freefem, "version.edp", {});
   const std::string version = line_after(result.output, "viscontact-version");
   if (result.exit_status != 0 || version.empty())
-    throw Error(ExitCode::kExternalProgram, fmt::format("{} does not answer as FreeFEM does (exit status {})",
-                                                        freefem.executable, result.exit_status));
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("{} does not answer as FreeFEM does (exit status {})",
+                            freefem.executable, result.exit_status));
   return version;
 }
 

@@ -33,10 +33,12 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
                     const std::function<void(const TabulateProgress&)>& report) {
   find_geometry(tabulation.geometry);
   ForceTable table;
-  table.versions["FreeFEM"] = freefem_version(freefem);  // first: if FreeFEM is missing, say so once
+  table.versions["FreeFEM"] =
+      freefem_version(freefem);  // first: if FreeFEM is missing, say so once
   table.viscosity = tabulation.viscosity;
   table.radius = tabulation.radius;
-  table.container = fmt::format("closed cylinder, radius {}, height {}", format_number(tabulation.container_radius),
+  table.container = fmt::format("closed cylinder, radius {}, height {}",
+                                format_number(tabulation.container_radius),
                                 format_number(tabulation.container_height));
   table.case_hash = tabulation_hash(tabulation);
 
@@ -77,9 +79,11 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
       }
       const std::scoped_lock lock(mutex);
       ++finished;
-      const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double elapsed =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const std::size_t left = missing.size() - finished;
-      report({grid.size() - left, grid.size(), elapsed / static_cast<double>(finished) * static_cast<double>(left)});
+      report({grid.size() - left, grid.size(),
+              elapsed / static_cast<double>(finished) * static_cast<double>(left)});
     }
   };
   {
@@ -90,9 +94,10 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
   throw_if_interrupted();
   if (!failures.empty())
     throw Error(ExitCode::kExternalProgram,
-                fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(), grid.size(),
-                            fmt::join(failures, "\n")));
-  for (const auto& [gap, velocity] : grid) table.rows.push_back(journal.find(gap, velocity).value());
+                fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
+                            grid.size(), fmt::join(failures, "\n")));
+  for (const auto& [gap, velocity] : grid)
+    table.rows.push_back(journal.find(gap, velocity).value());
   return table;
 }
 

@@ -19,12 +19,14 @@ constexpr std::array kGeometries = {
     Geometry{"plane", "plane.edp"},
 };
 
-// The coarsest mesh and how often it may be refined by 1.5 until the row's accuracy is met (drag.idp). On the lecture's case the first
-// two meshes reach 1e-5 (bench/README.md); the fourth has 160 000 unknowns.
+// The coarsest mesh and how often it may be refined by 1.5 until the row's accuracy is met
+// (drag.idp). On the lecture's case the first two meshes reach 1e-5 (bench/README.md); the fourth
+// has 160 000 unknowns.
 constexpr int kCoarsestCells = 8;
 constexpr int kMostLevels = 4;
 
-// Raised whenever a change of the scripts changes what they compute, so that tables made before are made again.
+// Raised whenever a change of the scripts changes what they compute, so that tables made before are
+// made again.
 constexpr int kMethod = 1;
 
 /// The end of a program's output, on one line.
@@ -44,30 +46,36 @@ const Geometry& find_geometry(std::string_view name) {
   const auto found = std::ranges::find(kGeometries, name, &Geometry::name);
   if (found != kGeometries.end()) return *found;
   std::string names;
-  for (const auto& geometry : kGeometries) names += fmt::format("{}{}", names.empty() ? "" : ", ", geometry.name);
-  throw Error(ExitCode::kBadInput, fmt::format("no geometry is named '{}'; there are: {}", name, names));
+  for (const auto& geometry : kGeometries)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", geometry.name);
+  throw Error(ExitCode::kBadInput,
+              fmt::format("no geometry is named '{}'; there are: {}", name, names));
 }
 
 std::string tabulation_hash(const Tabulation& tabulation) {
-  std::string text = fmt::format("{} {} {} {} {} {} {};", tabulation.geometry, format_number(tabulation.viscosity),
-                                 format_number(tabulation.radius), format_number(tabulation.container_radius),
-                                 format_number(tabulation.container_height), format_number(tabulation.relative_accuracy),
-                                 kMethod);
+  std::string text =
+      fmt::format("{} {} {} {} {} {} {};", tabulation.geometry, format_number(tabulation.viscosity),
+                  format_number(tabulation.radius), format_number(tabulation.container_radius),
+                  format_number(tabulation.container_height),
+                  format_number(tabulation.relative_accuracy), kMethod);
   for (const double gap : tabulation.gaps) text += " " + format_number(gap);
   text += ";";
-  for (const double velocity : tabulation.reference_velocities) text += " " + format_number(velocity);
+  for (const double velocity : tabulation.reference_velocities)
+    text += " " + format_number(velocity);
   return sha256(text);
 }
 
-ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity) {
+ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                        double reference_velocity) {
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_freefem(
       freefem, find_geometry(tabulation.geometry).script,
       {"-radius", format_number(tabulation.radius), "-gap", format_number(gap), "-viscosity",
-       format_number(tabulation.viscosity), "-velocity", format_number(reference_velocity), "-containerRadius",
-       format_number(tabulation.container_radius), "-containerHeight", format_number(tabulation.container_height),
-       "-accuracy", format_number(tabulation.relative_accuracy), "-cells", std::to_string(kCoarsestCells), "-levels",
-       std::to_string(kMostLevels)});
+       format_number(tabulation.viscosity), "-velocity", format_number(reference_velocity),
+       "-containerRadius", format_number(tabulation.container_radius), "-containerHeight",
+       format_number(tabulation.container_height), "-accuracy",
+       format_number(tabulation.relative_accuracy), "-cells", std::to_string(kCoarsestCells),
+       "-levels", std::to_string(kMostLevels)});
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   std::array<std::string, 3> words;
@@ -78,16 +86,16 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   if (result.exit_status != 0 || !force || !estimate || !unknowns) {
     const std::string said = line_after(result.output, "viscontact-error");
     throw Error(ExitCode::kExternalProgram,
-                fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}", format_number(gap),
-                            format_number(reference_velocity), result.exit_status,
-                            said.empty() ? last_lines(result.output) : said));
+                fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
+                            format_number(gap), format_number(reference_velocity),
+                            result.exit_status, said.empty() ? last_lines(result.output) : said));
   }
   ForceTableRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;
   row.force = *force;
-  row.drag_factor =
-      -*force / (6 * std::numbers::pi * tabulation.viscosity * tabulation.radius * reference_velocity);
+  row.drag_factor = -*force / (6 * std::numbers::pi * tabulation.viscosity * tabulation.radius *
+                               reference_velocity);
   row.relative_error_estimate = *estimate;
   row.degrees_of_freedom = *unknowns;
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

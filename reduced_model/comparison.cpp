@@ -43,15 +43,18 @@ double integral_of_absolute(double d0, double d1, double step) {
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
 }
 
-void measure_distances(const Trajectory& trajectory, const Trajectory& reference, ModelComparison& result) {
+void measure_distances(const Trajectory& trajectory, const Trajectory& reference,
+                       ModelComparison& result) {
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);
   const double to = std::min(trajectory.rows.back().time, reference.rows.back().time);
   if (from > to)
-    throw Error(ExitCode::kBadInput, fmt::format("trajectories {} and {} have no time in common ([{}, {}] and [{}, {}])",
-                                                 trajectory.model, reference.model, trajectory.rows.front().time,
-                                                 trajectory.rows.back().time, reference.rows.front().time,
-                                                 reference.rows.back().time));
-  // Between two neighbouring times of either trajectory both are linear, so the sums below are the integrals.
+    throw Error(ExitCode::kBadInput,
+                fmt::format("trajectories {} and {} have no time in common ([{}, {}] and [{}, {}])",
+                            trajectory.model, reference.model, trajectory.rows.front().time,
+                            trajectory.rows.back().time, reference.rows.front().time,
+                            reference.rows.back().time));
+  // Between two neighbouring times of either trajectory both are linear, so the sums below are the
+  // integrals.
   std::vector<double> times = {from, to};
   for (const auto* rows : {&trajectory.rows, &reference.rows})
     for (const auto& row : *rows)
@@ -70,7 +73,8 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
     if (i > 0) {
       const double step = times[i] - previous_time;
       result.l1_gap_distance += integral_of_absolute(previous.gap, distance.gap, step);
-      result.l1_velocity_distance += integral_of_absolute(previous.velocity, distance.velocity, step);
+      result.l1_velocity_distance +=
+          integral_of_absolute(previous.velocity, distance.velocity, step);
     }
     previous = distance;
     previous_time = times[i];
@@ -87,19 +91,23 @@ std::optional<std::array<double, 2>> contact_interval(const std::vector<Trajecto
 
 }  // namespace
 
-Comparison compare_trajectories(const std::vector<Trajectory>& trajectories, std::string_view reference_model) {
+Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
+                                std::string_view reference_model) {
   const auto reference = std::ranges::find(trajectories, reference_model, &Trajectory::model);
   if (reference == trajectories.end()) {
     std::string names;
-    for (const auto& trajectory : trajectories) names += fmt::format("{}{}", names.empty() ? "" : ", ", trajectory.model);
+    for (const auto& trajectory : trajectories)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", trajectory.model);
     throw Error(ExitCode::kBadInput,
-                fmt::format("the reference model '{}' has no trajectory here; there are: {}", reference_model, names));
+                fmt::format("the reference model '{}' has no trajectory here; there are: {}",
+                            reference_model, names));
   }
   Comparison comparison{std::string(reference_model), {}};
   std::set<std::string> seen;
   for (const auto& trajectory : trajectories) {
     if (!seen.insert(trajectory.model).second)
-      throw Error(ExitCode::kBadInput, fmt::format("two trajectories are named '{}'; rename one", trajectory.model));
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("two trajectories are named '{}'; rename one", trajectory.model));
     ModelComparison result;
     result.model = trajectory.model;
     const auto lowest = std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
@@ -124,7 +132,8 @@ std::string write_comparison(const Comparison& comparison) {
     Json& entry = json["models"][model.model];
     entry["minimal_gap"] = model.minimal_gap;
     entry["minimal_gap_time"] = model.minimal_gap_time;
-    entry["recovered_minimal_gap"] = model.recovered_minimal_gap ? Json(*model.recovered_minimal_gap) : Json();
+    entry["recovered_minimal_gap"] =
+        model.recovered_minimal_gap ? Json(*model.recovered_minimal_gap) : Json();
     entry["contact_interval"] = model.contact_interval ? Json(*model.contact_interval) : Json();
     entry["sup_gap_distance"] = model.sup_gap_distance;
     entry["l1_gap_distance"] = model.l1_gap_distance;
@@ -158,7 +167,10 @@ Comparison read_comparison(const std::filesystem::path& path) {
     }
     return comparison;
   } catch (const nlohmann::json::exception& error) {
-    throw_bad_input({path.string()}, fmt::format("is not a comparison file ({}); write one with 'viscontact compare'", error.what()));
+    throw_bad_input(
+        {path.string()},
+        fmt::format("is not a comparison file ({}); write one with 'viscontact compare'",
+                    error.what()));
   }
 }
 

@@ -1,4 +1,5 @@
-// Trajectories side by side: how thin the film gets, when there is contact, how far each is from the one taken as reference.
+// Trajectories side by side: how thin the film gets, when there is contact, how far each is from
+// the one taken as reference.
 #pragma once
 
 #include <array>
@@ -14,13 +15,13 @@ namespace viscontact {
 
 struct ModelComparison {
   std::string model;
-  double minimal_gap = 0;       ///< smallest gap among the rows [L]
-  double minimal_gap_time = 0;  ///< of the first such row [T]
-  std::optional<double> recovered_minimal_gap;             ///< from gamma, where the model has one [L]
+  double minimal_gap = 0;                       ///< smallest gap among the rows [L]
+  double minimal_gap_time = 0;                  ///< of the first such row [T]
+  std::optional<double> recovered_minimal_gap;  ///< from gamma, where the model has one [L]
   std::optional<std::array<double, 2>> contact_interval;  ///< first and last row with gamma < 0 [T]
-  double sup_gap_distance = 0;      ///< max |q - q_ref| [L]
-  double l1_gap_distance = 0;       ///< int |q - q_ref| dt [L T]
-  double l1_velocity_distance = 0;  ///< int |u - u_ref| dt [L]
+  double sup_gap_distance = 0;                            ///< max |q - q_ref| [L]
+  double l1_gap_distance = 0;                             ///< int |q - q_ref| dt [L T]
+  double l1_velocity_distance = 0;                        ///< int |u - u_ref| dt [L]
   long steps = 0;
   double seconds = 0;
 };
@@ -30,9 +31,11 @@ struct Comparison {
   std::vector<ModelComparison> models;  ///< in the order of the trajectories
 };
 
-/// Compares each trajectory with the one of `reference_model`, over the times that both cover, each linear between its rows.
-/// Throws Error(kBadInput) when no trajectory has that name, two have the same, or two have no time in common.
-Comparison compare_trajectories(const std::vector<Trajectory>& trajectories, std::string_view reference_model);
+/// Compares each trajectory with the one of `reference_model`, over the times that both cover, each
+/// linear between its rows. Throws Error(kBadInput) when no trajectory has that name, two have the
+/// same, or two have no time in common.
+Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
+                                std::string_view reference_model);
 
 /// Reads and writes the comparison file (JSON).
 Comparison read_comparison(const std::filesystem::path& path);

@@ -13,7 +13,8 @@ ContactModel contact_with_leading_term(const Motion& motion, const LubricationFo
   const double r = force.radius();
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   ContactModel model;
-  model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity() : std::min(0.0, k * std::log(solid_gap / r));
+  model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
+                                   : std::min(0.0, k * std::log(solid_gap / r));
   model.film_thickness = [k, r](double gamma) { return r * std::exp(gamma / k); };
   return model;
 }
@@ -41,7 +42,8 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
     const ContactState after = contact_step(state, free_velocity, m, model.gamma_min, h);
     const double film_force = (state.gamma - after.gamma) / h;
     trajectory.rows.push_back({next, model.contact_gap + after.gap, after.velocity,
-                               film_force - resistance * free_velocity, motion.external_force.value(next), after.gamma});
+                               film_force - resistance * free_velocity,
+                               motion.external_force.value(next), after.gamma});
     lowest_gamma = std::min(lowest_gamma, after.gamma);
     state = after;
   }

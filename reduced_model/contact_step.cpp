@@ -4,7 +4,8 @@
 
 namespace viscontact {
 
-ContactState contact_step(const ContactState& state, double free_velocity, double mass, double gamma_min, double step) {
+ContactState contact_step(const ContactState& state, double free_velocity, double mass,
+                          double gamma_min, double step) {
   const bool glued = state.gamma < 0;
   const bool touches = glued || state.gap + step * free_velocity < 0;
   if (!touches) return {state.gap + step * free_velocity, free_velocity, 0};

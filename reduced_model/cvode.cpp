@@ -38,11 +38,13 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_
   std::ranges::copy(absolute_tolerances, values(tolerances.get()).begin());
   check(CVodeSVtolerances(memory_, relative_tolerance, tolerances.get()), "CVodeSVtolerances");
   check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
-  check(CVodeSetErrFile(memory_, nullptr), "CVodeSetErrFile");  // failures come as Error, not as text on stderr
+  check(CVodeSetErrFile(memory_, nullptr),
+        "CVodeSetErrFile");  // failures come as Error, not as text on stderr
   check(CVodeSetLinearSolver(memory_, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(memory_, evaluate_jacobian), "CVodeSetJacFn");
-  // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades within a few steps (a film that opens), a Jacobian
-  // from before makes Newton's corrections vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
+  // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades
+  // within a few steps (a film that opens), a Jacobian from before makes Newton's corrections
+  // vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
   check(CVodeSetLSetupFrequency(memory_, 1), "CVodeSetLSetupFrequency");
   check(CVodeSetJacEvalFrequency(memory_, 1), "CVodeSetJacEvalFrequency");
   check(CVodeSetProjFn(memory_, project), "CVodeSetProjFn");
@@ -81,7 +83,8 @@ Cvode::Stop Cvode::advance(double until) {
 void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
-  throw Error(ExitCode::kNotConverged, fmt::format("CVODE gave up at time {:.6g}: {} returned {}", time_, call, name.get()));
+  throw Error(ExitCode::kNotConverged,
+              fmt::format("CVODE gave up at time {:.6g}: {} returned {}", time_, call, name.get()));
 }
 
 int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self) {
@@ -95,8 +98,8 @@ int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, voi
   return 0;
 }
 
-int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector, N_Vector,
-                             N_Vector) {
+int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
+                             N_Vector, N_Vector, N_Vector) {
   auto& cvode = *static_cast<Cvode*>(self);
   const auto size = static_cast<std::size_t>(cvode.system_.dimension * cvode.system_.dimension);
   try {
@@ -108,7 +111,8 @@ int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobi
   return 0;
 }
 
-int Cvode::project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector, void* self) {
+int Cvode::project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector,
+                   void* self) {
   auto& cvode = *static_cast<Cvode*>(self);
   const auto size = static_cast<std::size_t>(cvode.system_.dimension);
   if (CVodeGetErrWeights(cvode.memory_, cvode.weights_.get()) != CV_SUCCESS) return kTryAgain;
@@ -118,13 +122,15 @@ int Cvode::project(double time, N_Vector y, N_Vector correction, double toleranc
   std::vector<double> moved(from.begin(), from.end());
   std::vector<double> gradient(size);
   std::ranges::fill(total, 0);
-  // The smallest correction in the norm in which CVODE measures errors, by Newton's method on the linearised invariant.
+  // The smallest correction in the norm in which CVODE measures errors, by Newton's method on the
+  // linearised invariant.
   constexpr int kMaxIterations = 10;
   try {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       const double residual = cvode.system_.invariant(time, moved, gradient);
       double scale = 0;
-      for (std::size_t i = 0; i < size; ++i) scale += gradient[i] * gradient[i] / (weight[i] * weight[i]);
+      for (std::size_t i = 0; i < size; ++i)
+        scale += gradient[i] * gradient[i] / (weight[i] * weight[i]);
       double length = 0;
       for (std::size_t i = 0; i < size; ++i) {
         const double change = -residual / scale * gradient[i] / (weight[i] * weight[i]);

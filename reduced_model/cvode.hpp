@@ -1,8 +1,8 @@
 // SUNDIALS CVODE as a value with RAII: every return code is checked here and nowhere else.
 #pragma once
 
-#include <sundials/sundials_matrix.h>
 #include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nvector.h>
 
 #include <functional>
@@ -12,20 +12,24 @@
 
 namespace viscontact {
 
-/// A stiff system y' = f(t, y) with its Jacobian, and one function of y whose zeros are of interest.
+/// A stiff system y' = f(t, y) with its Jacobian, and one function of y whose zeros are of
+/// interest.
 struct StiffSystem {
   int dimension = 0;
-  std::function<void(double time, std::span<const double> y, std::span<double> derivative)> derivative;
+  std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
+      derivative;
   /// Column-major, entry (i, j) = d f_i / d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
   std::function<double(std::span<const double> y)> event;
-  /// A function that is 0 along every solution, and its gradient by y: each step is projected back onto it.
-  std::function<double(double time, std::span<const double> y, std::span<double> gradient)> invariant;
+  /// A function that is 0 along every solution, and its gradient by y: each step is projected back
+  /// onto it.
+  std::function<double(double time, std::span<const double> y, std::span<double> gradient)>
+      invariant;
 };
 
 /// BDF of variable order and step with Newton's method and dense linear algebra.
-/// An Error(kBadInput) thrown by the system (a state that it cannot judge) makes CVODE try a smaller step; if it persists, it is
-/// thrown on from advance().
+/// An Error(kBadInput) thrown by the system (a state that it cannot judge) makes CVODE try a
+/// smaller step; if it persists, it is thrown on from advance().
 class Cvode {
  public:
   enum class Stop { kAtTime, kAtEvent };
@@ -37,10 +41,12 @@ class Cvode {
   Cvode& operator=(const Cvode&) = delete;
   ~Cvode();
 
-  /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may change there.
+  /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may
+  /// change there.
   void restart(double time, double stop_time);
 
-  /// Integrates to `until` or to the next event, whichever is first. Throws Error(kNotConverged) if CVODE gives up.
+  /// Integrates to `until` or to the next event, whichever is first. Throws Error(kNotConverged) if
+  /// CVODE gives up.
   Stop advance(double until);
 
   double time() const { return time_; }
@@ -57,8 +63,10 @@ class Cvode {
   using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
 
   static int evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self);
-  static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector, N_Vector, N_Vector);
-  static int project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector error, void* self);
+  static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
+                               N_Vector, N_Vector, N_Vector);
+  static int project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector error,
+                     void* self);
   static int evaluate_event(double time, N_Vector y, double* value, void* self);
   void check(int code, const char* call) const;
 

@@ -9,12 +9,15 @@
 namespace viscontact {
 
 ExternalForce::ExternalForce(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
-  if (pieces_.empty()) throw Error(ExitCode::kBadInput, "external_force has no piece; needs at least one");
+  if (pieces_.empty())
+    throw Error(ExitCode::kBadInput, "external_force has no piece; needs at least one");
   double from = 0;
   for (const auto& piece : pieces_) {
     if (!(piece.until > from))
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("external_force: until = {} must be greater than {}, where the piece begins", piece.until, from));
+      throw Error(
+          ExitCode::kBadInput,
+          fmt::format("external_force: until = {} must be greater than {}, where the piece begins",
+                      piece.until, from));
     from = piece.until;
   }
 }

@@ -29,27 +29,31 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   };
   system.event = [](std::span<const double> y) { return y[1]; };
 
-  // (I): m u + Gamma(q) = P(t). The film forgets nothing, so neither may the integration: without this, errors of w add up in s.
+  // (I): m u + Gamma(q) = P(t). The film forgets nothing, so neither may the integration: without
+  // this, errors of w add up in s.
   const double momentum_at_start = m * motion.initial_velocity + force.impulse(motion.initial_gap);
-  system.invariant = [&, momentum_at_start](double t, std::span<const double> y, std::span<double> gradient) {
+  system.invariant = [&, momentum_at_start](double t, std::span<const double> y,
+                                            std::span<double> gradient) {
     const double q = std::exp(y[0]);
     gradient[0] = m * q * y[1] + force.resistance(q) * q;
     gradient[1] = m * q;
     return m * q * y[1] + force.impulse(q) - momentum_at_start - motion.external_force.impulse(t);
   };
 
-  // s is a logarithm, so its absolute error is the relative error of the gap; an error of w of tolerance / end_time kept up
-  // over the whole motion changes s by the tolerance. CVODE bounds the error of a step; a tenth of what is asked leaves room for
-  // their sum.
+  // s is a logarithm, so its absolute error is the relative error of the gap; an error of w of
+  // tolerance / end_time kept up over the whole motion changes s by the tolerance. CVODE bounds the
+  // error of a step; a tenth of what is asked leaves room for their sum.
   const double tolerance = 0.1 * motion.inertial_relative_tolerance;
-  const std::array start = {std::log(motion.initial_gap), motion.initial_velocity / motion.initial_gap};
+  const std::array start = {std::log(motion.initial_gap),
+                            motion.initial_velocity / motion.initial_gap};
   Cvode cvode(system, start, tolerance, std::array{tolerance, tolerance / motion.end_time});
 
   Trajectory trajectory;
   const auto add_row = [&](double t) {
     const double q = t == 0 ? motion.initial_gap : std::exp(cvode.state()[0]);
     const double u = t == 0 ? motion.initial_velocity : q * cvode.state()[1];
-    trajectory.rows.push_back({t, q, u, -force.resistance(q) * u, motion.external_force.value(t), {}});
+    trajectory.rows.push_back(
+        {t, q, u, -force.resistance(q) * u, motion.external_force.value(t), {}});
   };
   add_row(0);
 

@@ -23,8 +23,8 @@ constexpr std::array kModels = {
     Model{"reference_exact", "no inertia, first integral", simulate_reference_exact},
     Model{"inertial", "with inertia, CVODE", simulate_inertial},
     Model{"viscous_contact", "viscous contact", simulate_viscous_contact, viscous_contact},
-    Model{"viscous_contact_regular_drag", "viscous contact and regular drag", simulate_viscous_contact_regular_drag,
-          viscous_contact_regular_drag},
+    Model{"viscous_contact_regular_drag", "viscous contact and regular drag",
+          simulate_viscous_contact_regular_drag, viscous_contact_regular_drag},
     Model{"viscous_contact_threshold", "whole drag down to a threshold gap, viscous contact there",
           simulate_viscous_contact_threshold, viscous_contact_threshold},
 };
@@ -37,8 +37,10 @@ const Model& find_model(std::string_view name) {
   const auto found = std::ranges::find(kModels, name, &Model::name);
   if (found != kModels.end()) return *found;
   std::string names;
-  for (const auto& model : kModels) names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
-  throw Error(ExitCode::kBadInput, fmt::format("no model is named '{}'; there are {}", name, names));
+  for (const auto& model : kModels)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
+  throw Error(ExitCode::kBadInput,
+              fmt::format("no model is named '{}'; there are {}", name, names));
 }
 
 Trajectory simulate(const Model& model, const Motion& motion, const LubricationForce& force) {
@@ -46,7 +48,8 @@ Trajectory simulate(const Model& model, const Motion& motion, const LubricationF
   try {
     Trajectory trajectory = model.simulate(motion, force);
     trajectory.model = model.name;
-    trajectory.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    trajectory.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;
   } catch (const Error& error) {
     throw Error(error.exit_code(), fmt::format("model {}: {}", model.name, error.what()));

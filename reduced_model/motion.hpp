@@ -1,4 +1,5 @@
-// What the models of motion are given: the sphere, the start, the force, and each model's numerical settings.
+// What the models of motion are given: the sphere, the start, the force, and each model's numerical
+// settings.
 #pragma once
 
 #include <array>
@@ -8,7 +9,8 @@
 
 namespace viscontact {
 
-/// The motion of a sphere along the normal of a plane: m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
+/// The motion of a sphere along the normal of a plane: m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t),
+/// q(0) = q0, dq/dt(0) = v0.
 struct Motion {
   double mass = 0;              ///< m [M], > 0
   double initial_gap = 0;       ///< q0 [L], > 0
@@ -16,21 +18,24 @@ struct Motion {
   double end_time = 0;          ///< [T], > 0
   ExternalForce external_force;
 
-  double reference_time_step = 0;          ///< h of `reference` [T], > 0; also the spacing of the rows of `reference_exact` and `inertial`
+  double reference_time_step = 0;  ///< h of `reference` [T], > 0; also the spacing of the rows of
+                                   ///< `reference_exact` and `inertial`
   double inertial_relative_tolerance = 0;  ///< of CVODE, in ln q and in the velocity; in (0, 1e-2]
   double contact_time_step = 0;            ///< h of the contact models [T], > 0
-  std::array<double, 2> roughness = {};    ///< r1, r2: roughness heights of sphere and plane [L], >= 0; both 0: smooth
-  double threshold_gap = 0;                ///< q_c of `viscous_contact_threshold` [L], > 0
+  std::array<double, 2> roughness =
+      {};  ///< r1, r2: roughness heights of sphere and plane [L], >= 0; both 0: smooth
+  double threshold_gap = 0;  ///< q_c of `viscous_contact_threshold` [L], > 0
 };
 
-/// Number of steps of size `step` that cover [0, end]; the last one may be shorter, and one that would be shorter than a millionth of a
-/// step is left to round-off.
+/// Number of steps of size `step` that cover [0, end]; the last one may be shorter, and one that
+/// would be shorter than a millionth of a step is left to round-off.
 int step_count(double end, double step);
 
 /// The time after `index` of those steps, `end` at the last.
 double step_time(int index, int count, double end, double step);
 
-/// The times of the rows of a model that needs no fixed step: 0, every reference_time_step, the force's jumps, end_time.
+/// The times of the rows of a model that needs no fixed step: 0, every reference_time_step, the
+/// force's jumps, end_time.
 std::vector<double> row_times(const Motion& motion);
 
 }  // namespace viscontact

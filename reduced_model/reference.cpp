@@ -23,10 +23,12 @@ Trajectory simulate_reference(const Motion& motion, const LubricationForce& forc
     trajectory.rows.push_back({t, q, u, -f, f, {}});
     q += (next - t) * u;
     if (n < steps && !(q > 0))
-      throw Error(ExitCode::kNotConverged,
-                  fmt::format("the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
-                              "reference.time_step than {}",
-                              t, q, h));
+      throw Error(
+          ExitCode::kNotConverged,
+          fmt::format(
+              "the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
+              "reference.time_step than {}",
+              t, q, h));
   }
   return trajectory;
 }

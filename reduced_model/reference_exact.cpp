@@ -6,7 +6,8 @@ Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce
   Trajectory trajectory;
   const double at_start = force.impulse(motion.initial_gap);
   for (const double t : row_times(motion)) {
-    const double q = t == 0 ? motion.initial_gap : force.gap_of_impulse(at_start + motion.external_force.impulse(t));
+    const double q = t == 0 ? motion.initial_gap
+                            : force.gap_of_impulse(at_start + motion.external_force.impulse(t));
     const double f = motion.external_force.value(t);
     trajectory.rows.push_back({t, q, f / force.resistance(q), -f, f, {}});
   }

@@ -9,11 +9,13 @@
 namespace viscontact {
 namespace {
 
-const std::array<std::string, 6> kColumns = {"time",           "gap", "velocity", "lubrication_force",
-                                             "external_force", "gamma"};
+const std::array<std::string, 6> kColumns = {
+    "time", "gap", "velocity", "lubrication_force", "external_force", "gamma"};
 constexpr std::size_t kRequiredColumns = 3;
 
-std::string optional_number(const std::optional<double>& value) { return value ? format_number(*value) : ""; }
+std::string optional_number(const std::optional<double>& value) {
+  return value ? format_number(*value) : "";
+}
 
 }  // namespace
 
@@ -29,11 +31,14 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   };
   if (const auto model = take("model")) trajectory.model = *model;
   if (csv.comments.contains("recovered_minimal_gap"))
-    trajectory.recovered_minimal_gap = csv_comment_number(csv.comments, "recovered_minimal_gap", file);
+    trajectory.recovered_minimal_gap =
+        csv_comment_number(csv.comments, "recovered_minimal_gap", file);
   if (csv.comments.contains("steps"))
     trajectory.steps = static_cast<long>(csv_comment_number(csv.comments, "steps", file));
-  if (csv.comments.contains("seconds")) trajectory.seconds = csv_comment_number(csv.comments, "seconds", file);
-  for (const char* key : {"viscontact", "recovered_minimal_gap", "steps", "seconds", "rows"}) take(key);
+  if (csv.comments.contains("seconds"))
+    trajectory.seconds = csv_comment_number(csv.comments, "seconds", file);
+  for (const char* key : {"viscontact", "recovered_minimal_gap", "steps", "seconds", "rows"})
+    take(key);
   trajectory.rows.reserve(csv.rows.size());
   for (const auto& fields : csv.rows) {
     TrajectoryRow row;
@@ -46,7 +51,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     const FilePosition here{file, fields.line};
     if (row.gap < 0) throw_bad_input(here, fmt::format("gap is {}; must be >= 0", row.gap));
     if (!trajectory.rows.empty() && !(row.time > trajectory.rows.back().time))
-      throw_bad_input(here, fmt::format("time is {} after {}; must increase", row.time, trajectory.rows.back().time));
+      throw_bad_input(here, fmt::format("time is {} after {}; must increase", row.time,
+                                        trajectory.rows.back().time));
     trajectory.rows.push_back(row);
   }
   if (trajectory.rows.empty()) throw_bad_input({file}, "has no rows");
@@ -65,9 +71,10 @@ std::string write_trajectory(const Trajectory& trajectory) {
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& row : trajectory.rows)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(row.time), format_number(row.gap),
-                   format_number(row.velocity), optional_number(row.lubrication_force),
-                   optional_number(row.external_force), optional_number(row.gamma));
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(row.time),
+                   format_number(row.gap), format_number(row.velocity),
+                   optional_number(row.lubrication_force), optional_number(row.external_force),
+                   optional_number(row.gamma));
   return text;
 }
 

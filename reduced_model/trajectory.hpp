@@ -23,15 +23,18 @@ struct TrajectoryRow {
 struct Trajectory {
   std::string model;
   std::vector<TrajectoryRow> rows;
-  std::optional<double> recovered_minimal_gap;  ///< film thickness that gamma stands for at its lowest [L]; contact models only
+  std::optional<double> recovered_minimal_gap;  ///< film thickness that gamma stands for at its
+                                                ///< lowest [L]; contact models only
   long steps = 0;                               ///< of the integrator
   double seconds = 0;                           ///< wall time
-  std::map<std::string, std::string> provenance;  ///< further "# key: value" lines: fit, case, time step
+  std::map<std::string, std::string>
+      provenance;  ///< further "# key: value" lines: fit, case, time step
 };
 
-/// Reads a trajectory file, one of ours or a user's own: columns time, gap, velocity are needed. The model's name is that of the "# model:"
-/// line, else the file's stem. Throws Error(kBadInput) with file and line for values missing, not finite, a negative gap, or
-/// times that do not increase.
+/// Reads a trajectory file, one of ours or a user's own: columns time, gap, velocity are needed.
+/// The model's name is that of the "# model:" line, else the file's stem. Throws Error(kBadInput)
+/// with file and line for values missing, not finite, a negative gap, or times that do not
+/// increase.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// The text of the file.

@@ -8,7 +8,8 @@ ContactModel viscous_contact_regular_drag(const Motion& motion, const Lubricatio
   return model;
 }
 
-Trajectory simulate_viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_viscous_contact_regular_drag(const Motion& motion,
+                                                 const LubricationForce& force) {
   return run_contact_model(motion, viscous_contact_regular_drag(motion, force));
 }
 

@@ -12,8 +12,10 @@ namespace viscontact {
 ContactModel viscous_contact_threshold(const Motion& motion, const LubricationForce& force) {
   const double q_c = motion.threshold_gap;
   if (!(motion.initial_gap > q_c))
-    throw Error(ExitCode::kBadInput, fmt::format("viscous_contact.threshold_gap is {}; must be less than motion.initial_gap, {}",
-                                                 q_c, motion.initial_gap));
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format("viscous_contact.threshold_gap is {}; must be less than motion.initial_gap, {}",
+                    q_c, motion.initial_gap));
   const double impulse_at_contact = force.impulse(q_c);
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
 
@@ -22,7 +24,9 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, force.impulse(solid_gap) - impulse_at_contact);
   model.resolved_resistance = [&force](double q) { return force.resistance(q); };
-  model.film_thickness = [&force, impulse_at_contact](double gamma) { return force.gap_of_impulse(impulse_at_contact + gamma); };
+  model.film_thickness = [&force, impulse_at_contact](double gamma) {
+    return force.gap_of_impulse(impulse_at_contact + gamma);
+  };
   return model;
 }
 

@@ -5,10 +5,12 @@
 
 namespace viscontact {
 
-/// The lecture's splitting ("Methode de splitting") where the fluid solver resolves the film down to q_c = motion.threshold_gap:
-/// the whole drag R(q) acts for q > q_c, and the sphere is in contact at q_c, with Gamma in place of k ln q. The film is
-/// Gamma^{-1}(Gamma(q_c) + gamma) thick, and gamma_min = Gamma(r1 + r2) - Gamma(q_c) (minus infinity if smooth).
-/// `force` must outlive the model. Throws Error(kBadInput) unless the sphere starts above q_c, or when q_c is outside the fit's interval.
+/// The lecture's splitting ("Methode de splitting") where the fluid solver resolves the film down
+/// to q_c = motion.threshold_gap: the whole drag R(q) acts for q > q_c, and the sphere is in
+/// contact at q_c, with Gamma in place of k ln q. The film is Gamma^{-1}(Gamma(q_c) + gamma) thick,
+/// and gamma_min = Gamma(r1 + r2) - Gamma(q_c) (minus infinity if smooth). `force` must outlive the
+/// model. Throws Error(kBadInput) unless the sphere starts above q_c, or when q_c is outside the
+/// fit's interval.
 ContactModel viscous_contact_threshold(const Motion& motion, const LubricationForce& force);
 
 /// Runs it (run_contact_model).

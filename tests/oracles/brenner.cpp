@@ -28,14 +28,18 @@ double brenner_drag_factor(double epsilon) {
     const long double x = k * alpha;
     // The bracket is (N - D)/D. With 4 sinh^2(x/2) = 2 cosh(x) - 2,
     //   D = (2 sinh(x/2) - k sinh(alpha)) (2 sinh(x/2) + k sinh(alpha)),
-    // whose first factor cancels near contact: 2 sinh(x/2) - k sinh(alpha) = 2 (sinh(x/2) - x/2) - k (sinh(alpha) - alpha).
+    // whose first factor cancels near contact: 2 sinh(x/2) - k sinh(alpha) = 2 (sinh(x/2) - x/2) -
+    // k (sinh(alpha) - alpha).
     const long double first = 2 * sinh_minus_argument(x / 2) - k * sinh_minus_argument(alpha);
     const long double denominator = first * (2 * std::sinh(x / 2) + k * sinh_alpha);
-    // N - D = 2 (sinh x - cosh x) + 2 + k sinh(2 alpha) + k^2 sinh^2(alpha), sinh x - cosh x = -exp(-x).
-    const long double numerator = -2 * std::expm1(-x) + k * std::sinh(2 * alpha) + k * k * sinh_alpha * sinh_alpha;
+    // N - D = 2 (sinh x - cosh x) + 2 + k sinh(2 alpha) + k^2 sinh^2(alpha), sinh x - cosh x =
+    // -exp(-x).
+    const long double numerator =
+        -2 * std::expm1(-x) + k * std::sinh(2 * alpha) + k * k * sinh_alpha * sinh_alpha;
     const long double term = n * (n + 1) / ((2 * n - 1) * (2 * n + 3)) * numerator / denominator;
     sum += term;
-    // From x = 4 on the terms fall by exp(-2 alpha) each; what is left is a 1/(2 alpha)-fold of the last: 1e-17 at most.
+    // From x = 4 on the terms fall by exp(-2 alpha) each; what is left is a 1/(2 alpha)-fold of the
+    // last: 1e-17 at most.
     if (x > 4 && term < 1e-20L * sum) break;
   }
   return static_cast<double>(4.0L / 3 * sinh_alpha * sum);
