@@ -73,7 +73,7 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
                             result.output.substr(0, 300)));
-  return result.output.substr(start, end + 6 - start);
+  return result.output.substr(start, end + 6 - start) + "\n";
 }
 
 }  // namespace viscontact

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/comparison_table.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
@@ -171,7 +172,7 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   for (const auto& file : files) trajectories.push_back(read_trajectory(file));
   const auto comparison = compare_trajectories(trajectories, reference_model);
   write_file(comparison_path, write_comparison(comparison));
-  say(fmt::format("compare: {} trajectories with {}", trajectories.size(), reference_model));
+  fmt::print("{}", comparison_table(comparison));
 }
 
 void run_stages(const Case& c, const fs::path& folder, int jobs) {
@@ -204,6 +205,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     say("simulate: trajectories are up to date");
     if (fs::exists(run.comparison()) && fs::exists(run.report())) {
       say("compare, report: up to date");
+      fmt::print("{}", comparison_table(read_comparison(run.comparison())));
       return;
     }
   } else {
