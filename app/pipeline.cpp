@@ -92,6 +92,7 @@ void tabulate_stage(const Case& c, const fs::path& table_path, int jobs) {
     say(fmt::format("tabulate: {} is up to date", table_path.string()));
     return;
   }
+  check_output_file(table_path);
   fs::path journal = table_path;
   journal += ".rows";
   say(fmt::format("tabulate: {} rows on {} processes",

@@ -41,7 +41,7 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   const auto grid = tabulation.section("gaps");
   const double from = grid.number("from", kPositive);
   const double to = grid.number("to", kPositive);
-  const int count = grid.count("count", 2);
+  const int count = grid.count("count", 2, 100000);
   const std::string spacing = grid.text("spacing");
   grid.finish();
   if (!(to > from)) grid.fail("to", fmt::format("is {}; must be greater than from, {}", to, from));

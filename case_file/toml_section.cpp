@@ -71,12 +71,13 @@ double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   return *value;
 }
 
-int TomlSection::count(std::string_view key, int least) const {
-  if (!has(key)) fail(key, fmt::format("is missing; must be a whole number >= {}", least));
+int TomlSection::count(std::string_view key, int least, int most) const {
+  const std::string allowed = fmt::format("must be a whole number from {} to {}", least, most);
+  if (!has(key)) fail(key, "is missing; " + allowed);
   const auto* node = node_->table->get(key);
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
-  if (!value || *value < least)
-    fail(key, fmt::format("is {}; must be a whole number >= {}", show(*node), least));
+  if (!value || *value < least || *value > most)
+    fail(key, fmt::format("is {}; {}", show(*node), allowed));
   return *value;
 }
 

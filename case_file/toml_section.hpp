@@ -34,7 +34,7 @@ class TomlSection {
   bool is_array(std::string_view key) const;  ///< the key is there and holds an array
 
   double number(std::string_view key, const Allowed& allowed) const;
-  int count(std::string_view key, int least) const;  ///< a whole number >= least
+  int count(std::string_view key, int least, int most) const;  ///< a whole number in [least, most]
   std::string text(std::string_view key) const;
   std::vector<double> numbers(std::string_view key,
                               const Allowed& allowed) const;   ///< an array of at least one number

@@ -3,11 +3,17 @@
 #include <fmt/format.h>
 
 namespace viscontact {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // as some spreadsheets write it
+
+}  // namespace
 
 CsvComments read_csv_comments(const std::string& text) {
   CsvComments comments;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.empty() || line[0] != '#') continue;
     if (line.back() == '\r') line.pop_back();
     const auto colon = line.find(": ");
@@ -22,6 +28,11 @@ std::string write_csv_comments(const CsvComments& comments) {
   std::string text;
   for (const auto& [key, value] : comments) text += fmt::format("# {}: {}\n", key, value);
   return text;
+}
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 60;
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
 double csv_comment_number(const CsvComments& comments, const std::string& key,

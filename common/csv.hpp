@@ -49,6 +49,9 @@ std::string write_csv_comments(const CsvComments& comments);
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
+/// Text fit to be shown in a message: its beginning, if it is long.
+std::string shortened(const std::string& text);
+
 /// The asked columns of a CSV file, in the order of `names`; the file may have them in another
 /// order, and others besides. The first `required` columns must be there, the others read as empty
 /// where they are not. Throws Error(kBadInput) with file and line for a missing column, a row of
@@ -83,7 +86,7 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
         row.fields[i] = parse_number(fields[i]);
         if (!row.fields[i])
           throw_bad_input({file, row.line},
-                          names[i] + " is not a finite number ('" + fields[i] + "')");
+                          names[i] + " is not a finite number ('" + shortened(fields[i]) + "')");
       }
       result.rows.push_back(row);
     }
@@ -101,11 +104,12 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
   } catch (const io::error::base& e) {
     throw_bad_input({file}, e.what());
   }
+  // A cut within the last field can leave a number: a file that says its rows ends its last line too.
   if (const auto promised = result.comments.find("rows");
-      promised != result.comments.end() && promised->second != std::to_string(result.rows.size()))
-    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) +
-                                " rows where its header says " + promised->second +
-                                "; is it truncated?");
+      promised != result.comments.end() &&
+      (promised->second != std::to_string(result.rows.size()) || text.back() != '\n'))
+    throw_bad_input({file}, "ends early, with " + std::to_string(result.rows.size()) +
+                                " rows; its header says " + promised->second);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <openssl/evp.h>
 #include <unistd.h>
 
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstring>
@@ -27,13 +28,13 @@ std::string read_file(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) throw_system_error(path, "read", errno);
   std::string content;
-  char buffer[1 << 16];
+  std::array<char, 1 << 16> buffer{};
   for (;;) {
-    const ssize_t count = ::read(file.get(), buffer, sizeof buffer);
+    const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw_system_error(path, "read", errno);
     if (count == 0) return content;
-    content.append(buffer, static_cast<std::size_t>(count));
+    content.append(buffer.data(), static_cast<std::size_t>(count));
   }
 }
 
@@ -43,11 +44,28 @@ void make_folder(const std::filesystem::path& path) {
   if (error) throw_system_error(path, "made", error.value());
 }
 
+std::filesystem::path check_output_file(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // A link stays a link: what it points to is replaced.
+  fs::path place = path;
+  if (fs::is_symlink(fs::symlink_status(path, error))) {
+    place = fs::weakly_canonical(path, error);
+    if (error) throw_system_error(path, "written", error.value());
+  }
+  const auto status = fs::status(place, error);
+  if (fs::is_directory(status)) throw_system_error(path, "written", EISDIR);
+  // Renaming over a device or a pipe would take it away from everybody.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw_bad_input({path.string()}, "cannot be written (not a regular file)");
+  return place;
+}
+
 void write_file(const std::filesystem::path& path, std::string_view content) {
-  if (std::filesystem::is_directory(path)) throw_system_error(path, "written", EISDIR);
-  if (path.has_parent_path()) make_folder(path.parent_path());
+  const std::filesystem::path place = check_output_file(path);
+  if (place.has_parent_path()) make_folder(place.parent_path());
   // The process number keeps two runs that write the same file apart.
-  const std::filesystem::path beside = path.string() + fmt::format(".{}.tmp", ::getpid());
+  const std::filesystem::path beside = place.string() + fmt::format(".{}.tmp", ::getpid());
   try {
     const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_system_error(path, "written", errno);
@@ -58,7 +76,7 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
       content.remove_prefix(static_cast<std::size_t>(count));
     }
     if (::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
-    if (::rename(beside.c_str(), path.c_str()) != 0) throw_system_error(path, "written", errno);
+    if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
   } catch (...) {
     ::unlink(beside.c_str());
     throw;
@@ -66,10 +84,10 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
 }
 
 std::string sha256(std::string_view bytes) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
   [[maybe_unused]] const int done =
-      EVP_Digest(bytes.data(), bytes.size(), digest, &length, EVP_sha256(), nullptr);
+      EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
   assert(done == 1 && length == 32);
   std::string text;
   for (unsigned int i = 0; i < length; ++i) text += fmt::format("{:02x}", digest[i]);

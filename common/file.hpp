@@ -16,6 +16,10 @@ std::string read_file(const std::filesystem::path& path);
 /// the old file, if any, is untouched.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if that is there and no
+/// regular file; to be asked before a long computation.
+std::filesystem::path check_output_file(const std::filesystem::path& path);
+
 /// Makes a folder and its parents. Throws Error(kBadInput) where that cannot be.
 void make_folder(const std::filesystem::path& path);
 

@@ -1,9 +1,9 @@
 #include "common/process.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,10 +23,11 @@ struct Pipe {
   Descriptor read_end, write_end;
 };
 
+/// A pair of sockets and no pipe: a write to a child that reads no more is an error code there, and SIGPIPE in a pipe.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "pipe");
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw std::system_error(errno, std::generic_category(), "socketpair");
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -65,7 +66,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
     if (interrupted()) return output;
     if (ready <= 0) continue;
     if (to_child.get() >= 0 && files[1].revents != 0) {
-      const ssize_t count = ::write(to_child.get(), input.data(), input.size());
+      const ssize_t count = ::send(to_child.get(), input.data(), input.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
       if (count > 0) input.remove_prefix(static_cast<std::size_t>(count));
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }
@@ -84,7 +85,6 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input) {
   Pipe in = make_pipe();
   Pipe out = make_pipe();
-  ::fcntl(in.write_end.get(), F_SETFL, O_NONBLOCK);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in.read_end.get(), STDIN_FILENO);

@@ -52,7 +52,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   LeastSquaresSolution solution;
   const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
   const double smallest = singular(singular.size() - 1);
-  if (!(smallest > singular(0) * std::numeric_limits<double>::epsilon()))
+  if (!(smallest > singular(0) * static_cast<double>(matrix.rows()) *
+                     std::numeric_limits<double>::epsilon()))
     throw Error(ExitCode::kNotConverged,
                 "the fit's terms cannot be told apart on this table; give more or wider spread "
                 "gaps, or fewer terms");
@@ -71,7 +72,9 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   options.max_trust_region_radius = 1e32;
   options.min_lm_diagonal = 1e-32;
   options.jacobi_scaling = false;
-  options.max_num_iterations = 20;
+  // What round-off makes of a further step may well raise the cost: such steps are dropped, they are no failure.
+  options.max_num_iterations = 4;
+  options.max_num_consecutive_invalid_steps = 20;
   options.function_tolerance = 1e-16;
   options.parameter_tolerance = 1e-16;
   options.gradient_tolerance = 1e-300;

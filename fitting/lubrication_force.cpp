@@ -83,10 +83,10 @@ double LubricationForce::resistance(double gap) const {
   return sum(&Term::value, gap);
 }
 
-double LubricationForce::resistance_slope(double gap) const {
+double LubricationForce::resistance_log_slope(double gap) const {
   check_gap(gap);
-  if (gap < fitted_interval_[0]) return -leading_coefficient() / (gap * gap);
-  return sum(&Term::slope, gap);
+  if (gap < fitted_interval_[0]) return -leading_coefficient() / gap;
+  return sum(&Term::log_slope, gap);
 }
 
 double LubricationForce::impulse(double gap) const {
@@ -111,18 +111,16 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
                               "{:.6g}]; tabulate and fit further, "
                               "or ask for the lubrication limit below it",
                               smallest, largest));
-    high = low;
-    // The regular part can only hold the film open further than k ln q alone does, by at most R_reg
-    // q / k in s.
-    low += (impulse_wanted - impulse(smallest)) / leading_coefficient();
-    if (low < std::log(std::numeric_limits<double>::min()))
-      throw Error(ExitCode::kNotConverged,
-                  "the film is thinner than the smallest number that a double can hold");
-    if (regular_resistance(smallest) < 0)
-      low -= -regular_resistance(smallest) * smallest / leading_coefficient();
-    else
-      high = std::min(high, low + regular_resistance(smallest) * smallest / leading_coefficient());
-  } else if (impulse_wanted > impulse(largest)) {
+    // k (s - ln q_min) + R_reg (e^s - q_min) = what is wanted beyond Gamma(q_min): the second term moves s by less than R_reg q_min / k.
+    const double k = leading_coefficient();
+    const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
+    const double by_regular_part = regular_resistance(smallest) * smallest / k;
+    high = std::min(low, by_leading_term + std::max(0.0, by_regular_part));
+    const double thinnest = std::log(std::numeric_limits<double>::min());
+    if (!(high >= thinnest))
+      throw Error(ExitCode::kNotConverged, "the film is thinner than the smallest number that a double can hold");
+    low = std::max(thinnest, by_leading_term + std::min(0.0, by_regular_part));
+  } else if (!(impulse_wanted <= impulse(largest))) {
     throw Error(ExitCode::kBadInput, fmt::format("the gap would be wider than the fitted interval "
                                                  "[{:.6g}, {:.6g}]; tabulate and fit further",
                                                  smallest, largest));

@@ -28,8 +28,8 @@ class LubricationForce {
   /// R(q) = -F_lub(q, u)/u [M/T], > 0.
   double resistance(double gap) const;
 
-  /// dR/dq [M/(L T)].
-  double resistance_slope(double gap) const;
+  /// dR/d ln q = q dR/dq [M/T].
+  double resistance_log_slope(double gap) const;
 
   /// R(q) - k/q [M/T], for 0 <= q: below the interval, its value at the smallest fitted gap.
   double regular_resistance(double gap) const;

@@ -14,24 +14,24 @@ namespace {
 
 constexpr std::array kTerms = {
     Term{kLeadingTerm,  //
-         [](double q) { return 1 / q; }, [](double q) { return -1 / (q * q); },
+         [](double q) { return 1 / q; }, [](double q) { return -1 / q; },
          [](double q) { return std::log(q); }},
     Term{"ln q",  //
-         [](double q) { return std::log(q); }, [](double q) { return 1 / q; },
+         [](double q) { return std::log(q); }, [](double) { return 1.0; },
          [](double q) { return q * (std::log(q) - 1); }},
     Term{"1",  //
          [](double) { return 1.0; }, [](double) { return 0.0; }, [](double q) { return q; }},
     Term{"q ln q",  //
-         [](double q) { return q * std::log(q); }, [](double q) { return std::log(q) + 1; },
+         [](double q) { return q * std::log(q); }, [](double q) { return q * (std::log(q) + 1); },
          [](double q) { return q * q / 2 * (std::log(q) - 0.5); }},
     Term{"q",  //
-         [](double q) { return q; }, [](double) { return 1.0; },
+         [](double q) { return q; }, [](double q) { return q; },
          [](double q) { return q * q / 2; }},
     Term{"q^2",  //
-         [](double q) { return q * q; }, [](double q) { return 2 * q; },
+         [](double q) { return q * q; }, [](double q) { return 2 * q * q; },
          [](double q) { return q * q * q / 3; }},
     Term{"q^3",  //
-         [](double q) { return q * q * q; }, [](double q) { return 3 * q * q; },
+         [](double q) { return q * q * q; }, [](double q) { return 3 * q * q * q; },
          [](double q) { return q * q * q * q / 4; }},
 };
 

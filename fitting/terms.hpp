@@ -12,7 +12,7 @@ namespace viscontact {
 struct Term {
   std::string_view name;
   double (*value)(double gap);           ///< phi(q)
-  double (*slope)(double gap);           ///< phi'(q)
+  double (*log_slope)(double gap);       ///< q phi'(q) = d phi / d ln q
   double (*antiderivative)(double gap);  ///< a primitive of phi: what Gamma is made of
 };
 

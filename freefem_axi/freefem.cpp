@@ -22,7 +22,7 @@ FreeFem default_freefem() {
   const char* named = std::getenv("VISCONTACT_FREEFEM");
   freefem.executable = named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
   const auto program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  for (const auto* up : {".", "..", "../.."}) {
+  for (const auto* up : {".", ".."}) {
     auto folder = (program_folder / up / "share/viscontact/freefem_axi").lexically_normal();
     if (!std::filesystem::exists(folder / "plane.edp")) continue;
     freefem.script_folder = folder;

@@ -58,6 +58,10 @@ Cvode::~Cvode() { CVodeFree(&memory_); }
 
 std::span<const double> Cvode::state() const { return values(state_.get()); }
 
+void Cvode::set_state(std::span<const double> state) {
+  std::ranges::copy(state, values(state_.get()).begin());
+}
+
 long Cvode::steps() const {
   long steps = 0;
   check(CVodeGetNumSteps(memory_, &steps), "CVodeGetNumSteps");
@@ -101,7 +105,8 @@ int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, voi
 int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
                              N_Vector, N_Vector, N_Vector) {
   auto& cvode = *static_cast<Cvode*>(self);
-  const auto size = static_cast<std::size_t>(cvode.system_.dimension * cvode.system_.dimension);
+  const auto size = static_cast<std::size_t>(cvode.system_.dimension) *
+      static_cast<std::size_t>(cvode.system_.dimension);
   try {
     cvode.system_.jacobian(time, values(y), {SUNDenseMatrix_Data(jacobian), size});
   } catch (const Error&) {

@@ -41,6 +41,9 @@ class Cvode {
   Cvode& operator=(const Cvode&) = delete;
   ~Cvode();
 
+  /// Replaces the state; restart() must follow.
+  void set_state(std::span<const double> state);
+
   /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may
   /// change there.
   void restart(double time, double stop_time);

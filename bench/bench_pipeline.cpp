@@ -1,0 +1,86 @@
+// Times of the C++ parts on the shipped table and fit of the lecture's case. Run by bench/run.
+#include <benchmark/benchmark.h>
+
+#include "case_file/case_file.hpp"
+#include "fitting/lubrication_force.hpp"
+#include "reduced_model/comparison.hpp"
+#include "reduced_model/models.hpp"
+
+namespace viscontact {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data";
+
+void read_table(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(read_force_table(kData / "tables/lecture.csv"));
+}
+BENCHMARK(read_table)->Unit(benchmark::kMicrosecond);
+
+void fit_table(benchmark::State& state) {
+  const auto table = read_force_table(kData / "tables/lecture.csv");
+  for (auto _ : state) benchmark::DoNotOptimize(fit_force_table(table, "lecture", Weights::kRelative));
+}
+BENCHMARK(fit_table)->Unit(benchmark::kMicrosecond);
+
+LubricationForce lecture_force() { return LubricationForce(read_fit(kData / "fits/lecture.json")); }
+
+/// A gap in [3e-3, 1] that changes from call to call, so that nothing is computed once for all.
+double next_gap(double gap) { return gap < 0.9 ? gap * 1.07 : 3e-3; }
+
+void resistance(benchmark::State& state) {
+  const auto force = lecture_force();
+  double gap = 3e-3;
+  for (auto _ : state) benchmark::DoNotOptimize(force.resistance(gap = next_gap(gap)));
+}
+BENCHMARK(resistance);
+
+void impulse(benchmark::State& state) {
+  const auto force = lecture_force();
+  double gap = 3e-3;
+  for (auto _ : state) benchmark::DoNotOptimize(force.impulse(gap = next_gap(gap)));
+}
+BENCHMARK(impulse);
+
+void gap_of_impulse(benchmark::State& state) {
+  const auto force = lecture_force();
+  double wanted = 0;
+  for (auto _ : state) {
+    wanted = wanted > -390 ? wanted - 7 : -1;
+    benchmark::DoNotOptimize(force.gap_of_impulse(wanted));
+  }
+}
+BENCHMARK(gap_of_impulse);
+
+void simulate_model(benchmark::State& state, const Model& model) {
+  const auto c = read_case(kData / "cases/lecture.toml");
+  const auto force = lecture_force();
+  long steps = 0;
+  for (auto _ : state) {
+    const auto trajectory = simulate(model, required_motion(c), force);
+    steps = trajectory.steps;
+    benchmark::DoNotOptimize(trajectory.rows.data());
+  }
+  state.counters["steps"] = static_cast<double>(steps);
+  state.counters["per_step"] = benchmark::Counter(static_cast<double>(steps),
+                                                  benchmark::Counter::kIsIterationInvariantRate |
+                                                      benchmark::Counter::kInvert);
+}
+
+void compare_all(benchmark::State& state) {
+  const auto c = read_case(kData / "cases/lecture.toml");
+  const auto force = lecture_force();
+  std::vector<Trajectory> trajectories;
+  for (const auto& model : all_models()) trajectories.push_back(simulate(model, required_motion(c), force));
+  for (auto _ : state) benchmark::DoNotOptimize(compare_trajectories(trajectories, "inertial"));
+}
+BENCHMARK(compare_all)->Unit(benchmark::kMicrosecond);
+
+const bool kRegistered = [] {
+  for (const auto& model : all_models())
+    benchmark::RegisterBenchmark(std::string(model.name).c_str(), simulate_model, model)
+        ->Unit(benchmark::kMicrosecond);
+  return true;
+}();
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,51 @@
+// A disk that takes no more, played by the shell's limit on the size of files: the kernel then refuses the write (EFBIG).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/freefem_axi/scratch_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+
+// In units of 512 bytes: enough for the messages on standard error, which is a file too, and for three rows of a journal, not for
+// any output of a stage.
+constexpr const char* kSmallFilesOnly = "ulimit -f 1;";
+
+class DiskFull : public ::testing::Test {
+ protected:
+  DiskFull() { put_text(path("table.csv"), exact_table_text()); }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
+  put_text(path("fit.json"), "old");
+  const auto before = files_below(scratch_.path());
+  const auto result = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
+  expect_refusal(result, ExitCode::kBadInput, HasSubstr("fit.json: cannot be written (File too large)"));
+  EXPECT_EQ(files_below(scratch_.path()), before);
+}
+
+TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
+  const ScratchFolder elsewhere;
+  const FakeFreeFem fake(elsewhere.path());
+  put_text(path("case.toml"), lecture_case_text());
+  const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
+                                     {"VISCONTACT_FREEFEM=" + fake.executable()}, kSmallFilesOnly);
+  expect_refusal(result, ExitCode::kBadInput, HasSubstr("table2.csv.rows: cannot be written (File too large)"));
+  EXPECT_FALSE(std::filesystem::exists(path("table2.csv")));
+  // With room again, the rows that fitted are used.
+  EXPECT_GT(fake.answered().size(), 1U);
+  expect_done(run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
+                             {"VISCONTACT_FREEFEM=" + fake.executable()}));
+  EXPECT_EQ(fake.answered().size(), 40U + 1U);  // once each, and twice the one that found no room
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,195 @@
+// `viscontact run`: the whole pipeline with FreeFEM, once, then what it makes again and what not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "common/file.hpp"
+#include "fitting/fit.hpp"
+#include "reduced_model/comparison.hpp"
+#include "reduced_model/models.hpp"
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/freefem_axi/scratch_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+
+/// When each file below a folder was last written.
+std::map<std::string, fs::file_time_type> write_times(const fs::path& folder) {
+  std::map<std::string, fs::file_time_type> times;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) times[entry.path().string()] = entry.last_write_time();
+  return times;
+}
+
+class Run : public ::testing::Test {
+ protected:
+  Run() : fake_(scratch_.path()) { put_text(case_file(), gentle_case_text()); }
+
+  ProgramResult run() const {
+    return run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "2"},
+                          {"VISCONTACT_FREEFEM=" + fake_.executable()});
+  }
+  fs::path case_file() const { return scratch_.path() / "case.toml"; }
+  fs::path folder() const { return scratch_.path() / "run"; }
+  fs::path trajectory(const std::string& model) const { return folder() / "trajectories" / (model + ".csv"); }
+
+  ScratchFolder scratch_;
+  FakeFreeFem fake_;
+};
+
+TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
+  const ScratchFolder scratch;
+  const auto folder = scratch.path() / "run";
+  put_text(scratch.path() / "case.toml", gentle_case_text());
+  const std::vector<std::string> arguments = {"run", (scratch.path() / "case.toml").string(), "-o", folder.string(), "--jobs", "2"};
+  expect_done(run_viscontact(arguments));
+
+  std::vector<std::string> expected = {"case.toml", "table.csv", "fit.json", "comparison.json", "report.html", "trajectories"};
+  for (const auto& model : all_models()) expected.push_back("trajectories/" + std::string(model.name) + ".csv");
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) found.push_back(entry.path().lexically_relative(folder));
+  EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(expected));  // no journal, no *.tmp
+
+  const auto table = read_force_table(folder / "table.csv");
+  ASSERT_EQ(table.rows.size(), 6U);
+  for (const auto& row : table.rows) EXPECT_LE(row.relative_error_estimate, 1e-3);  // asked by the case
+  for (const auto* program : {"FreeFEM", "Viscontact"}) EXPECT_TRUE(table.versions.contains(program)) << program;
+  // Six gaps and five terms: nearly interpolation. The basis lacks ln q, which it makes up for to a few parts in a thousand.
+  EXPECT_LT(read_fit(folder / "fit.json").largest_relative_residual, 1e-2);
+  for (const auto& model : read_comparison(folder / "comparison.json").models)
+    if (!model.contact_interval) {
+      EXPECT_GT(model.minimal_gap, 0.05) << model.model;  // within the table
+    }
+
+  const auto made = write_times(folder);
+  const auto again = run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-such-freefem"});
+  expect_done(again);
+  EXPECT_EQ(write_times(folder), made);
+  EXPECT_THAT(again.errors, AllOf(HasSubstr("table.csv is up to date"), HasSubstr("fit.json is up to date"),
+                                  HasSubstr("trajectories are up to date"), HasSubstr("report: up to date")));
+}
+
+TEST_F(Run, ChangedMotionIsSimulatedAgainButNotTabulated) {
+  expect_done(run());
+  const auto made = write_times(folder());
+  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -10.0"));
+  const auto again = run();
+  expect_done(again);
+  EXPECT_EQ(fake_.answered().size(), 6U);
+  const auto now = write_times(folder());
+  EXPECT_EQ(now.size(), made.size());
+  for (const auto& [file, time] : now) {
+    const bool kept = file.ends_with("table.csv") || file.ends_with("run/fit.json");
+    // simulate copies the fit onto itself; its bytes are the same.
+    if (!file.ends_with("fit.json")) {
+      EXPECT_EQ(time == made.at(file), kept) << file;
+    }
+  }
+  EXPECT_EQ(read_file(folder() / "case.toml"), read_file(case_file()));
+}
+
+TEST_F(Run, ChangedTabulationIsMadeAgain) {
+  expect_done(run());
+  const std::string table = read_file(folder() / "table.csv");
+  put_text(case_file(), replaced(gentle_case_text(), "radius = 5.0", "radius = 6.0"));
+  expect_done(run());
+  EXPECT_EQ(fake_.answered().size(), 12U);
+  EXPECT_NE(read_file(folder() / "table.csv"), table);
+}
+
+TEST_F(Run, ChangedBasisIsFittedAgainButNotTabulated) {
+  expect_done(run());
+  put_text(case_file(), replaced(gentle_case_text(), "\"lecture\"", "\"asymptotic\""));
+  expect_done(run());
+  EXPECT_EQ(fake_.answered().size(), 6U);
+  EXPECT_EQ(read_fit(folder() / "fit.json").basis, "asymptotic");
+}
+
+TEST_F(Run, ModelsThatTheCaseNoLongerNamesAreGone) {
+  expect_done(run());
+  put_text(case_file(), replaced(gentle_case_text(), "end_time = 4.0", "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
+  expect_done(run());
+  EXPECT_EQ(files_below(folder() / "trajectories").size(), 2U);
+  EXPECT_EQ(read_comparison(folder() / "comparison.json").models.size(), 2U);
+}
+
+/// Damages a file of a finished run, runs again, and expects the file and all that is made from it as they were.
+class DamagedFile : public Run, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void expect_mended(const std::string& damaged) {
+    expect_done(run());
+    const auto file = folder() / GetParam();
+    const std::string whole = read_file(file);
+    put_text(file, damaged == "half" ? whole.substr(0, whole.size() / 2) : damaged);
+    expect_done(run());
+    // Times of solves and steps differ from run to run; the length of all else, and the last line, do not.
+    const std::string now = read_file(file);
+    const auto last_line = [](const std::string& text) { return text.size() < 2 ? text : text.substr(text.rfind('\n', text.size() - 2) + 1); };
+    if (file.extension() == ".csv") {
+      EXPECT_EQ(std::ranges::count(now, '\n'), std::ranges::count(whole, '\n'));
+    }
+    if (GetParam() != "table.csv") {
+      EXPECT_EQ(last_line(now), last_line(whole));
+    }
+    EXPECT_EQ(fake_.answered().size(), GetParam() == "table.csv" ? 12U : 6U);
+  }
+};
+
+TEST_P(DamagedFile, ThatIsCutInHalfIsMadeAgain) { expect_mended("half"); }
+TEST_P(DamagedFile, ThatIsEmptyIsMadeAgain) { expect_mended(""); }
+
+INSTANTIATE_TEST_SUITE_P(Each, DamagedFile,
+                         ::testing::Values("table.csv", "fit.json", "trajectories/inertial.csv", "comparison.json"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase_if(name, [](char c) { return c == '.' || c == '/'; });
+                           return name;
+                         });
+
+TEST_F(Run, MissingFileIsMadeAgain) {
+  expect_done(run());
+  const auto complete = files_below(folder());
+  for (const auto* name : {"fit.json", "trajectories/viscous_contact.csv", "comparison.json", "report.html", "case.toml"}) {
+    fs::remove(folder() / name);
+    expect_done(run());
+    EXPECT_TRUE(fs::exists(folder() / name)) << name;
+    EXPECT_EQ(files_below(folder()).size(), complete.size()) << name;
+  }
+  EXPECT_EQ(fake_.answered().size(), 6U);
+}
+
+TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
+  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"));
+  expect_refusal(run(), ExitCode::kBadInput, HasSubstr("0.05"));
+  EXPECT_TRUE(fs::exists(folder() / "table.csv"));
+  EXPECT_TRUE(fs::exists(folder() / "fit.json"));
+  EXPECT_FALSE(fs::exists(folder() / "trajectories"));
+  EXPECT_FALSE(fs::exists(folder() / "report.html"));
+}
+
+TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {
+  const ScratchFolder programs;
+  put_text(programs.path() / "gnuplot", "#!/bin/sh\nexit 1\n");
+  make_executable(programs.path() / "gnuplot");
+  const auto failed = run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
+                                     {"VISCONTACT_FREEFEM=" + fake_.executable(), "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
+  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("gnuplot"));
+  EXPECT_TRUE(fs::exists(folder() / "comparison.json"));
+  EXPECT_FALSE(fs::exists(folder() / "report.html"));
+  const auto again = run();
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("trajectories are up to date"));
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,148 @@
+// What a case file may hold besides the lecture's: other forms of its values, and parts left out.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/case_file/edited_case.hpp"
+#include "tests/common/failure.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr LectureKey kContainer = {"tabulation.container", "[tabulation]", "container",
+                                   "{ radius = 40.0, height = 80.0 }"};
+constexpr LectureKey kGeometry = {"tabulation.geometry.kind", "[tabulation]", "kind", "\"plane\""};
+constexpr LectureKey kForce = {"motion.external_force", "[motion]", "external_force",
+                               "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
+constexpr LectureKey kRoughness = {"viscous_contact.roughness", "[viscous_contact]", "roughness", "[0.0, 0.0]"};
+
+const std::string kFitKeys =
+    "basis = \"lecture\"               # a/q + b + c q + d q^2 + e q^3\nweights = \"relative\"\n";
+
+/// The text of the lecture's case without [NAME] and all that follows up to the next header.
+std::string without_section(const std::string& name) {
+  std::string text = lecture_text();
+  const auto from = text.find("[" + name + "]\n");
+  const auto next = text.find("\n[", from);
+  return text.erase(from, next == std::string::npos ? next : next + 1 - from);
+}
+
+TEST(CaseValues, MayBeWholeNumbers) {
+  const Case c = read_text(with_value({"", "[sphere]", "mass", "20.0"}, "7").text);
+  EXPECT_EQ(required_motion(c).mass, 7);
+}
+
+TEST(CaseValues, MayBeNegativeWhereThatHasAMeaning) {
+  EXPECT_EQ(required_motion(read_text(with_value({"", "[motion]", "initial_velocity", "0.0"}, "-2.5").text)).initial_velocity, -2.5);
+}
+
+TEST(Container, SaysThatAFluidWithoutWallsIsNotAvailable) {
+  expect_refused(with_value(kContainer, "\"unbounded\""), kContainer.path, "a fluid without walls is not available");
+}
+
+TEST(Container, MustBeWiderThanTheSphere) {
+  expect_refused(with_value(kContainer, "{ radius = 1.0, height = 80.0 }"), "tabulation.container.radius",
+                 "is 1; must be greater than the sphere's radius, 1");
+}
+
+TEST(Geometry, IsThePlaneByDefault) {
+  EXPECT_EQ(required_tabulation(read_text(with_text("geometry = { kind = \"plane\" }", "").text)).geometry, "plane");
+}
+
+TEST(Geometry, ListsWhatThereIsToOneWhoAsksForAnother) {
+  expect_refused(with_value(kGeometry, "\"free_surface\""), kGeometry.path,
+                 "no geometry is named 'free_surface'; there are: plane");
+}
+
+TEST(ExternalForceOfACase, MayLastLongerThanTheMotion) {
+  const Case c = read_text(with_value(kForce, "[ { until = 100, value = -3 } ]").text);
+  EXPECT_EQ(required_motion(c).external_force.value(50), -3);
+}
+
+TEST(ExternalForceOfACase, MustLastToTheEndOfTheMotion) {
+  expect_refused(with_value(kForce, "[ { until = 3.5, value = -3 } ]"), kForce.path, "must reach motion.end_time, 4");
+}
+
+TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
+  const auto edited = with_text("\n[reference]\n", "\n[[motion.external_force]]\nuntil = 1\nvalue = 5\n"
+                                "[[motion.external_force]]\nuntil = 4\nvalue = 6\n\n[reference]\n");
+  std::string text = edited.text;
+  const auto at = text.find("external_force = ");
+  text.erase(at, text.find('\n', at) - at);
+  EXPECT_THAT(required_motion(read_text(text)).external_force.jumps(), ElementsAre(1));
+}
+
+TEST(Roughness, MayBeAnythingBelowTheRadius) {
+  EXPECT_THAT(required_motion(read_text(with_value(kRoughness, "[0.25, 0.5]").text)).roughness, ElementsAre(0.25, 0.5));
+}
+
+TEST(Roughness, SaysWhatItsTwoNumbersAre) {
+  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path, "the sphere's and the plane's");
+}
+
+TEST(FitOfACase, MayBeAFileBesideTheCase) {
+  const TemporaryFolder folder;
+  const auto text = with_text(kFitKeys, "file = \"fits/mine.json\"\n").text;
+  const Case c = read_case(folder.file("case.toml", text));
+  EXPECT_EQ(required_fit(c).file, folder.path() / "fits/mine.json");
+}
+
+TEST(FitOfACase, MayBeAFileElsewhere) {
+  const TemporaryFolder folder;
+  const auto elsewhere = folder.path() / "mine.json";
+  const Case c = read_text(with_text(kFitKeys, "file = '" + elsewhere.string() + "'\n").text);
+  EXPECT_EQ(required_fit(c).file, elsewhere);
+}
+
+TEST(FitOfACase, IsEitherAFileOrABasis) {
+  expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis", "there are: file");
+}
+
+TEST(FitOfACase, HasAFileThatIsText) {
+  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be text");
+}
+
+TEST(FitOfACase, ListsTheBasesThereAre) {
+  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis", "lecture, asymptotic");
+  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights", "relative or absolute");
+}
+
+TEST(ModelsOfACase, AreAListOfNames) {
+  const auto edited = with_text("end_time = 4.0\n", "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]\n");
+  EXPECT_THAT(read_text(edited.text).models, ElementsAre("inertial", "reference"));
+}
+
+TEST(ModelsOfACase, AreRefusedWhenThereIsNoneOfThatName) {
+  for (const auto* value : {"[\"inertial\", \"gluey\"]", "[]", "\"inertial\"", "[1]", "[\"inertial\", 2]", "{ inertial = true }"}) {
+    SCOPED_TRACE(value);
+    auto edited = with_text("end_time = 4.0\n", std::string("models = ") + value + "\nend_time = 4.0\n");
+    expect_refused(edited, "motion.models", "");
+  }
+  expect_refused(with_text("end_time = 4.0\n", "models = [\"gluey\"]\nend_time = 4.0\n"), "motion.models",
+                 "no model is named 'gluey'; there are reference,");
+}
+
+TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {
+  const auto expect_missing = [](const std::string& section, const auto& ask) {
+    const Case c = read_text(without_section(section));
+    EXPECT_THAT(bad_input([&] { ask(c); }),
+                AllOf(StartsWith(c.path.string() + ": "), HasSubstr("[" + section + "]"))) << section;
+  };
+  expect_missing("tabulation", [](const Case& c) { required_tabulation(c); });
+  expect_missing("fit", [](const Case& c) { required_fit(c); });
+  expect_missing("motion", [](const Case& c) { required_motion(c); });
+}
+
+TEST(CaseParts, MayAllBeLeftOutButTheFluidAndTheSphere) {
+  const Case c = read_text("title = \"t\"\n[fluid]\nviscosity = 1\n[sphere]\nradius = 2\n");
+  EXPECT_EQ(c.radius, 2);
+  EXPECT_FALSE(c.tabulation || c.fit || c.motion || c.published);
+}
+
+}  // namespace
+}  // namespace viscontact

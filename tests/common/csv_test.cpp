@@ -1,0 +1,160 @@
+#include "common/csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+using ::testing::StartsWith;
+
+const std::array<std::string, 3> kNames = {"time", "gap", "gamma"};
+
+class Csv : public ::testing::Test {
+ protected:
+  /// What is read from a file of this text; gamma may be absent.
+  CsvFile<3> read(const std::string& text) const { return read_csv(folder_.file("file.csv", text), kNames, 2); }
+
+  /// The message with which a file of this text is refused, from behind the file's name.
+  std::string refusal(const std::string& text) const {
+    const std::string file = (folder_.path() / "file.csv").string();
+    const std::string message = bad_input([&] { read(text); });
+    EXPECT_THAT(message, StartsWith(file + ":"));
+    return message.size() > file.size() ? message.substr(file.size()) : message;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(Csv, GivesCommentsNumbersAndLines) {
+  const auto csv = read("# viscosity: 3\n# container: 40 x 80: closed\n# no comment of ours\ntime,gap,gamma\n0,1,\n# between\n0.5,1e-3,-2\n");
+  EXPECT_THAT(csv.comments, ElementsAre(Pair("container", "40 x 80: closed"), Pair("viscosity", "3")));
+  ASSERT_EQ(csv.rows.size(), 2U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(0.0, 1.0, std::nullopt));
+  EXPECT_THAT(csv.rows[1].fields, ElementsAre(0.5, 1e-3, -2.0));
+  EXPECT_EQ(csv.rows[0].line, 5);
+  EXPECT_EQ(csv.rows[1].line, 7);
+}
+
+TEST_F(Csv, FindsColumnsByNameInAnyOrderAmongOthers) {
+  const auto csv = read("gamma,note,gap,time\n-1,7,2,3\n");
+  ASSERT_EQ(csv.rows.size(), 1U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(3.0, 2.0, -1.0));
+}
+
+TEST_F(Csv, ReadsAnAbsentOptionalColumnAsEmpty) {
+  const auto csv = read("time,gap\n1,2\n");
+  ASSERT_EQ(csv.rows.size(), 1U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
+}
+
+TEST_F(Csv, TakesWindowsLineEnds) {
+  const auto csv = read("# viscosity: 3\r\n# rows: 1\r\ntime,gap,gamma\r\n1,2,-3\r\n");
+  EXPECT_THAT(csv.comments, ElementsAre(Pair("rows", "1"), Pair("viscosity", "3")));
+  ASSERT_EQ(csv.rows.size(), 1U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, -3.0));
+}
+
+TEST_F(Csv, TakesAByteOrderMark) {
+  const auto csv = read("\xEF\xBB\xBF# viscosity: 3\ntime,gap\n1,2\n");
+  EXPECT_THAT(csv.comments, ElementsAre(Pair("viscosity", "3")));
+  ASSERT_EQ(csv.rows.size(), 1U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
+}
+
+TEST_F(Csv, TakesALastLineWithoutItsEndWhereNoCountIsPromised) { EXPECT_EQ(read("time,gap\n1,2\n3,4").rows.size(), 2U); }
+
+TEST_F(Csv, DropsBlanksAroundFields) {
+  const auto csv = read(" time , gap\n 1\t, 2 \n");
+  ASSERT_EQ(csv.rows.size(), 1U);
+  EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
+}
+
+TEST_F(Csv, RefusesAMissingColumn) { EXPECT_EQ(refusal("time,gamma\n1,2\n"), ": column 'gap' is missing from the header line"); }
+
+TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
+  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' is twice in the header line");
+}
+
+TEST_F(Csv, RefusesAnEmptyFile) {
+  EXPECT_THAT(refusal(""), StartsWith(": has no header line"));
+  EXPECT_THAT(refusal("# viscosity: 3\n"), StartsWith(": has no header line"));
+}
+
+TEST_F(Csv, RefusesAShortRow) { EXPECT_EQ(refusal("# x: y\ntime,gap\n1,2\n3\n"), ":4: has fewer fields than the header line"); }
+
+TEST_F(Csv, RefusesALongRow) { EXPECT_EQ(refusal("time,gap\n1,2,3\n"), ":2: has more fields than the header line"); }
+
+TEST_F(Csv, RefusesALineBeyondAllReason) {
+  const std::size_t limit = std::size_t{1} << 24;  // of the library
+  EXPECT_THAT(refusal("time,gap\n1," + std::string(limit, '1') + "\n").substr(0, 100),
+              HasSubstr("is too long for a line of a CSV file"));
+}
+
+TEST_F(Csv, CutsALongFieldInItsMessage) {
+  const auto message = refusal("time,gap\n1," + std::string(10'000, 'x') + "\n");
+  EXPECT_LT(message.size(), 300U) << "an error is one or two lines";
+  EXPECT_THAT(message.substr(0, 100), StartsWith(":2: gap is not a finite number ('xxx"));
+}
+
+TEST_F(Csv, RefusesWhatIsNoFiniteNumber) {
+  for (const std::string text : {"nan", "NaN", "inf", "-inf", "1e400", "1e-400", "1.5x", "one", "\"1\""})
+    EXPECT_EQ(refusal("time,gap\n0,1\n0," + text + "\n"), ":3: gap is not a finite number ('" + text + "')");
+}
+
+TEST_F(Csv, RefusesFewerOrMoreRowsThanPromised) {
+  EXPECT_THAT(refusal("# rows: 3\ntime,gap\n1,2\n3,4\n"), AllOf(HasSubstr("has 2 rows"), HasSubstr("says 3")));
+  EXPECT_THAT(refusal("# rows: 1\ntime,gap\n1,2\n3,4\n"), AllOf(HasSubstr("has 2 rows"), HasSubstr("says 1")));
+  EXPECT_EQ(read("# rows: 2\ntime,gap\n1,2\n3,4\n").rows.size(), 2U);
+}
+
+TEST_F(Csv, CutAnywhereIsRefusedWhereACountIsPromised) {
+  const std::string text = "# rows: 2\ntime,gap,gamma\n0.25,1.5,-1.25\n0.5,1.75,-12.5\n";
+  ASSERT_EQ(read(text).rows.size(), 2U);
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    // A cut inside the last number leaves a row that looks whole; only its missing line end tells.
+    SCOPED_TRACE("cut to '" + text.substr(0, length) + "'");
+    refusal(text.substr(0, length));
+  }
+}
+
+TEST_F(Csv, RefusesABinaryFile) { EXPECT_THAT(refusal(std::string("\x7f" "ELF\0\1\2\n\3\4", 10)), HasSubstr("time")); }
+
+TEST_F(Csv, NamesTheEmptyFieldThatMustBeThere) {
+  const auto csv = read("time,gap\n1,\n");
+  EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }), "f.csv:2: gap is empty; must be a number");
+  EXPECT_EQ(required_field(csv.rows[0], kNames, 0, "f.csv"), 1.0);
+}
+
+TEST(CsvComment, IsReadAsANumberOrNamedInTheError) {
+  const CsvComments comments = {{"viscosity", "3.5"}, {"radius", "wide"}};
+  EXPECT_EQ(csv_comment_number(comments, "viscosity", "f.csv"), 3.5);
+  EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "radius", "f.csv"); }),
+            "f.csv: # radius: is not a finite number ('wide')");
+  EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }), "f.csv: the line '# mass: NUMBER' is missing");
+}
+
+TEST(CsvComment, RoundTrips) {
+  const CsvComments comments = {{"container", "radius 40, height: 80"}, {"empty", ""}, {"version of FreeFEM", "4.11"}};
+  EXPECT_EQ(read_csv_comments(write_csv_comments(comments)), comments);
+}
+
+TEST(CsvFile, ThatIsMissingIsNamed) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "none.csv";
+  EXPECT_THAT(bad_input([&] { read_csv(path, kNames, 1); }), StartsWith(path.string() + ": cannot be read"));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,34 @@
+// What a call that must fail says.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <exception>
+#include <string>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+/// The message of the Error with this exit code that `call` throws. Anything else fails the test and gives "".
+template <class Call>
+std::string failure(ExitCode exit_code, Call&& call) {
+  try {
+    call();
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), exit_code) << error.what();
+    return error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << "not a viscontact::Error: " << error.what();
+  }
+  return "";
+}
+
+/// The usual one.
+template <class Call>
+std::string bad_input(Call&& call) {
+  return failure(ExitCode::kBadInput, call);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,168 @@
+#include "common/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
+
+TEST(ReadFile, GivesEveryByte) {
+  const TemporaryFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 300'000; ++i) bytes += static_cast<char>(i % 256);  // several buffers, NUL and CR LF among them
+  EXPECT_EQ(read_file(folder.file("bytes", bytes)), bytes);
+  EXPECT_EQ(read_file(folder.file("empty", "")), "");
+}
+
+TEST(ReadFile, NamesAMissingFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "missing.csv";
+  EXPECT_THAT(bad_input([&] { read_file(path); }), StartsWith(path.string() + ": cannot be read (No such file"));
+}
+
+TEST(ReadFile, NamesAFolderInPlaceOfAFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(bad_input([&] { read_file(folder.path()); }),
+              StartsWith(folder.path().string() + ": cannot be read (Is a directory"));
+}
+
+TEST(WriteFile, WritesWhatReadFileReads) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "table.csv";
+  const std::string content("a,b\n1,2\n\0\xff", 10);
+  write_file(path, content);
+  EXPECT_EQ(read_file(path), content);
+  EXPECT_THAT(folder.names(), ElementsAre("table.csv"));
+}
+
+TEST(WriteFile, ReplacesALongerFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("fit.json", "an older and longer text");
+  write_file(path, "new");
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_THAT(folder.names(), ElementsAre("fit.json"));
+}
+
+TEST(WriteFile, MakesMissingFolders) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "out" / "lecture" / "fit.json";
+  write_file(path, "x");
+  EXPECT_EQ(read_file(path), "x");
+}
+
+TEST(WriteFile, LeavesAFolderInTheWayAsItIs) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "fit.json";
+  std::filesystem::create_directory(path);
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }),
+              StartsWith(path.string() + ": cannot be written (Is a directory"));
+  EXPECT_TRUE(std::filesystem::is_directory(path));
+  EXPECT_THAT(folder.names(), ElementsAre("fit.json"));
+}
+
+// These tests may run as root, whom permissions do not stop; a path below a file stops root too.
+TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("file", "old");
+  EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), StartsWith(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }), StartsWith(file.string()));
+  EXPECT_EQ(read_file(file), "old");
+  EXPECT_THAT(folder.names(), ElementsAre("file"));
+}
+
+TEST(WriteFile, RefusesANameThatNoFileSystemTakes) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / std::string(300, 'x');  // 255 bytes is the limit of a name
+  EXPECT_THAT(bad_input([&] { write_file(path, "x"); }), HasSubstr("xxx: cannot be written"));
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(WriteFile, LeavesTheOldFileWhenTheNewOneCannotBeWrittenBesideIt) {
+  const TemporaryFolder folder;
+  // The old name just fits; the longer one of the new file beside it does not.
+  const std::string name(250, 'x');
+  const auto path = folder.file(name, "old");
+  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }), StartsWith(path.string() + ": cannot be written"));
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_THAT(folder.names(), ElementsAre(name));
+}
+
+TEST(WriteFile, NeverPutsAFileInPlaceOfADevice) {
+  // Root could replace /dev/stdout, which is a link, or /dev/null; here a link of our own stands for them.
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "link_to_device";
+  std::filesystem::create_symlink("/dev/null", path);
+  try {
+    write_file(path, "x");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), ExitCode::kBadInput);  // to refuse is as good as to write there
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file(path));
+  EXPECT_THAT(folder.names(), ElementsAre("link_to_device"));
+}
+
+TEST(WriteFile, LeavesALinkALinkAndReplacesWhatItPointsTo) {
+  const TemporaryFolder folder;
+  const auto target = folder.file("target", "old");
+  const auto link = folder.path() / "link";
+  std::filesystem::create_symlink("target", link);
+  write_file(link, "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_FALSE(std::filesystem::is_symlink(target));
+  EXPECT_EQ(read_file(target), "new");
+  EXPECT_THAT(folder.names(), UnorderedElementsAre("link", "target"));
+}
+
+TEST(WriteFile, RefusesALinkToItself) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "link";
+  std::filesystem::create_symlink("link", link);
+  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }), StartsWith(link.string() + ": cannot be written"));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
+TEST(CheckOutputFile, AcceptsWhatCanBeWrittenAndMakesNothing) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(check_output_file(folder.path() / "new"), folder.path() / "new");
+  EXPECT_EQ(check_output_file(folder.path() / "missing" / "new"), folder.path() / "missing" / "new");
+  EXPECT_EQ(check_output_file("new"), "new");
+  EXPECT_THAT(folder.names(), IsEmpty());
+  EXPECT_EQ(check_output_file(folder.file("old", "old")), folder.path() / "old");
+}
+
+TEST(CheckOutputFile, RefusesAFolderAndADevice) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }),
+              StartsWith(folder.path().string() + ": cannot be written (Is a directory"));
+  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }), StartsWith("/dev/null: cannot be written"));
+}
+
+TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a" / "b";
+  make_folder(path);
+  make_folder(path);
+  EXPECT_TRUE(std::filesystem::is_directory(path));
+}
+
+TEST(MakeFolder, NamesAFileInTheWay) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("file", "old");
+  EXPECT_THAT(bad_input([&] { make_folder(file); }), StartsWith(file.string() + ": cannot be made"));
+  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }), StartsWith((file / "below").string() + ": cannot be made"));
+  EXPECT_EQ(read_file(file), "old");
+}
+
+}  // namespace
+}  // namespace viscontact

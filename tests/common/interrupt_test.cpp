@@ -1,0 +1,71 @@
+// Each in a process of its own: an interrupt cannot be taken back.
+#include "common/interrupt.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>  // kill and raise are POSIX
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "common/process.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+TEST(Interrupt, IsNoneBeforeASignal) {
+  EXPECT_FALSE(interrupted());
+  EXPECT_NO_THROW(throw_if_interrupted());
+}
+
+void exit_with_what_a_signal_gives(int signal) {
+  catch_interrupts();
+  if (interrupted()) std::exit(1);
+  ::raise(signal);
+  if (!interrupted()) std::exit(2);
+  try {
+    throw_if_interrupted();
+  } catch (const Error& error) {
+    std::exit(static_cast<int>(error.exit_code()));
+  }
+  std::exit(3);
+}
+
+TEST(Interrupt, TurnsASignalIntoTheErrorWithItsExitCode) {
+  for (const int signal : {SIGINT, SIGTERM})
+    EXPECT_EXIT(exit_with_what_a_signal_gives(signal), ::testing::ExitedWithCode(130), "");
+}
+
+/// Runs a child that writes its process number and would then stay for an hour; the interrupt comes once it is there.
+void interrupt_a_child(const std::string& number_file) {
+  catch_interrupts();
+  std::thread([=] {
+    pid_t child = 0;
+    while (!(std::ifstream(number_file) >> child)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ::kill(::getpid(), SIGINT);
+  }).detach();
+  try {
+    run_process({"sh", "-c", "echo $$ > " + number_file + "; exec sleep 3600"});
+  } catch (const Error& error) {
+    std::_Exit(static_cast<int>(error.exit_code()));  // the thread may still be ending
+  }
+  std::_Exit(1);
+}
+
+TEST(Interrupt, EndsTheChildThatIsWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string number_file = (folder.path() / "child").string();
+  EXPECT_EXIT(interrupt_a_child(number_file), ::testing::ExitedWithCode(130), "");
+  pid_t child = 0;
+  ASSERT_TRUE(std::ifstream(number_file) >> child);
+  EXPECT_NE(::kill(child, 0), 0) << "process " << child << " is still there";
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,127 @@
+#include "common/process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <string>
+
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+
+ProcessResult shell(const std::string& script, const std::vector<std::string>& environment = {},
+                    const std::string& input = {}) {
+  return run_process({"sh", "-c", script}, environment, input);
+}
+
+/// Lines of text, `size` bytes in all: more than the 64 KiB that a pipe holds.
+std::string large_input(std::size_t size) {
+  std::string text;
+  for (std::size_t i = 0; text.size() < size; ++i) text += "line " + std::to_string(i) + "\n";
+  return text;
+}
+
+TEST(Process, GivesOutputAndErrorsAsTheyCame) {
+  const auto result = shell("echo one; echo two >&2; echo three");
+  EXPECT_TRUE(result.started);
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.output, "one\ntwo\nthree\n");
+}
+
+TEST(Process, GivesTheExitStatus) {
+  EXPECT_EQ(shell("exit 0").exit_status, 0);
+  EXPECT_EQ(shell("exit 7").exit_status, 7);
+}
+
+TEST(Process, GivesTheSignalThatEndedIt) {
+  EXPECT_EQ(shell("kill -KILL $$").exit_status, 128 + SIGKILL);
+  EXPECT_EQ(shell("echo before; kill -SEGV $$").output, "before\n");
+}
+
+TEST(Process, SaysThatAProgramIsMissing) {
+  const auto result = run_process({"viscontact-no-such-program"});
+  EXPECT_FALSE(result.started);
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_THAT(result.output, HasSubstr("No such file"));
+}
+
+TEST(Process, SaysThatAFileMayNotBeRun) {
+  const TemporaryFolder folder;
+  const auto result = run_process({folder.file("text", "no program\n").string()});  // not executable, for root neither
+  EXPECT_FALSE(result.started);
+  EXPECT_THAT(result.output, HasSubstr("Permission denied"));
+}
+
+TEST(Process, PassesArgumentsAsTheyAre) {
+  const auto result = run_process({"printf", "%s|", "two words", "", "$HOME;*", "'\""});
+  EXPECT_EQ(result.output, "two words||$HOME;*|'\"|");
+}
+
+TEST(Process, AddsToTheEnvironmentAndKeepsTheRest) {
+  const auto result = shell("echo \"$ADDED\"; test -n \"$PATH\" && echo kept", {"ADDED=a b=c"});
+  EXPECT_EQ(result.output, "a b=c\nkept\n");
+}
+
+TEST(Process, ReplacesAVariableThatIsSetAlready) {
+  const auto result = run_process({"env"}, {"HOME=elsewhere"});
+  EXPECT_THAT(result.output, HasSubstr("HOME=elsewhere\n"));
+  std::size_t count = 0;
+  const std::string lines = "\n" + result.output;
+  for (auto at = lines.find("\nHOME="); at != std::string::npos; at = lines.find("\nHOME=", at + 1)) ++count;
+  EXPECT_EQ(count, 1U);
+}
+
+TEST(Process, HasNoInputUnlessGiven) { EXPECT_EQ(shell("cat; echo end").output, "end\n"); }
+
+TEST(Process, TalksBothWaysWithoutDeadlock) {
+  // Either pipe holds 64 KiB: to write all before reading, or the reverse, would wait for ever.
+  const std::string input = large_input(4'000'000);
+  const auto result = run_process({"cat"}, {}, input);
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_TRUE(result.output == input) << result.output.size() << " bytes came back of " << input.size();
+}
+
+TEST(Process, MayAnswerOnlyWhenAllIsReadOrTalkBeforeItReads) {
+  const std::string input = large_input(1'000'000);
+  EXPECT_TRUE(shell("content=$(cat; echo .); printf %s \"${content%.}\"", {}, input).output == input);
+  const auto result = shell("head -c 1000000 /dev/zero | tr '\\0' x; wc -c", {}, input);
+  EXPECT_EQ(result.output.substr(0, 1'000'000), std::string(1'000'000, 'x'));
+  EXPECT_THAT(result.output.substr(1'000'000), HasSubstr(std::to_string(input.size())));
+}
+
+TEST(Process, ThatDoesNotReadItsInputDoesNotEndUs) {
+  // Writing to it raises SIGPIPE, which by default would end this process without a word.
+  const std::string input = large_input(1'000'000);
+  EXPECT_EXIT(
+      {
+        const auto result = shell("exec <&-; echo not reading; exit 3", {}, input);
+        std::exit(result.exit_status == 3 && result.output == "not reading\n" ? 0 : 1);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
+TEST(Process, ReportsTheMemoryOfTheChild) {
+  // A shell variable of 32 MB takes that much at least, in kB.
+  const auto result = shell("x=$(head -c 32000000 /dev/zero | tr '\\0' x); echo ${#x}");
+  EXPECT_EQ(result.output, "32000000\n");
+  EXPECT_GE(result.peak_memory_kb, 32'000'000 / 1024);
+}
+
+TEST(Process, LeavesNoDescriptorOpen) {
+  const auto count = [] {
+    std::size_t open = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) ++open;
+    return open;
+  };
+  const auto before = count();
+  shell("true");
+  run_process({"viscontact-no-such-program"});
+  EXPECT_EQ(count(), before);
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,158 @@
+// That docs/fit.schema.json and the reader mean the same file: every rule of the schema, applied to a good file, is one the
+// reader has too.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "common/file.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/terms.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/fitting/samples.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+Json schema() {
+  return Json::parse(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs" / "fit.schema.json"));
+}
+
+Json good_file() {
+  Fit fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  fit.versions = {{"Ceres", "2.1.0"}};
+  return Json::parse(write_fit(fit));
+}
+
+/// A value of each type that the schema does not allow: "number", "string", ... are the keys.
+const Json kOneOfEach = {{"number", 1.5}, {"string", "text"}, {"array", Json::array({1})}, {"object", {{"x", 1}}},
+                         {"boolean", true}, {"null", nullptr}};
+
+class Schema : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_NO_THROW(read(good_file())); }
+
+  void read(const Json& json) const { read_fit(folder_.file("fit.json", json.dump())); }
+
+  /// Applies each rule of `rules` (a schema of type object) to the object at `pointer` in a good file.
+  void expect_object_rules(const Json& rules, const std::string& pointer) const {
+    const Json::json_pointer place(pointer);
+    const Json good = good_file();
+    ASSERT_EQ(rules.at("additionalProperties"), false);
+    expect_refused(changed(good, place, [](Json& object) { object["surplus"] = 1; }), "surplus");
+    for (const auto& [key, rule] : rules.at("properties").items()) {
+      SCOPED_TRACE(key);
+      ASSERT_TRUE(good.at(place).contains(key)) << "in the schema, but not in what write_fit writes";
+      expect_value_rules(rule, key, place);
+    }
+    for (const auto& [key, value] : good.at(place).items())
+      EXPECT_TRUE(rules.at("properties").contains(key)) << key << " is written, but not in the schema";
+    for (const std::string key : rules.at("required")) {
+      EXPECT_TRUE(rules.at("properties").contains(key)) << key;
+      expect_refused(changed(good, place, [&](Json& object) { object.erase(key); }), key);
+    }
+    EXPECT_EQ(rules.at("required").size(), rules.at("properties").size()) << "the reader has no optional keys";
+  }
+
+  void expect_refused(const Json& json, const std::string& key) const {
+    EXPECT_THAT(bad_input([&] { read(json); }), HasSubstr(key)) << json.dump();
+  }
+
+ private:
+  template <class Change>
+  static Json changed(Json json, const Json::json_pointer& place, Change&& change) {
+    change(json.at(place));
+    return json;
+  }
+
+  void expect_value_rules(const Json& rule, const std::string& key, const Json::json_pointer& place) const {
+    const Json good = good_file();
+    const auto refused = [&](const Json& value) {
+      expect_refused(changed(good, place, [&](Json& object) { object[key] = value; }), key);
+    };
+    const auto read_well = [&](const Json& value) {
+      EXPECT_NO_THROW(read(changed(good, place, [&](Json& object) { object[key] = value; }))) << value;
+    };
+    for (const auto& [type, value] : kOneOfEach.items())
+      if (type != rule.at("type")) refused(value);
+    for (const auto& [name, argument] : rule.items()) {
+      if (name == "enum") {
+        refused("no such word");
+      } else if (name == "minimum") {
+        refused(argument.get<double>() - 1e-9);
+        read_well(argument);
+      } else if (name == "exclusiveMinimum") {
+        refused(argument);
+        read_well(argument.get<double>() + 1e-9);
+      } else if (name == "not") {
+        refused(argument.at("const"));
+        read_well(-argument.at("const").get<double>() - 1e-9);
+      } else if (name == "minItems" || name == "maxItems") {
+        Json items = good.at(place).at(key);
+        while (name == "minItems" && items.size() >= argument) items.erase(0);
+        while (name == "maxItems" && items.size() <= argument) items.push_back(items.back());
+        refused(items);
+      } else if (name == "items") {
+        expect_element_type(argument, key, refused, good.at(place).at(key));
+      } else if (name == "additionalProperties") {
+        for (const auto& [type, value] : kOneOfEach.items())
+          if (type != argument.at("type")) refused({{"Ceres", value}});
+      } else {
+        EXPECT_TRUE(name == "type" || name == "description") << "the test does not know the rule " << name;
+      }
+    }
+  }
+
+  template <class Refused>
+  static void expect_element_type(const Json& rule, const std::string& key, const Refused& refused, const Json& good) {
+    for (const auto& [type, value] : kOneOfEach.items()) {
+      if (type == rule.at("type")) continue;
+      Json elements = good;
+      elements[0] = value;
+      SCOPED_TRACE(key + "[0] = " + value.dump());
+      refused(elements);
+    }
+    if (rule.contains("items")) {
+      Json elements = good;
+      elements[0][0] = "text";
+      refused(elements);
+    }
+    if (rule.contains("exclusiveMinimum")) {
+      Json elements = good;
+      elements[0] = rule.at("exclusiveMinimum");
+      refused(elements);
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Schema, RulesOfTheFileAreTheReaders) { expect_object_rules(schema(), ""); }
+
+TEST_F(Schema, RulesOfATermAreTheReaders) {
+  expect_object_rules(schema().at("properties").at("terms").at("items"), "/terms/0");
+}
+
+TEST_F(Schema, KnowsEveryTermThereIs) {
+  const Json names = schema().at("properties").at("terms").at("items").at("properties").at("name").at("enum");
+  std::set<std::string> terms;
+  for (const auto& term : all_terms()) terms.emplace(term.name);
+  EXPECT_EQ(names.get<std::set<std::string>>(), terms);
+}
+
+TEST_F(Schema, KnowsEveryWeights) {
+  for (const std::string word : schema().at("properties").at("weights").at("enum")) EXPECT_NO_THROW(parse_weights(word));
+}
+
+TEST_F(Schema, IsOfTheDraftItClaims) {
+  EXPECT_EQ(schema().at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,176 @@
+#include "fitting/fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "fitting/terms.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/fitting/samples.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+double fitted_force(const Fit& fit, double gap) {
+  double force = 0;
+  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
+  return force;
+}
+
+/// A figure of physics.md, section 3, and half a unit of its last printed digit.
+struct Printed {
+  const char* basis;
+  Weights weights;
+  double figure, half_digit;
+};
+
+class ExactDrag : public ::testing::TestWithParam<Printed> {};
+
+TEST_P(ExactDrag, IsFittedAsWellAsTheoryAllows) {
+  const auto& [basis, weights, figure, half_digit] = GetParam();
+  const auto table = exact_drag_table(fifty_gaps(), {-1}, 1 / (6 * std::numbers::pi), 1);
+  const auto fit = fit_force_table(table, basis, weights);
+  EXPECT_NEAR(fit.largest_relative_residual, figure, half_digit);
+  EXPECT_EQ(fit.gap_interval, (std::array{1e-3, 1.0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Fit, ExactDrag,
+                         ::testing::Values(Printed{"lecture", Weights::kAbsolute, 3.3e-2, 0.05e-2},
+                                           Printed{"lecture", Weights::kRelative, 2.5e-3, 0.05e-3},
+                                           Printed{"asymptotic", Weights::kRelative, 6e-6, 0.5e-6}),
+                         [](const auto& tested) {
+                           const std::string weights(to_string(tested.param.weights));
+                           return std::string(tested.param.basis) + "_" + weights;
+                         });
+
+TEST(Fit, ReportsTheResidualsOfItsCoefficients) {
+  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+    const auto table = exact_drag_table(fifty_gaps(), {-2}, 3, 1.5);
+    const auto fit = fit_force_table(table, "lecture", weights);
+    double largest = 0, squares = 0;
+    for (const auto& row : table.rows) {
+      const double residual = fitted_force(fit, row.gap) / row.force - 1;
+      largest = std::max(largest, std::abs(residual));
+      squares += residual * residual;
+    }
+    // Residuals of 1e-3 and more, each the difference of terms that are known to 1e-15 of the force, times their cancellation.
+    EXPECT_NEAR(fit.largest_relative_residual, largest, 1e-13);
+    EXPECT_NEAR(fit.rms_relative_residual, std::sqrt(squares / 50), 1e-13);
+    EXPECT_EQ(fit.viscosity, 3);
+    EXPECT_EQ(fit.radius, 1.5);
+    EXPECT_EQ(fit.reference_velocity, -2);
+    EXPECT_EQ(fit.weights, weights);
+    for (std::size_t i = 0; i < fit.terms.size(); ++i)
+      EXPECT_EQ(fit.terms[i].standard_error, std::sqrt(fit.covariance[i][i])) << fit.terms[i].name;
+  }
+}
+
+TEST(Fit, LeavesResidualsThatEveryTermIsOrthogonalTo) {
+  // The normal equations, which make it the least-squares fit: sum of w^2 (fit - F) term = 0.
+  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+    const auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+    const auto fit = fit_force_table(table, "lecture", weights);
+    for (const auto& term : fit.terms) {
+      double product = 0, residuals = 0, terms = 0, forces = 0;
+      for (const auto& row : table.rows) {
+        const double weight = weights == Weights::kRelative ? 1 / row.force : 1;
+        const double residual = weight * (fitted_force(fit, row.gap) - row.force);
+        const double value = weight * find_term(term.name)->value(row.gap);
+        product += residual * value;
+        residuals += residual * residual;
+        terms += value * value;
+        forces += weight * row.force * weight * row.force;
+      }
+      // The cosine of the angle is 0 up to the rounding of the forces (eps of their length, a hundred operations) over the residual.
+      const double rounding = 2e-14 * std::sqrt(forces / residuals);
+      EXPECT_LT(std::abs(product) / std::sqrt(residuals * terms), rounding) << term.name;
+    }
+  }
+}
+
+TEST(Fit, RecoversPlantedCoefficients) {
+  const std::vector<double> planted = {56.5, -12.25, 40, 3, -0.5};
+  for (const auto& basis : all_bases()) {
+    ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+    for (auto& row : table.rows) {
+      row.force = 0;
+      for (std::size_t i = 0; i < planted.size(); ++i) row.force += planted[i] * basis.terms[i].value(row.gap);
+    }
+    const auto fit = fit_force_table(table, basis.name, Weights::kRelative);
+    ASSERT_EQ(fit.terms.size(), planted.size());
+    for (std::size_t i = 0; i < planted.size(); ++i) {
+      EXPECT_EQ(fit.terms[i].name, basis.terms[i].name);
+      // Forces are rounded to eps = 2e-16; the conditioning brings it back, in units of the smallest column (1e-2 of the largest).
+      EXPECT_NEAR(fit.terms[i].coefficient, planted[i], 1e-13 * fit.condition_number) << basis.name << " " << fit.terms[i].name;
+    }
+    EXPECT_LT(fit.largest_relative_residual, 1e-14 * fit.condition_number);
+  }
+}
+
+TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
+  // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact in doubles too.
+  const auto one = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  const auto several = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4, 0.5}, 3, 1), "lecture", Weights::kRelative);
+  EXPECT_EQ(several.reference_velocity, -1);
+  ASSERT_EQ(several.terms.size(), one.terms.size());
+  for (std::size_t i = 0; i < one.terms.size(); ++i) {
+    // The same minimum, by another sequence of roundings.
+    const double rounding = 1e-14 * one.condition_number * std::abs(one.terms[i].coefficient);
+    EXPECT_NEAR(several.terms[i].coefficient, one.terms[i].coefficient, rounding) << one.terms[i].name;
+    // Three times the rows, three times the residuals: s^2 (A^T A)^-1 falls as (n - p) / (3 n - p).
+    EXPECT_NEAR(several.terms[i].standard_error / one.terms[i].standard_error, std::sqrt(45.0 / 145), 1e-10);
+  }
+}
+
+TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
+  const auto at_one = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1), "lecture", Weights::kRelative);
+  const auto at_four = fit_force_table(exact_drag_table(fifty_gaps(), {-4, -1}, 3, 1), "lecture", Weights::kRelative);
+  EXPECT_EQ(at_four.reference_velocity, -4);
+  for (std::size_t i = 0; i < at_one.terms.size(); ++i)
+    EXPECT_NEAR(at_four.terms[i].coefficient, 4 * at_one.terms[i].coefficient,
+                1e-14 * at_one.condition_number * std::abs(4 * at_one.terms[i].coefficient));  // rounding, as above
+}
+
+TEST(Fit, OfTheExactDragHasTheLeadingCoefficientOfTheory) {
+  const auto fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative);
+  ASSERT_EQ(fit.terms[0].name, "1/q");
+  // At the smallest gap 1/q is all but 2.4e-3 of the drag, and the fit is within 6e-6 of it there.
+  EXPECT_NEAR(fit.terms[0].coefficient / (6 * std::numbers::pi * 3), 1, 1e-5);
+}
+
+TEST(Fit, NeedsAsManyDifferentGapsAsTerms) {
+  // Ten rows, but four gaps.
+  const auto table = exact_drag_table({0.1, 0.2, 0.3, 0.3, 0.4}, {-1, -2}, 3, 1);
+  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kRelative); }),
+              AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
+  EXPECT_THAT(bad_input([] { fit_force_table(ForceTable{}, "lecture", Weights::kRelative); }), HasSubstr("0 different gap"));
+}
+
+TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
+  std::vector<double> gaps;
+  for (int i = 0; i < 10; ++i) gaps.push_back(0.5 * (1 + i * 1e-15));
+  const auto table = exact_drag_table(gaps, {-1}, 3, 1);
+  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { fit_force_table(table, "lecture", Weights::kRelative); }),
+              HasSubstr("cannot be told apart"));
+}
+
+TEST(Fit, NamesAnUnknownBasis) {
+  EXPECT_THAT(bad_input([] { fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "cubic", Weights::kRelative); }),
+              AllOf(HasSubstr("'cubic'"), HasSubstr("lecture")));
+}
+
+TEST(Weights, AreNamedAndReadBack) {
+  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) EXPECT_EQ(parse_weights(to_string(weights)), weights);
+  EXPECT_EQ(to_string(Weights::kRelative), "relative");
+  EXPECT_THAT(bad_input([] { parse_weights("squared"); }), AllOf(HasSubstr("'squared'"), HasSubstr("relative or absolute")));
+}
+
+}  // namespace
+}  // namespace viscontact

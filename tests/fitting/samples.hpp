@@ -1,0 +1,64 @@
+// Tables and fits that several tests start from.
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "fitting/fit.hpp"
+#include "fitting/force_table.hpp"
+#include "tests/oracles/brenner.hpp"
+
+namespace viscontact {
+
+/// `count` numbers from `from` to `to`, in geometric progression.
+inline std::vector<double> log_spaced(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
+  values.back() = to;
+  return values;
+}
+
+/// The table that a perfect solver of the half-space would give.
+inline ForceTable exact_drag_table(const std::vector<double>& gaps, const std::vector<double>& velocities,
+                                   double viscosity, double radius) {
+  ForceTable table;
+  table.viscosity = viscosity;
+  table.radius = radius;
+  table.container = "unbounded";
+  for (const double velocity : velocities)
+    for (const double gap : gaps) {
+      ForceTableRow row;
+      row.gap = gap;
+      row.reference_velocity = velocity;
+      row.drag_factor = brenner_drag_factor(gap / radius);
+      row.force = -6 * std::numbers::pi * viscosity * radius * row.drag_factor * velocity;
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+/// The 50 gaps of physics.md's table of what the exact half-space drag allows (section 3).
+inline std::vector<double> fifty_gaps() { return log_spaced(1e-3, 1, 50); }
+
+struct NamedCoefficient {
+  std::string term;
+  double coefficient;
+};
+
+/// A fit of given coefficients at u0 = -1, so that its resistance is the sum of coefficient * term.
+inline Fit planted_fit(std::initializer_list<NamedCoefficient> terms, double smallest_gap, double largest_gap) {
+  Fit fit;
+  fit.basis = "planted";
+  fit.reference_velocity = -1;
+  fit.viscosity = 3;
+  fit.radius = 1;
+  fit.gap_interval = {smallest_gap, largest_gap};
+  for (const auto& [term, coefficient] : terms) fit.terms.push_back({term, coefficient, 0});
+  fit.covariance.assign(terms.size(), std::vector<double>(terms.size(), 0.0));
+  return fit;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,31 @@
+// A shell script in FreeFEM's place: answers at once, remembers what it was asked, and fails as it is told to.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "freefem_axi/freefem.hpp"
+
+namespace viscontact {
+
+class FakeFreeFem {
+ public:
+  /// Writes the script into `folder`. `before` is shell text that runs before a row is answered, with $gap, $velocity, $viscosity
+  /// and $radius set and $folder the folder; it may sleep, fail or exit. (version.edp is answered before that.)
+  explicit FakeFreeFem(std::filesystem::path folder, const std::string& before = "");
+
+  /// What the row of a gap and velocity answers: F = -6 pi mu r u0 (r/q + 1), which the lecture's basis fits exactly.
+  static double force(double radius, double viscosity, double gap, double velocity);
+
+  FreeFem freefem() const { return {executable(), folder_}; }
+  std::string executable() const { return (folder_ / "fake_freefem").string(); }
+
+  /// "GAP VELOCITY" of every row answered so far, in the order of answering.
+  std::vector<std::string> answered() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace viscontact

@@ -1,0 +1,102 @@
+// FreeFEM missing or failing, played by shell scripts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "freefem_axi/tabulation.hpp"
+#include "tests/freefem_axi/expect_error.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/freefem_axi/tabulations.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
+
+TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
+  const FreeFem missing{"no-such-freefem", "."};
+  const auto said = AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install"), HasSubstr("VISCONTACT_FREEFEM"));
+  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram, said);
+  expect_error([&] { (void)freefem_version(missing); }, ExitCode::kExternalProgram, said);
+}
+
+TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
+  const ScratchFolder scratch;
+  put_text(scratch.path() / "text", "not a program");
+  const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
+  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram, HasSubstr("text"));
+}
+
+TEST(FakeFreeFem, AnswersAsARowOfTheTable) {
+  const ScratchFolder scratch;
+  const FakeFreeFem fake(scratch.path());
+  const auto row = solve_row(fake.freefem(), kTabulation, 0.25, -2);
+  EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, 0.25, -2), 1, 1e-15);  // 17 digits printed by awk
+  EXPECT_NEAR(row.drag_factor, 5, 1e-14);                                 // r/q + 1, round-off
+  EXPECT_EQ(row.relative_error_estimate, 1e-6);
+  EXPECT_EQ(row.degrees_of_freedom, 1000);
+  EXPECT_GE(row.seconds, 0);
+}
+
+struct Failure {
+  std::string name;
+  std::string script;             ///< what the fake does when it is asked for a row
+  std::vector<std::string> said;  ///< parts of the error
+};
+
+// What GoogleTest shows of the parameter.
+std::ostream& operator<<(std::ostream& out, const Failure& failure) { return out << failure.name; }
+
+class FailingFreeFem : public ::testing::TestWithParam<Failure> {};
+
+TEST_P(FailingFreeFem, ErrorNamesTheRowAndItsLastLines) {
+  const ScratchFolder scratch;
+  const FakeFreeFem fake(scratch.path(), GetParam().script);
+  auto said = GetParam().said;
+  said.insert(said.end(), {"gap 0.25", "velocity -1"});
+  for (const auto& part : said)
+    expect_error([&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+                 AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, FailingFreeFem,
+    ::testing::Values(
+        Failure{"GarbageAndExitStatus3", "for i in 1 2 3 4 5 6 7 8 9; do echo \"garbage $i\"; done; exit 3\n",
+                {"exit status 3", "garbage 6 | garbage 7 | garbage 8 | garbage 9"}},
+        Failure{"ErrorOfTheScript", "echo 'viscontact-error the linear solve failed'; echo 'exit(4)'; exit 4\n",
+                {"exit status 4", ": the linear solve failed"}},
+        Failure{"NothingAndExitStatus0", "exit 0\n", {"exit status 0"}},
+        Failure{"KilledByASignal", "echo 'out of memory'; kill -KILL $$\n", {"exit status 137", "out of memory"}},
+        Failure{"ForceNotANumber", "echo 'viscontact-result nan 0 0'; exit 0\n", {"viscontact-result nan 0 0"}},
+        Failure{"ForceInfinite", "echo 'viscontact-result -inf 0 0'; exit 0\n", {"viscontact-result -inf 0 0"}},
+        Failure{"ResultCutShort", "echo 'viscontact-result 1.5'; exit 0\n", {"viscontact-result 1.5"}},
+        Failure{"ResultThenAFailure", "echo 'viscontact-result 1.5 0 10'; echo 'double free'; exit 134\n",
+                {"exit status 134", "double free"}}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(OtherProgram, HasNoFreeFemVersion) {
+  const ScratchFolder scratch;
+  put_text(scratch.path() / "other", "#!/bin/sh\necho hello\n");
+  make_executable(scratch.path() / "other");
+  expect_error([&] { (void)freefem_version({(scratch.path() / "other").string(), scratch.path()}); }, ExitCode::kExternalProgram,
+               HasSubstr("other"));
+}
+
+TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
+  EXPECT_EQ(line_after("x key 0\nkey 1 2\nkey 3\n", "key"), "1 2");
+  EXPECT_EQ(line_after("keys 1\n", "key"), "");
+}
+
+TEST(Geometry, UnknownOneIsBadInputThatListsThoseThereAre) {
+  expect_error([] { (void)find_geometry("torus"); }, ExitCode::kBadInput, AllOf(HasSubstr("torus"), HasSubstr("plane")));
+}
+
+}  // namespace
+}  // namespace viscontact

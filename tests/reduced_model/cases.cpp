@@ -1,0 +1,80 @@
+#include "tests/reduced_model/cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "tests/oracles/brenner.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr double kViscosity = 3;
+constexpr double kRadius = 1;
+
+Motion motion_with_settings(double mass, double end_time, std::vector<ExternalForce::Piece> pieces) {
+  Motion motion{mass, 1, 0, end_time, ExternalForce(std::move(pieces))};
+  motion.reference_time_step = 1e-3;
+  motion.inertial_relative_tolerance = 1e-9;
+  motion.contact_time_step = 1e-3;
+  motion.threshold_gap = 0.1;
+  return motion;
+}
+
+/// A fit that was not fitted: these terms, as they are.
+Fit planted_fit(double k, std::array<double, 2> gap_interval, std::vector<FitTerm> terms) {
+  Fit fit;
+  fit.basis = "planted";
+  fit.reference_velocity = -1;
+  fit.viscosity = k / (6 * std::numbers::pi * kRadius * kRadius);
+  fit.radius = kRadius;
+  fit.gap_interval = gap_interval;
+  fit.covariance.assign(terms.size(), std::vector<double>(terms.size(), 0.0));
+  fit.terms = std::move(terms);
+  return fit;
+}
+
+}  // namespace
+
+Motion lecture_motion() { return motion_with_settings(20, 4, {{2, -200}, {4, 200}}); }
+
+Motion limit_motion() { return motion_with_settings(1, 6, {{2, -2}, {6, 2}}); }
+
+Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
+  constexpr int kRows = 40;
+  ForceTable table;
+  table.viscosity = kViscosity;
+  table.radius = kRadius;
+  for (int i = 0; i < kRows; ++i) {
+    ForceTableRow row;
+    row.gap = gaps[0] * std::pow(gaps[1] / gaps[0], static_cast<double>(i) / (kRows - 1));
+    if (i == kRows - 1) row.gap = gaps[1];
+    row.reference_velocity = -1;
+    row.force = 6 * std::numbers::pi * kViscosity * kRadius * brenner_drag_factor(row.gap / kRadius);
+    table.rows.push_back(row);
+  }
+  return fit_force_table(table, basis, Weights::kRelative);
+}
+
+Fit lecture_fit() { return brenner_fit("lecture", {1e-3, 2}); }
+
+Fit close_fit() { return brenner_fit("asymptotic", {1e-3, 1.01}); }
+
+Fit leading_term_fit(double k) { return planted_fit(k, {1e-200, 1e20}, {{"1/q", k, 0}}); }
+
+Fit shifted_fit(double k) { return planted_fit(k, {1e-200, 1e200}, {{"1/q", k, 0}, {"1", k, 0}}); }
+
+const TrajectoryRow& lowest_row(const Trajectory& trajectory) {
+  return *std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
+}
+
+const TrajectoryRow& row_at(const Trajectory& trajectory, double time) {
+  const auto found = std::ranges::find(trajectory.rows, time, &TrajectoryRow::time);
+  if (found == trajectory.rows.end()) throw std::out_of_range("no row at time " + std::to_string(time));
+  return *found;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,45 @@
+// The motions and forces that the tests of the models share.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "fitting/fit.hpp"
+#include "reduced_model/motion.hpp"
+#include "reduced_model/trajectory.hpp"
+
+namespace viscontact {
+
+/// Exact inertialess and inertial minimal gaps of the lecture's case (physics.md, "Numbers that must come out"): half-space, exact drag.
+inline constexpr double kExactMinimalGap = 2.97084661e-3;
+inline constexpr double kInertialMinimalGap = 2.97845928e-3;
+inline constexpr double kInertialMinimalGapTime = 2.00072819;
+
+/// The lecture's case: m = 20, q0 = 1 at rest, pushed by -200 for 2, pulled by +200 until 4. Time steps 1e-3, tolerance 1e-9.
+Motion lecture_motion();
+
+/// The lecture's limit case: m = 1, q0 = 1 at rest, f = -2 until t = 2 and +2 until t = 6. Time steps 1e-3, tolerance 1e-9.
+Motion limit_motion();
+
+/// Brenner's exact drag of the lecture's sphere (mu = 3, r = 1), fitted on 40 log-spaced gaps.
+Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps);
+
+/// The lecture's basis on the gaps of its case: largest relative residual 4.6e-3.
+Fit lecture_fit();
+
+/// The asymptotic basis on gaps in [1e-3, 1.01], those of the lecture's motion: largest relative residual 7.1e-6. (On [1e-3, 2] it is 6.8e-5.)
+Fit close_fit();
+
+/// R = k/q exactly, radius 1, for gaps in [1e-200, 1e20].
+Fit leading_term_fit(double k);
+
+/// R = k (1/q + 1), radius 1, for gaps in [1e-200, 1e200].
+Fit shifted_fit(double k);
+
+/// The first row of least gap.
+const TrajectoryRow& lowest_row(const Trajectory& trajectory);
+
+/// The row at exactly that time; fails the test if there is none.
+const TrajectoryRow& row_at(const Trajectory& trajectory, double time);
+
+}  // namespace viscontact

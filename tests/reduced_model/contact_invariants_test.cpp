@@ -1,0 +1,143 @@
+// What holds in every step of every contact model, whatever the sphere, the fluid and the force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reduced_model/viscous_contact.hpp"
+#include "reduced_model/viscous_contact_regular_drag.hpp"
+#include "reduced_model/viscous_contact_threshold.hpp"
+#include "tests/reduced_model/cases.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr int kCases = 300;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+using MakeModel = ContactModel (*)(const Motion&, const LubricationForce&);
+
+struct RandomCase {
+  Motion motion;
+  double k;
+};
+
+/// Masses and viscosities over ten decades, up to six jumps of force over four, half of the surfaces rough.
+RandomCase random_case(std::mt19937_64& generator) {
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(generator); };
+  const auto decades = [&](double from, double to) { return std::pow(10, uniform(from, to)); };
+  const double mass = decades(-5, 5);
+  std::vector<ExternalForce::Piece> pieces;
+  const int count = std::uniform_int_distribution(1, 7)(generator);
+  for (int i = 1; i <= count; ++i)
+    pieces.push_back({10.0 * i / count, mass * decades(-2, 2) * (uniform(0, 1) < 0.6 ? -1 : 1)});
+  Motion motion{mass, decades(-1, 1), uniform(-3, 1), 10, ExternalForce(pieces)};
+  motion.contact_time_step = decades(-2.5, -1);
+  motion.threshold_gap = motion.initial_gap * uniform(0.01, 0.9);
+  if (uniform(0, 1) < 0.5) motion.roughness = {motion.threshold_gap * decades(-6, -1), 0};
+  return {motion, decades(-5, 5)};
+}
+
+class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
+ protected:
+  /// Calls check(motion, model, before, after) for each step of each case.
+  template <class Check>
+  void for_each_step(const Check& check) {
+    std::mt19937_64 generator(20080123);
+    int contacts = 0;
+    for (int i = 0; i < kCases; ++i) {
+      const auto [motion, k] = random_case(generator);
+      SCOPED_TRACE(::testing::Message() << "case " << i << ": m = " << motion.mass << ", k = " << k
+                                        << ", h = " << motion.contact_time_step << ", s = " << motion.roughness[0]);
+      const LubricationForce force(shifted_fit(k));
+      ContactModel model = GetParam()(motion, force);
+      // The film may be thinner than any double; that is no matter here.
+      model.film_thickness = [](double) { return 0.0; };
+      const auto trajectory = run_contact_model(motion, model);
+      bool touched = false;
+      for (std::size_t n = 1; n < trajectory.rows.size(); ++n) {
+        const auto& before = trajectory.rows[n - 1];
+        const auto& after = trajectory.rows[n];
+        touched = touched || *after.gamma < 0;
+        check(motion, model, before, after);
+        if (HasFailure()) return;
+      }
+      contacts += touched ? 1 : 0;
+    }
+    EXPECT_GT(contacts, kCases / 5);  // or the cases were none
+  }
+};
+
+TEST_P(ContactInvariants, NeverOverlapNeverPullAtADistanceNeverForgetMoreThanTheSolidHolds) {
+  for_each_step([](const Motion&, const ContactModel& model, const TrajectoryRow&, const TrajectoryRow& row) {
+    EXPECT_GE(row.gap, model.contact_gap);
+    EXPECT_LE(*row.gamma, 0);
+    EXPECT_GE(*row.gamma, model.gamma_min);
+    EXPECT_EQ((row.gap - model.contact_gap) * *row.gamma, 0);
+    EXPECT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) && std::isfinite(*row.gamma));
+  });
+}
+
+TEST_P(ContactInvariants, BalanceTheMomentumOfEveryStep) {
+  // m (u^{n+1} - u^n) = h (f^n + F_lub): the film gives h lambda = gamma^n - gamma^{n+1}, the resolved drag the rest. Only a solid contact
+  // may push beyond that, and never pull.
+  for_each_step([](const Motion& motion, const ContactModel& model, const TrajectoryRow& before, const TrajectoryRow& after) {
+    const double m = motion.mass;
+    const double h = after.time - before.time;
+    const double push = h * motion.external_force.mean(before.time, after.time);
+    const double drag = h * *after.lubrication_force;
+    const double solid = m * (after.velocity - before.velocity) - push - drag;
+    // The mean of f is a difference of impulses since t = 0, of at most 1e3 m each; then some ten roundings.
+    const double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) + std::abs(push) + std::abs(drag) +
+                         std::abs(*before.gamma) + std::abs(*after.gamma);
+    const double round_off = kEpsilon * (16 * scale + 1e3 * m);
+    if (*after.gamma == model.gamma_min) {
+      EXPECT_GE(solid, -round_off);
+    } else {
+      EXPECT_NEAR(solid, 0, round_off);
+    }
+  });
+}
+
+TEST_P(ContactInvariants, MoveByTheirVelocity) {
+  for_each_step([](const Motion&, const ContactModel&, const TrajectoryRow& before, const TrajectoryRow& after) {
+    const double h = after.time - before.time;
+    // Half an ulp of each gap, and of the time that h is the difference of (up to 10).
+    const double round_off = kEpsilon * (4 * (before.gap + after.gap) + 20 * std::abs(after.velocity));
+    EXPECT_NEAR(after.gap - before.gap, h * after.velocity, round_off);
+  });
+}
+
+std::string model_name(const ::testing::TestParamInfo<MakeModel>& info) {
+  constexpr std::array kNames = {"ViscousContact", "RegularDrag", "Threshold"};
+  return kNames.at(info.index);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ContactInvariants,
+                         ::testing::Values(viscous_contact, viscous_contact_regular_drag, viscous_contact_threshold),
+                         model_name);
+
+TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
+  // Summed over the steps: m u + gamma = m v0 + int f, the first integral (I) of the contact model.
+  std::mt19937_64 generator(7);
+  for (int i = 0; i < kCases; ++i) {
+    auto [motion, k] = random_case(generator);
+    motion.roughness = {0, 0};
+    const double start = motion.mass * motion.initial_velocity;
+    double largest = std::abs(start);
+    for (const auto& row : simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+      const double momentum = start + motion.external_force.impulse(row.time);
+      largest = std::max(largest, std::abs(momentum));
+      // Up to 3200 steps, a few roundings each at the size of the largest momentum, all of one sign at worst.
+      ASSERT_NEAR(motion.mass * row.velocity + *row.gamma, momentum, 3200 * 4 * kEpsilon * (largest + 1e3 * motion.mass)) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viscontact

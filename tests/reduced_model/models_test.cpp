@@ -1,0 +1,92 @@
+#include "reduced_model/models.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/reduced_model/cases.hpp"
+#include "tests/common/failure.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAreArray;
+
+// interfaces.md, "Trajectory".
+const std::vector<std::string> kNames = {"reference",       "reference_exact",              "inertial",
+                                         "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"};
+
+TEST(Models, AreThoseOfTheInterfaces) {
+  std::vector<std::string> names;
+  for (const auto& model : all_models()) names.emplace_back(model.name);
+  EXPECT_THAT(names, UnorderedElementsAreArray(kNames));
+}
+
+TEST(Models, AreFoundByTheirNames) {
+  for (const auto& name : kNames) {
+    EXPECT_EQ(find_model(name).name, name);
+    EXPECT_FALSE(find_model(name).description.empty());
+  }
+}
+
+TEST(Models, ListTheirNamesToOneWhoAsksForAnother) {
+  for (const auto* wrong : {"", "Inertial", "viscous", "inertial "}) {
+    const auto message = bad_input([&] { find_model(wrong); });
+    EXPECT_THAT(message, HasSubstr("'" + std::string(wrong) + "'"));
+    for (const auto& name : kNames) EXPECT_THAT(message, HasSubstr(name));
+  }
+}
+
+TEST(Models, WithGammaAreTheContactModels) {
+  const Motion motion = lecture_motion();
+  const LubricationForce force(lecture_fit());
+  for (const auto& model : all_models()) {
+    const bool is_contact = model.name.starts_with("viscous_contact");
+    EXPECT_EQ(model.contact != nullptr, is_contact) << model.name;
+    const auto trajectory = simulate(model, motion, force);
+    for (const auto& row : trajectory.rows) ASSERT_EQ(row.gamma.has_value(), is_contact) << model.name;
+    EXPECT_EQ(trajectory.recovered_minimal_gap.has_value(), is_contact) << model.name;
+  }
+}
+
+TEST(Models, CoverTheMotionFromItsStartToItsEnd) {
+  const Motion motion = lecture_motion();
+  const LubricationForce force(lecture_fit());
+  for (const auto& model : all_models()) {
+    const auto trajectory = simulate(model, motion, force);
+    EXPECT_EQ(trajectory.model, model.name);
+    EXPECT_GE(trajectory.seconds, 0);
+    EXPECT_GT(trajectory.steps, 0);
+    EXPECT_EQ(trajectory.rows.front().time, 0) << model.name;
+    EXPECT_EQ(trajectory.rows.front().gap, 1) << model.name;
+    EXPECT_EQ(trajectory.rows.back().time, 4) << model.name;
+    for (const auto& row : trajectory.rows)
+      ASSERT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) && std::isfinite(row.lubrication_force.value()) &&
+                  row.external_force.has_value())
+          << model.name << " at " << row.time;
+  }
+}
+
+TEST(Models, PutTheirNameInFrontOfAnError) {
+  const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));  // too short for the film
+  for (const auto* name : {"reference", "reference_exact", "inertial", "viscous_contact_threshold"}) {
+    const auto message = bad_input([&] { simulate(find_model(name), lecture_motion(), force); });
+    EXPECT_THAT(message, AllOf(StartsWith("model " + std::string(name) + ": "), HasSubstr("[0.01, 2]")));
+  }
+}
+
+TEST(Models, RunOnTheShippedLimitCase) {
+  // Its fit reaches from 1e-300 to 1e300: nothing on the way may overflow.
+  const auto fit = read_fit(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/fits/limit.json");
+  const LubricationForce force(fit);
+  for (const auto* name : {"inertial", "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"})
+    EXPECT_GT(simulate(find_model(name), limit_motion(), force).rows.size(), 6000U) << name;
+}
+
+}  // namespace
+}  // namespace viscontact

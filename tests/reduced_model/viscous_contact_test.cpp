@@ -1,0 +1,153 @@
+// The viscous contact model on motions whose limit is known in closed form.
+#include "reduced_model/viscous_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "reduced_model/comparison.hpp"
+#include "tests/reduced_model/cases.hpp"
+
+namespace viscontact {
+namespace {
+
+/// q of the lecture's limit case at mu = 0: it lands at t = 1 and leaves at t = 4.
+double limit_gap(double t) { return t < 1 ? 1 - t * t : t < 4 ? 0 : (t - 4) * (t - 4); }
+
+Trajectory limit_trajectory(double step) {
+  Motion motion = limit_motion();
+  motion.contact_time_step = step;
+  Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1)));
+  trajectory.model = "viscous_contact";
+  return trajectory;
+}
+
+std::array<double, 2> contact_interval(const Trajectory& trajectory) {
+  return compare_trajectories({trajectory}, trajectory.model).models.front().contact_interval.value();
+}
+
+double sup_error(const Trajectory& trajectory) {
+  double error = 0;
+  for (const auto& row : trajectory.rows) error = std::max(error, std::abs(row.gap - limit_gap(row.time)));
+  return error;
+}
+
+TEST(ViscousContact, IsInContactFromOneToFourInTheLimitCase) {
+  for (const double step : {1e-2, 1e-3, 1e-4}) {
+    const auto [from, to] = contact_interval(limit_trajectory(step));
+    // One step, and round-off of its time.
+    EXPECT_NEAR(from, 1, step * (1 + 1e-6)) << step;
+    EXPECT_NEAR(to, 4, step * (1 + 1e-6)) << step;
+  }
+}
+
+TEST(ViscousContact, FollowsTheParabolasOfTheLimitCaseToFirstOrder) {
+  // Before landing q^n = 1 - h^2 n (n+1) = 1 - t^2 - h t; the error after leaving is that of the velocity and of the release, to one step
+  // each: 2 h (t - 4) + h (t - 4) <= 6 h at t = 6.
+  for (const double step : {1e-2, 1e-3, 1e-4})
+    for (const auto& row : limit_trajectory(step).rows)
+      EXPECT_NEAR(row.gap, limit_gap(row.time), row.time < 4 ? 1.001 * step : 6.1 * step) << step << ", t = " << row.time;
+}
+
+TEST(ViscousContact, ConvergesToTheLimitCaseAtFirstOrderInItsStep) {
+  const double coarse = sup_error(limit_trajectory(1e-2));
+  const double middle = sup_error(limit_trajectory(1e-3));
+  const double fine = sup_error(limit_trajectory(1e-4));
+  // The error is C h (1 + O(h)).
+  EXPECT_NEAR(std::log10(coarse / middle), 1, 0.01);
+  EXPECT_NEAR(std::log10(middle / fine), 1, 0.01);
+}
+
+TEST(ViscousContact, RemembersExactlyTheImpulseItHasTaken) {
+  for (const auto& row : limit_trajectory(1e-3).rows) {
+    if (row.time < 1 + 2e-3 || row.time > 4 - 1e-3) continue;
+    const double gamma = row.time <= 2 ? -2 * row.time : 2 * row.time - 8;
+    EXPECT_NEAR(*row.gamma, gamma, 1e-12) << row.time;  // 3000 roundings of numbers up to 4, at random
+    EXPECT_EQ(row.velocity, 0);
+  }
+}
+
+TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
+  // gamma is -4 at its lowest, where mu = 0.1: the film is exp(-40) (limit_case_states.csv has the same to 14 digits).
+  const auto recovered = limit_trajectory(1e-3).recovered_minimal_gap;
+  ASSERT_TRUE(recovered.has_value());
+  EXPECT_NEAR(std::log(*recovered), -40, 1e-10);  // round-off of gamma over mu
+}
+
+TEST(ViscousContact, HasNoFilmToRecoverWithoutContact) {
+  Motion motion = limit_motion();
+  motion.external_force = ExternalForce({{6, 2}});
+  EXPECT_FALSE(simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1))).recovered_minimal_gap);
+}
+
+TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
+  // From 1e-6 above the plane, pushed by F for 1 and pulled by G after: off at 1 + F/G. The fall takes sqrt(2e-6 m / F), at most 0.02.
+  for (const double mass : {1e-3, 1.0, 50.0})
+    for (const double push : {0.3, 4.0, 1000.0})
+      for (const double ratio : {0.5, 1.0, 3.7}) {
+        Motion motion{mass, 1e-6, 0, 1.1 + ratio, ExternalForce({{1, -push}, {10, push / ratio}})};
+        motion.contact_time_step = 1e-3;
+        Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(1)));
+        trajectory.model = "viscous_contact";
+        EXPECT_NEAR(contact_interval(trajectory)[1], 1 + ratio, 1e-3 * (1 + 1e-6))
+            << "m = " << mass << ", F = " << push << ", F/G = " << ratio;
+      }
+}
+
+TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
+  // gamma stops at gamma_min = k ln(s/r), so a pull G takes -gamma_min/G to free the sphere.
+  const double k = 0.5;
+  const double solid_gap = 0.01;
+  const double gamma_min = k * std::log(solid_gap);
+  const double pull = 3;
+  for (const double push : {5.0, 50.0, 5000.0}) {
+    Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -push}, {4, pull}})};
+    motion.contact_time_step = 1e-3;
+    motion.roughness = {0.004, 0.006};
+    Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k)));
+    trajectory.model = "viscous_contact";
+    EXPECT_NEAR(contact_interval(trajectory)[1], 2 - gamma_min / pull, 1e-3 * (1 + 1e-6)) << push;
+    // exp and log of the same number: a few roundings at the size of ln s.
+    EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / solid_gap, 1, 1e-14) << push;
+  }
+}
+
+TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
+  const double k = 0.5;
+  Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -40}, {4, 3}})};
+  motion.contact_time_step = 1e-3;
+  motion.roughness = {0.004, 0.006};
+  const double gamma_min = k * std::log(motion.roughness[0] + motion.roughness[1]);
+  bool reached = false;
+  for (const auto& row : simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+    reached = reached || *row.gamma == gamma_min;
+    if (reached && row.time <= 2) {
+      EXPECT_EQ(*row.gamma, gamma_min) << row.time;
+    } else if (reached && row.time < 2.5) {
+      // Round-off of up to 500 steps; a single step is 3e-3.
+      EXPECT_NEAR(*row.gamma, gamma_min + 3 * (row.time - 2), 1e-12) << row.time;
+    }
+  }
+  EXPECT_TRUE(reached);
+}
+
+TEST(ViscousContact, TakesItsViscosityFromTheFit) {
+  const Fit fit = lecture_fit();
+  const LubricationForce force(fit);
+  Motion motion = lecture_motion();
+  motion.roughness = {1e-3, 0};
+  const ContactModel model = viscous_contact(motion, force);
+  EXPECT_EQ(model.gamma_min, fit.terms.front().coefficient * std::log(1e-3));
+  // In theory k = 6 pi mu r^2; the lecture's basis finds it to 4.4e-3.
+  EXPECT_NEAR(force.leading_coefficient() / (18 * std::numbers::pi), 1, 5e-3);
+  EXPECT_EQ(model.contact_gap, 0);
+  EXPECT_EQ(model.resolved_resistance(0.5), 0);
+  motion.roughness = {0, 0};
+  EXPECT_TRUE(std::isinf(viscous_contact(motion, force).gamma_min));
+}
+
+}  // namespace
+}  // namespace viscontact
