@@ -108,8 +108,9 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
   if (const auto promised = result.comments.find("rows");
       promised != result.comments.end() &&
       (promised->second != std::to_string(result.rows.size()) || text.back() != '\n'))
-    throw_bad_input({file}, "ends early, with " + std::to_string(result.rows.size()) +
-                                " rows; its header says " + promised->second);
+    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) +
+                                " rows where its header says " + promised->second +
+                                ", or its last line has no end; is it truncated?");
   return result;
 }
 

@@ -133,7 +133,9 @@ class DamagedFile : public Run, public ::testing::WithParamInterface<std::string
     expect_done(run());
     // Times of solves and steps differ from run to run; the length of all else, and the last line, do not.
     const std::string now = read_file(file);
-    const auto last_line = [](const std::string& text) { return text.size() < 2 ? text : text.substr(text.rfind('\n', text.size() - 2) + 1); };
+    const auto last_line = [](const std::string& text) {
+      return text.size() < 2 ? text : text.substr(text.rfind('\n', text.size() - 2) + 1);
+    };
     if (file.extension() == ".csv") {
       EXPECT_EQ(std::ranges::count(now, '\n'), std::ranges::count(whole, '\n'));
     }
