@@ -15,19 +15,23 @@
 #include "app/run_folder.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 #include "common/interrupt.hpp"
+#include "common/named.hpp"
 #include "fitting/terms.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
 namespace {
 
-template <class Range>
-std::string names_of(const Range& range) {
-  std::string names;
-  for (const auto& element : range)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", element.name);
-  return names;
+/// An output that is there already is replaced only if it is of the same kind: its text has the marker. Throws Error(kBadInput) otherwise.
+void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind) {
+  if (!std::filesystem::is_regular_file(path))
+    return;  // nothing there, or write_file's own refusals
+  const std::string text = read_file(path);
+  if (!text.empty() && text.find(marker) == std::string::npos)
+    throw_bad_input(
+        {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
 }
 
 std::string version_text() {
@@ -53,7 +57,10 @@ void add_tabulate(CLI::App& app) {
   command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->callback([o] { tabulate_stage(read_case(o->case_file), o->table, o->jobs); });
+  command->callback([o] {
+    refuse_other_kind(o->table, "# viscontact: force table", "table");
+    tabulate_stage(read_case(o->case_file), o->table, o->jobs);
+  });
 }
 
 void add_fit(CLI::App& app) {
@@ -68,7 +75,10 @@ void add_fit(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
       ->capture_default_str();
-  command->callback([o] { fit_stage(o->table, o->fit, o->basis, parse_weights(o->weights)); });
+  command->callback([o] {
+    refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
+    fit_stage(o->table, o->fit, o->basis, parse_weights(o->weights));
+  });
 }
 
 void add_simulate(CLI::App& app) {
@@ -117,6 +127,7 @@ void add_compare(CLI::App& app) {
   command->callback([o] {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
+    refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
     compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output);
   });
 }

@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
+#include "common/named.hpp"
 #include "freefem_axi/tabulate.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/models.hpp"
@@ -62,6 +63,21 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
   return model == "reference" ? format_number(motion.reference_time_step) : "variable";
 }
 
+/// Says so if trajectories of ours were made from different cases or fits: their distances then mix two causes.
+void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
+  for (const auto* key : {"case", "fit"}) {
+    const Trajectory* first = nullptr;
+    for (const auto& trajectory : trajectories) {
+      if (!trajectory.provenance.contains(key)) continue;  // a user's own
+      if (first == nullptr) first = &trajectory;
+      if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
+      say(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
+                      trajectory.model, key));
+      break;
+    }
+  }
+}
+
 /// The trajectory files of a folder: those in trajectories/ if it is a run's folder, else its own
 /// .csv files.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
@@ -76,7 +92,8 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
   // In the order of the table of models, then by name.
   const auto rank = [](const fs::path& file) {
     const auto models = all_models();
-    return std::ranges::find(models, file.stem().string(), &Model::name) - models.begin();
+    const auto* model = find_named(models, file.stem().string());
+    return model == nullptr ? models.size() : static_cast<std::size_t>(model - models.data());
   };
   std::ranges::sort(files, {}, [&](const fs::path& file) { return std::pair(rank(file), file); });
   return files;
@@ -90,6 +107,7 @@ void tabulate_stage(const Case& c, const fs::path& table_path, int jobs) {
         return read_force_table(table_path).case_hash == tabulation_hash(tabulation);
       })) {
     say(fmt::format("tabulate: {} is up to date", table_path.string()));
+    warn_of_unmet_accuracy(read_force_table(table_path), tabulation.relative_accuracy);
     return;
   }
   check_output_file(table_path);
@@ -171,6 +189,7 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
   std::vector<Trajectory> trajectories;
   for (const auto& file : files) trajectories.push_back(read_trajectory(file));
+  warn_of_different_inputs(trajectories);
   const auto comparison = compare_trajectories(trajectories, reference_model);
   write_file(comparison_path, write_comparison(comparison));
   fmt::print("{}", comparison_table(comparison));
@@ -192,10 +211,12 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
   throw_if_interrupted();
 
   const auto models = models_to_run(c, {});
+  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
+  const std::string reference = has_inertial ? "inertial" : models.front();
   const auto provenance = trajectory_provenance(c, read_file(fit));
   const auto made_from_these = [&](const std::string& model) {
     return up_to_date(run.trajectory(model), [&] {
-      const auto comments = read_csv_comments(read_file(run.trajectory(model)));
+      const auto comments = read_trajectory(run.trajectory(model)).provenance;
       return std::ranges::all_of(provenance, [&](const auto& line) {
         const auto found = comments.find(line.first);
         return found != comments.end() && found->second == line.second;
@@ -204,7 +225,10 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
   };
   if (std::ranges::all_of(models, made_from_these) && fs::exists(run.case_file())) {
     say("simulate: trajectories are up to date");
-    if (fs::exists(run.comparison()) && fs::exists(run.report())) {
+    if (up_to_date(
+            run.comparison(),
+            [&] { return read_comparison(run.comparison()).reference_model == reference; }) &&
+        fs::exists(run.report())) {
       say("compare, report: up to date");
       fmt::print("{}", comparison_table(read_comparison(run.comparison())));
       return;
@@ -218,8 +242,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     simulate_stage(c, fit, folder, models, BelowInterval::kError);
   }
   throw_if_interrupted();
-  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
-  compare_stage(folder, {}, has_inertial ? "inertial" : models.front(), run.comparison());
+  compare_stage(folder, {}, reference, run.comparison());
   throw_if_interrupted();
   write_report(folder);
 }

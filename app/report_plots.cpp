@@ -9,6 +9,8 @@
 
 #include "app/gnuplot.hpp"
 #include "common/error.hpp"
+#include "common/named.hpp"
+#include "fitting/stokes_drag.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
@@ -26,17 +28,17 @@ std::string line_style(std::string_view model, bool dashed = false) {
                                    "#009E73", "#CC79A7", "#D55E00"};
   constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 2.0};
   const auto models = all_models();
+  const auto* found = find_named(models, model);
   const auto place =
-      static_cast<std::size_t>(std::ranges::find(models, model, &Model::name) - models.begin());
+      found == nullptr ? models.size() : static_cast<std::size_t>(found - models.data());
   const auto i = std::min(place, kColours.size() - 1);
   return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
                      dashed ? "(8,5)" : (place == 2 ? "(10,4)" : "1"));
 }
 
 std::string legend_of(std::string_view model) {
-  const auto models = all_models();
-  const auto found = std::ranges::find(models, model, &Model::name);
-  return found == models.end() ? std::string(model) : std::string(found->description);
+  const auto* found = find_named(all_models(), model);
+  return std::string(found == nullptr ? model : found->description);
 }
 
 /// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
@@ -74,7 +76,7 @@ std::string plot_fit(const ForceTable& table, const Fit& fit) {
   Curve estimate{
       "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#D55E00'", {}};
   const LubricationForce force(fit);
-  const double stokes = 6 * M_PI * fit.viscosity * fit.radius;
+  const double stokes = stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
     residual.points.emplace_back(
@@ -132,9 +134,8 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     Curve film{"", line_style(trajectory.model, true), {}};
-    const auto models = all_models();
-    const auto model = std::ranges::find(models, trajectory.model, &Model::name);
-    const auto contact = model != models.end() && model->contact != nullptr
+    const auto* model = find_named(all_models(), trajectory.model);
+    const auto contact = model != nullptr && model->contact != nullptr
                              ? std::optional(model->contact(motion, force))
                              : std::nullopt;
     for (const auto* row : thinned(trajectory.rows, gap_of)) {

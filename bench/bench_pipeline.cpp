@@ -18,7 +18,8 @@ BENCHMARK(read_table)->Unit(benchmark::kMicrosecond);
 
 void fit_table(benchmark::State& state) {
   const auto table = read_force_table(kData / "tables/lecture.csv");
-  for (auto _ : state) benchmark::DoNotOptimize(fit_force_table(table, "lecture", Weights::kRelative));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(fit_force_table(table, "lecture", Weights::kRelative));
 }
 BENCHMARK(fit_table)->Unit(benchmark::kMicrosecond);
 
@@ -61,16 +62,17 @@ void simulate_model(benchmark::State& state, const Model& model) {
     benchmark::DoNotOptimize(trajectory.rows.data());
   }
   state.counters["steps"] = static_cast<double>(steps);
-  state.counters["per_step"] = benchmark::Counter(static_cast<double>(steps),
-                                                  benchmark::Counter::kIsIterationInvariantRate |
-                                                      benchmark::Counter::kInvert);
+  state.counters["per_step"] =
+      benchmark::Counter(static_cast<double>(steps), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
 }
 
 void compare_all(benchmark::State& state) {
   const auto c = read_case(kData / "cases/lecture.toml");
   const auto force = lecture_force();
   std::vector<Trajectory> trajectories;
-  for (const auto& model : all_models()) trajectories.push_back(simulate(model, required_motion(c), force));
+  for (const auto& model : all_models())
+    trajectories.push_back(simulate(model, required_motion(c), force));
   for (auto _ : state) benchmark::DoNotOptimize(compare_trajectories(trajectories, "inertial"));
 }
 BENCHMARK(compare_all)->Unit(benchmark::kMicrosecond);

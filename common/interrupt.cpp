@@ -20,6 +20,8 @@ void catch_interrupts() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A limit on the size of files then makes a write fail, which is reported, instead of ending the process.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return signal_came != 0; }

@@ -66,7 +66,8 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
     if (interrupted()) return output;
     if (ready <= 0) continue;
     if (to_child.get() >= 0 && files[1].revents != 0) {
-      const ssize_t count = ::send(to_child.get(), input.data(), input.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      const ssize_t count =
+          ::send(to_child.get(), input.data(), input.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
       if (count > 0) input.remove_prefix(static_cast<std::size_t>(count));
       if (input.empty() || (count < 0 && errno != EAGAIN && errno != EINTR)) to_child.close();
     }

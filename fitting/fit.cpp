@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "common/error.hpp"
@@ -11,6 +12,27 @@
 #include "fitting/terms.hpp"
 
 namespace viscontact {
+namespace {
+
+/// Stokes flow is linear in the velocity: at equal gaps F/u must agree to within the rows' own error estimates, where they have any.
+void check_linearity(const ForceTable& table) {
+  std::map<double, const ForceTableRow*> first_at;
+  for (const auto& row : table.rows) {
+    const auto* first = first_at.try_emplace(row.gap, &row).first->second;
+    const double allowed = row.relative_error_estimate + first->relative_error_estimate;
+    const double ratio =
+        (row.force / row.reference_velocity) / (first->force / first->reference_velocity);
+    if (allowed > 0 && std::abs(ratio - 1) > allowed)
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("at gap {} the force is not linear in the velocity: force over "
+                              "velocity differs by {:.2g} relative between {} and {}, "
+                              "the rows' error estimates allow {:.2g}",
+                              row.gap, ratio - 1, first->reference_velocity, row.reference_velocity,
+                              allowed));
+  }
+}
+
+}  // namespace
 
 std::string_view to_string(Weights weights) {
   return weights == Weights::kRelative ? "relative" : "absolute";
@@ -24,6 +46,7 @@ Weights parse_weights(std::string_view word) {
 
 Fit fit_force_table(const ForceTable& table, std::string_view basis_name, Weights weights) {
   const Basis& basis = find_basis(basis_name);
+  check_linearity(table);
   std::set<double> gaps;
   for (const auto& row : table.rows) gaps.insert(row.gap);
   if (gaps.size() < basis.terms.size())

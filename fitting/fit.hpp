@@ -23,9 +23,10 @@ std::string_view to_string(Weights weights);
 Weights parse_weights(std::string_view word);
 
 struct FitTerm {
-  std::string name;           ///< of a Term
-  double coefficient = 0;     ///< [force / dimension of the term]
-  double standard_error = 0;  ///< same dimension, >= 0
+  std::string name;        ///< of a Term
+  double coefficient = 0;  ///< [force / dimension of the term]
+  double standard_error =
+      0;  ///< same dimension, >= 0; from the misfit, as if it were random noise (it is not)
 };
 
 /// F_lub(q, u0) = sum of coefficient * term(q) for q in gap_interval.
@@ -45,10 +46,10 @@ struct Fit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// Fits a basis (by name) to a table. Rows of other velocities than the first row's count as F (u0
-/// / u): Stokes flow is linear. The field table_sha256 and versions are left to the caller. Throws
-/// Error(kBadInput) for an unknown basis or fewer different gaps than terms; Error(kNotConverged)
-/// from the least squares.
+/// Fits a basis (by name) to a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes
+/// flow is linear. table_sha256 and versions are left to the caller.
+/// Throws Error(kBadInput) for an unknown basis, fewer different gaps than terms, or rows of equal gap whose F/u
+/// differ by more than their error estimates; Error(kNotConverged) from the least squares.
 Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) naming the

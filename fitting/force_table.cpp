@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "common/csv.hpp"
+#include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
 namespace {
@@ -52,8 +51,7 @@ ForceTable read_force_table(const std::filesystem::path& path) {
       throw_bad_input(here,
                       fmt::format("force is {} at velocity {}; a drag is opposed to the velocity",
                                   row.force, row.reference_velocity));
-    const double stokes =
-        6 * std::numbers::pi * table.viscosity * table.radius * row.reference_velocity;
+    const double stokes = stokes_resistance(table.viscosity, table.radius) * row.reference_velocity;
     row.drag_factor = fields.fields[3].value_or(-row.force / stokes);
     row.relative_error_estimate = fields.fields[4].value_or(0);
     row.degrees_of_freedom = fields.fields[5].value_or(0);

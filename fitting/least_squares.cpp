@@ -52,8 +52,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   LeastSquaresSolution solution;
   const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
   const double smallest = singular(singular.size() - 1);
-  if (!(smallest > singular(0) * static_cast<double>(matrix.rows()) *
-                     std::numeric_limits<double>::epsilon()))
+  if (!(smallest >
+        singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
     throw Error(ExitCode::kNotConverged,
                 "the fit's terms cannot be told apart on this table; give more or wider spread "
                 "gaps, or fewer terms");

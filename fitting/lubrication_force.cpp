@@ -118,7 +118,8 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
     high = std::min(low, by_leading_term + std::max(0.0, by_regular_part));
     const double thinnest = std::log(std::numeric_limits<double>::min());
     if (!(high >= thinnest))
-      throw Error(ExitCode::kNotConverged, "the film is thinner than the smallest number that a double can hold");
+      throw Error(ExitCode::kNotConverged,
+                  "the film is thinner than the smallest number that a double can hold");
     low = std::max(thinnest, by_leading_term + std::min(0.0, by_regular_part));
   } else if (!(impulse_wanted <= impulse(largest))) {
     throw Error(ExitCode::kBadInput, fmt::format("the gap would be wider than the fitted interval "

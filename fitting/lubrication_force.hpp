@@ -17,12 +17,12 @@ enum class BelowInterval {
                       ///< to k/q varies as ln q only)
 };
 
-/// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0)
-/// F_lub(q, u0). Every function throws Error(kBadInput) that names the interval for a gap outside
-/// the fit's, unless `below` allows it.
+/// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).
+/// Every function of the gap throws Error(kBadInput) that names the interval for a gap outside the fit's, unless
+/// `below` or the function's own words allow it.
 class LubricationForce {
  public:
-  /// Throws Error(kBadInput) if the fit's resistance is not positive everywhere in its interval.
+  /// Throws Error(kBadInput) if the fit's resistance is not positive at one of 201 gaps spread over its interval.
   explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0.

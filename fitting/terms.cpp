@@ -1,13 +1,9 @@
 #include "fitting/terms.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
-#include "common/error.hpp"
+#include "common/named.hpp"
 
 namespace viscontact {
 namespace {
@@ -46,8 +42,8 @@ Basis make_basis(std::string_view name, std::initializer_list<std::string_view> 
 std::span<const Term> all_terms() { return kTerms; }
 
 std::optional<Term> find_term(std::string_view name) {
-  const auto found = std::ranges::find(kTerms, name, &Term::name);
-  return found == kTerms.end() ? std::nullopt : std::optional(*found);
+  const auto* term = find_named(kTerms, name);
+  return term == nullptr ? std::nullopt : std::optional(*term);
 }
 
 const std::vector<Basis>& all_bases() {
@@ -58,15 +54,6 @@ const std::vector<Basis>& all_bases() {
   return bases;
 }
 
-const Basis& find_basis(std::string_view name) {
-  const auto& bases = all_bases();
-  const auto found = std::ranges::find(bases, name, &Basis::name);
-  if (found != bases.end()) return *found;
-  std::string names;
-  for (const auto& basis : bases)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", basis.name);
-  throw Error(ExitCode::kBadInput,
-              fmt::format("no basis is named '{}'; there are {}", name, names));
-}
+const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
 
 }  // namespace viscontact

@@ -8,7 +8,8 @@
 
 namespace viscontact {
 
-/// One function phi of the gap q > 0 [L]; a coefficient's dimension is [force] over that of phi.
+/// One function phi of the gap q > 0, a number in the table's unit of length: another unit moves coefficients
+/// between ln q and 1, q ln q and q. A coefficient's dimension is [force] over that of phi.
 struct Term {
   std::string_view name;
   double (*value)(double gap);           ///< phi(q)

@@ -85,12 +85,18 @@ std::optional<ForceTableRow> RowJournal::find(double gap, double reference_veloc
 
 void RowJournal::append(const ForceTableRow& row) {
   const std::string line = to_line(hash_, row);
-  const ssize_t written = ::write(file_.get(), line.data(), line.size());
-  if (written != static_cast<ssize_t>(line.size()) || ::fsync(file_.get()) != 0)
+  std::string_view rest = line;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(file_.get(), rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0)
+      throw_bad_input({path_.string()},
+                      fmt::format("cannot be written ({})", std::strerror(errno)));
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(file_.get()) != 0)
     throw_bad_input({path_.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
   rows_.push_back(row);
 }
-
-void RowJournal::remove() { std::filesystem::remove(path_); }
 
 }  // namespace viscontact

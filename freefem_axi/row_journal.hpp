@@ -27,9 +27,6 @@ class RowJournal {
   /// it.
   void append(const ForceTableRow& row);
 
-  /// Deletes the file: the table has been written.
-  void remove();
-
  private:
   std::filesystem::path path_;
   std::string hash_;

@@ -95,7 +95,7 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
   if (!failures.empty())
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
-                            grid.size(), fmt::join(failures, "\n")));
+                            grid.size(), fmt::join(failures, "; ")));
   for (const auto& [gap, velocity] : grid)
     table.rows.push_back(journal.find(gap, velocity).value());
   return table;

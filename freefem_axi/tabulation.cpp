@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <numbers>
 #include <sstream>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/named.hpp"
 #include "common/number.hpp"
+#include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
 namespace {
@@ -43,13 +43,7 @@ std::string last_lines(const std::string& output) {
 }  // namespace
 
 const Geometry& find_geometry(std::string_view name) {
-  const auto found = std::ranges::find(kGeometries, name, &Geometry::name);
-  if (found != kGeometries.end()) return *found;
-  std::string names;
-  for (const auto& geometry : kGeometries)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", geometry.name);
-  throw Error(ExitCode::kBadInput,
-              fmt::format("no geometry is named '{}'; there are: {}", name, names));
+  return require_named(kGeometries, name, "geometry");
 }
 
 std::string tabulation_hash(const Tabulation& tabulation) {
@@ -94,8 +88,8 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   row.gap = gap;
   row.reference_velocity = reference_velocity;
   row.force = *force;
-  row.drag_factor = -*force / (6 * std::numbers::pi * tabulation.viscosity * tabulation.radius *
-                               reference_velocity);
+  row.drag_factor =
+      -*force / (stokes_resistance(tabulation.viscosity, tabulation.radius) * reference_velocity);
   row.relative_error_estimate = *estimate;
   row.degrees_of_freedom = *unknowns;
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

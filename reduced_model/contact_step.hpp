@@ -15,9 +15,11 @@ struct ContactState {
 /// simulation of gluey particles") for one contact. `free_velocity` is what the velocity would be
 /// at the end of the step without contact; with step h,
 ///
-///     u^{n+1} = argmin { |v - free_velocity|^2_m : D + h v >= 0 if gamma = 0,  D + h v = 0 if
-///     gamma < 0 }, lambda  = m (u^{n+1} - free_velocity) / h,   gamma^{n+1} = gamma - h lambda,
-///     D^{n+1} = D + h u^{n+1}.
+///     u^{n+1}     = argmin { |v - free_velocity|^2_m : D + h v >= 0 if gamma^n = 0,
+///                                                      D + h v  = 0 if gamma^n < 0 },
+///     lambda      = m (u^{n+1} - free_velocity) / h,
+///     gamma^{n+1} = gamma^n - h lambda,
+///     D^{n+1}     = D^n + h u^{n+1}.
 ///
 /// A step that would bring gamma above 0 releases the sphere with what is left: gamma = 0, m
 /// u^{n+1} = the excess. A step that would bring it below `gamma_min` (<= 0; -infinity for a smooth

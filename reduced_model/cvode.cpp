@@ -95,6 +95,7 @@ int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, voi
   auto& cvode = *static_cast<Cvode*>(self);
   try {
     cvode.system_.derivative(time, values(y), values(derivative));
+    cvode.system_error_ = nullptr;  // CVODE came past what was thrown before
   } catch (const Error&) {
     cvode.system_error_ = std::current_exception();
     return kTryAgain;
@@ -106,7 +107,7 @@ int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobi
                              N_Vector, N_Vector, N_Vector) {
   auto& cvode = *static_cast<Cvode*>(self);
   const auto size = static_cast<std::size_t>(cvode.system_.dimension) *
-      static_cast<std::size_t>(cvode.system_.dimension);
+                    static_cast<std::size_t>(cvode.system_.dimension);
   try {
     cvode.system_.jacobian(time, values(y), {SUNDenseMatrix_Data(jacobian), size});
   } catch (const Error&) {

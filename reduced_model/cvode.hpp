@@ -28,7 +28,7 @@ struct StiffSystem {
 };
 
 /// BDF of variable order and step with Newton's method and dense linear algebra.
-/// An Error(kBadInput) thrown by the system (a state that it cannot judge) makes CVODE try a
+/// An Error thrown by the system (a state that it cannot judge) makes CVODE try a
 /// smaller step; if it persists, it is thrown on from advance().
 class Cvode {
  public:

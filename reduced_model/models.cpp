@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string>
 
 #include "common/error.hpp"
+#include "common/named.hpp"
 #include "reduced_model/inertial.hpp"
 #include "reduced_model/reference.hpp"
 #include "reduced_model/reference_exact.hpp"
@@ -33,15 +33,7 @@ constexpr std::array kModels = {
 
 std::span<const Model> all_models() { return kModels; }
 
-const Model& find_model(std::string_view name) {
-  const auto found = std::ranges::find(kModels, name, &Model::name);
-  if (found != kModels.end()) return *found;
-  std::string names;
-  for (const auto& model : kModels)
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", model.name);
-  throw Error(ExitCode::kBadInput,
-              fmt::format("no model is named '{}'; there are {}", name, names));
-}
+const Model& find_model(std::string_view name) { return require_named(kModels, name, "model"); }
 
 Trajectory simulate(const Model& model, const Motion& motion, const LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();

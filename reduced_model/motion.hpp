@@ -20,7 +20,7 @@ struct Motion {
 
   double reference_time_step = 0;  ///< h of `reference` [T], > 0; also the spacing of the rows of
                                    ///< `reference_exact` and `inertial`
-  double inertial_relative_tolerance = 0;  ///< of CVODE, in ln q and in the velocity; in (0, 1e-2]
+  double inertial_relative_tolerance = 0;  ///< of ln q and dq/dt / q; in [1e-13, 1e-2]
   double contact_time_step = 0;            ///< h of the contact models [T], > 0
   std::array<double, 2> roughness =
       {};  ///< r1, r2: roughness heights of sphere and plane [L], >= 0; both 0: smooth

@@ -10,8 +10,11 @@ namespace viscontact {
 ///
 ///     m (u^{n+1/2} - u^n)/h = f^n - (R(q^n) - k/q^n) u^{n+1/2},
 ///
-/// then the projection of viscous_contact.hpp on u^{n+1/2}. Below the fit's interval R - k/q is
-/// held at its value there.
+/// then the projection of viscous_contact.hpp on u^{n+1/2}. Below the fit's interval R - k/q is held at its
+/// value there. In contact this splitting gives the share h (R - k/q)/m of each step's load to a drag on a
+/// sphere that does not move, and gamma lacks it: an error of first order in h.
+/// `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has no positive coefficient
+/// of 1/q, or when the motion leaves the fit's interval upwards.
 ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force);
 
 /// Runs it (run_contact_model).

@@ -30,10 +30,13 @@ std::string first_half(const std::string& text) { return text.substr(0, text.siz
 void fill(const std::filesystem::path& folder) {
   const std::string good_case = lecture_case_text();
   const std::string table = exact_table_text();
-  const auto put = [&](const std::string& name, const std::string& text) { put_text(folder / name, text); };
+  const auto put = [&](const std::string& name, const std::string& text) {
+    put_text(folder / name, text);
+  };
   put("case.toml", good_case);
   put("table.csv", table);
-  expect_done(run_viscontact({"fit", (folder / "table.csv").string(), "-o", (folder / "fit.json").string()}));
+  expect_done(run_viscontact(
+      {"fit", (folder / "table.csv").string(), "-o", (folder / "fit.json").string()}));
   const std::string fit = read_file(folder / "fit.json");
 
   put("empty", "");
@@ -43,10 +46,12 @@ void fill(const std::filesystem::path& folder) {
   put("negative.toml", replaced(good_case, "mass = 20.0", "mass = -20.0"));
   put("unknown_key.toml", replaced(good_case, "end_time", "ende_time"));
   put("no_motion.toml", good_case.substr(0, good_case.find("[motion]")));
-  put("no_tabulation.toml", replaced(read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml"), "../fits/", "no/"));
+  put("no_tabulation.toml",
+      replaced(read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml"), "../fits/", "no/"));
   put("unknown_basis.toml", replaced(good_case, "\"lecture\"", "\"cubic\""));
   put("unknown_weights.toml", replaced(good_case, "\"relative\"", "\"heavy\""));
-  put("unknown_model.toml", replaced(good_case, "end_time = 4.0", "end_time = 4.0\nmodels = [\"inertial\", \"magic\"]"));
+  put("unknown_model.toml",
+      replaced(good_case, "end_time = 4.0", "end_time = 4.0\nmodels = [\"inertial\", \"magic\"]"));
   put("unknown_geometry.toml", replaced(good_case, "\"plane\"", "\"torus\""));
   put("half.csv", first_half(table));
   put("nan.csv", replaced(table, "\n2,-1,", "\n2,nan,"));
@@ -114,18 +119,36 @@ const Cases kFit = {
 INSTANTIATE_TEST_SUITE_P(Fit, BadInput, ::testing::ValuesIn(kFit), name_of);
 
 const Cases kSimulate = {
-    {"MissingCase", {"simulate", "@no.toml", "--fit", "@fit.json", "-o", "@out"}, "no.toml: cannot be read"},
+    {"MissingCase",
+     {"simulate", "@no.toml", "--fit", "@fit.json", "-o", "@out"},
+     "no.toml: cannot be read"},
     {"NoMotion", {"simulate", "@no_motion.toml", "--fit", "@fit.json", "-o", "@out"}, "[motion]"},
-    {"UnknownModelInCase", {"simulate", "@unknown_model.toml", "--fit", "@fit.json", "-o", "@out"}, "'magic'"},
-    {"UnknownModel", {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@out", "--models", "inertial,magic"}, "'magic'"},
-    {"MissingFit", {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"}, "no.json: cannot be read"},
-    {"FolderAsFit", {"simulate", "@case.toml", "--fit", "@folder", "-o", "@out"}, "folder: cannot be read"},
-    {"EmptyFit", {"simulate", "@case.toml", "--fit", "@empty", "-o", "@out"}, "empty:1: is not valid JSON"},
+    {"UnknownModelInCase",
+     {"simulate", "@unknown_model.toml", "--fit", "@fit.json", "-o", "@out"},
+     "'magic'"},
+    {"UnknownModel",
+     {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@out", "--models", "inertial,magic"},
+     "'magic'"},
+    {"MissingFit",
+     {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"},
+     "no.json: cannot be read"},
+    {"FolderAsFit",
+     {"simulate", "@case.toml", "--fit", "@folder", "-o", "@out"},
+     "folder: cannot be read"},
+    {"EmptyFit",
+     {"simulate", "@case.toml", "--fit", "@empty", "-o", "@out"},
+     "empty:1: is not valid JSON"},
     {"TruncatedFit", {"simulate", "@case.toml", "--fit", "@half.json", "-o", "@out"}, "half.json"},
     {"NullInFit", {"simulate", "@case.toml", "--fit", "@null.json", "-o", "@out"}, "radius"},
-    {"UnknownKeyInFit", {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"}, "radios"},
-    {"FitOfAnotherRadius", {"simulate", "@case.toml", "--fit", "@other_radius.json", "-o", "@out"}, "radius 2"},
-    {"OutputBelowAFile", {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@empty/out"}, "empty"},
+    {"UnknownKeyInFit",
+     {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"},
+     "radios"},
+    {"FitOfAnotherRadius",
+     {"simulate", "@case.toml", "--fit", "@other_radius.json", "-o", "@out"},
+     "radius 2"},
+    {"OutputBelowAFile",
+     {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@empty/out"},
+     "empty"},
     {"OutputIsAFile", {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@empty"}, "empty"},
 };
 INSTANTIATE_TEST_SUITE_P(Simulate, BadInput, ::testing::ValuesIn(kSimulate), name_of);
@@ -133,18 +156,27 @@ INSTANTIATE_TEST_SUITE_P(Simulate, BadInput, ::testing::ValuesIn(kSimulate), nam
 const Cases kCompareAndReport = {
     {"CompareMissingFolder", {"compare", "@no", "-o", "@c.json"}, "no: is no folder"},
     {"CompareAFile", {"compare", "@case.toml", "-o", "@c.json"}, "case.toml: is no folder"},
-    {"CompareFolderWithoutTrajectories", {"compare", "@folder", "-o", "@c.json"}, "folder: has no trajectory"},
+    {"CompareFolderWithoutTrajectories",
+     {"compare", "@folder", "-o", "@c.json"},
+     "folder: has no trajectory"},
     {"CompareNotANumber", {"compare", "@nan_run", "-o", "@c.json"}, "inertial.csv:3: gap"},
-    {"CompareUnknownReference", {"compare", "@run", "--reference", "magic", "-o", "@c.json"}, "'magic'"},
-    {"CompareMissingTrajectory", {"compare", "@run", "@no.csv", "-o", "@c.json"}, "no.csv: cannot be read"},
-    {"CompareTruncatedTrajectory", {"compare", "@run", "@half_trajectory.csv", "-o", "@c.json"}, "half_trajectory.csv"},
+    {"CompareUnknownReference",
+     {"compare", "@run", "--reference", "magic", "-o", "@c.json"},
+     "'magic'"},
+    {"CompareMissingTrajectory",
+     {"compare", "@run", "@no.csv", "-o", "@c.json"},
+     "no.csv: cannot be read"},
+    {"CompareTruncatedTrajectory",
+     {"compare", "@run", "@half_trajectory.csv", "-o", "@c.json"},
+     "half_trajectory.csv"},
     {"CompareEmptyTrajectory", {"compare", "@run", "@empty", "-o", "@c.json"}, "empty: "},
     {"CompareOutputBelowAFile", {"compare", "@run", "-o", "@empty/c.json"}, "empty"},
     {"ReportMissingFolder", {"report", "@no"}, "no"},
     {"ReportOfAFolderWithoutCase", {"report", "@run"}, "case.toml: cannot be read"},
     {"ReportOfAFile", {"report", "@table.csv"}, "table.csv"},
 };
-INSTANTIATE_TEST_SUITE_P(CompareAndReport, BadInput, ::testing::ValuesIn(kCompareAndReport), name_of);
+INSTANTIATE_TEST_SUITE_P(CompareAndReport, BadInput, ::testing::ValuesIn(kCompareAndReport),
+                         name_of);
 
 const Cases kRun = {
     {"MissingCase", {"run", "@no.toml", "-o", "@out"}, "no.toml: cannot be read"},

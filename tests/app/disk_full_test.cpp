@@ -27,8 +27,10 @@ class DiskFull : public ::testing::Test {
 TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
   put_text(path("fit.json"), "old");
   const auto before = files_below(scratch_.path());
-  const auto result = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
-  expect_refusal(result, ExitCode::kBadInput, HasSubstr("fit.json: cannot be written (File too large)"));
+  const auto result =
+      run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
+  expect_refusal(result, ExitCode::kBadInput,
+                 HasSubstr("fit.json: cannot be written (File too large)"));
   EXPECT_EQ(files_below(scratch_.path()), before);
 }
 
@@ -36,14 +38,17 @@ TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
   const ScratchFolder elsewhere;
   const FakeFreeFem fake(elsewhere.path());
   put_text(path("case.toml"), lecture_case_text());
-  const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
-                                     {"VISCONTACT_FREEFEM=" + fake.executable()}, kSmallFilesOnly);
-  expect_refusal(result, ExitCode::kBadInput, HasSubstr("table2.csv.rows: cannot be written (File too large)"));
+  const auto result =
+      run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM=" + fake.executable()}, kSmallFilesOnly);
+  expect_refusal(result, ExitCode::kBadInput,
+                 HasSubstr("table2.csv.rows: cannot be written (File too large)"));
   EXPECT_FALSE(std::filesystem::exists(path("table2.csv")));
   // With room again, the rows that fitted are used.
   EXPECT_GT(fake.answered().size(), 1U);
-  expect_done(run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
-                             {"VISCONTACT_FREEFEM=" + fake.executable()}));
+  expect_done(
+      run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM=" + fake.executable()}));
   EXPECT_EQ(fake.answered().size(), 40U + 1U);  // once each, and twice the one that found no room
 }
 

@@ -35,7 +35,8 @@ fi
   put_text(path("case.toml"), gentle_case_text());
   put_text(path("interrupt"), "");
   put_text(path("answered"), "");
-  const std::vector<std::string> arguments = {"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"};
+  const std::vector<std::string> arguments = {"tabulate",        path("case.toml"), "-o",
+                                              path("table.csv"), "--jobs",          "1"};
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
 
   const auto interrupted = run_viscontact(arguments, environment);
@@ -53,7 +54,8 @@ fi
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace viscontact

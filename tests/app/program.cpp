@@ -11,13 +11,15 @@
 
 namespace viscontact {
 
-ProgramResult run_viscontact(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+ProgramResult run_viscontact(const std::vector<std::string>& arguments,
+                             const std::vector<std::string>& environment,
                              const std::string& shell_before) {
   // The shell becomes the program, so that a signal that ends it is seen, and FreeFEM's parent is viscontact.
   const ScratchFolder scratch;
   const auto errors = scratch.path() / "errors";
-  std::vector<std::string> command = {"/bin/sh", "-c", "exec 2>\"$1\"; shift; " + shell_before + " exec \"$0\" \"$@\"",
-                                      VISCONTACT_EXECUTABLE, errors.string()};
+  std::vector<std::string> command = {
+      "/bin/sh", "-c", "exec 2>\"$1\"; shift; " + shell_before + " exec \"$0\" \"$@\"",
+      VISCONTACT_EXECUTABLE, errors.string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   const auto result = run_process(command, environment);
   return {result.exit_status, result.output, read_file(errors)};
@@ -25,12 +27,14 @@ ProgramResult run_viscontact(const std::vector<std::string>& arguments, const st
 
 void expect_done(const ProgramResult& result) { EXPECT_EQ(result.exit_status, 0) << result.errors; }
 
-void expect_refusal(const ProgramResult& result, ExitCode exit_code, const ::testing::Matcher<std::string>& message) {
+void expect_refusal(const ProgramResult& result, ExitCode exit_code,
+                    const ::testing::Matcher<std::string>& message) {
   EXPECT_EQ(result.exit_status, static_cast<int>(exit_code)) << result.errors;
   std::istringstream stream(result.errors);
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  const auto error = std::ranges::find_if(lines, [](const std::string& line) { return line.starts_with("viscontact: "); });
+  const auto error = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.starts_with("viscontact: "); });
   ASSERT_NE(error, lines.end()) << result.errors;
   EXPECT_THAT(*error, message);
   EXPECT_LE(lines.end() - error, 2) << result.errors;

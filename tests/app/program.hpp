@@ -19,7 +19,8 @@ struct ProgramResult {
 };
 
 /// Runs viscontact. `environment` is "NAME=value" each; `shell_before` is run by the shell that then becomes viscontact ("ulimit ...").
-ProgramResult run_viscontact(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {},
+ProgramResult run_viscontact(const std::vector<std::string>& arguments,
+                             const std::vector<std::string>& environment = {},
                              const std::string& shell_before = "");
 
 /// Expects exit status 0, and standard error as a trailing message if not.
@@ -27,7 +28,8 @@ void expect_done(const ProgramResult& result);
 
 /// Expects an ordinary refusal: that exit code; after progress lines ("tabulate: ...") one or two lines, the first of which starts
 /// with "viscontact: " and matches `message`.
-void expect_refusal(const ProgramResult& result, ExitCode exit_code, const ::testing::Matcher<std::string>& message);
+void expect_refusal(const ProgramResult& result, ExitCode exit_code,
+                    const ::testing::Matcher<std::string>& message);
 
 /// Every file below a folder with its bytes; folders too, with none.
 std::map<std::string, std::string> files_below(const std::filesystem::path& folder);

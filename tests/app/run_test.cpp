@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-
 /// When each file below a folder was last written.
 std::map<std::string, fs::file_time_type> write_times(const fs::path& folder) {
   std::map<std::string, fs::file_time_type> times;
@@ -40,7 +39,9 @@ class Run : public ::testing::Test {
   }
   fs::path case_file() const { return scratch_.path() / "case.toml"; }
   fs::path folder() const { return scratch_.path() / "run"; }
-  fs::path trajectory(const std::string& model) const { return folder() / "trajectories" / (model + ".csv"); }
+  fs::path trajectory(const std::string& model) const {
+    return folder() / "trajectories" / (model + ".csv");
+  }
 
   ScratchFolder scratch_;
   FakeFreeFem fake_;
@@ -50,19 +51,25 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   const ScratchFolder scratch;
   const auto folder = scratch.path() / "run";
   put_text(scratch.path() / "case.toml", gentle_case_text());
-  const std::vector<std::string> arguments = {"run", (scratch.path() / "case.toml").string(), "-o", folder.string(), "--jobs", "2"};
+  const std::vector<std::string> arguments = {
+      "run", (scratch.path() / "case.toml").string(), "-o", folder.string(), "--jobs", "2"};
   expect_done(run_viscontact(arguments));
 
-  std::vector<std::string> expected = {"case.toml", "table.csv", "fit.json", "comparison.json", "report.html", "trajectories"};
-  for (const auto& model : all_models()) expected.push_back("trajectories/" + std::string(model.name) + ".csv");
+  std::vector<std::string> expected = {"case.toml",       "table.csv",   "fit.json",
+                                       "comparison.json", "report.html", "trajectories"};
+  for (const auto& model : all_models())
+    expected.push_back("trajectories/" + std::string(model.name) + ".csv");
   std::vector<std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) found.push_back(entry.path().lexically_relative(folder));
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    found.push_back(entry.path().lexically_relative(folder));
   EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(expected));  // no journal, no *.tmp
 
   const auto table = read_force_table(folder / "table.csv");
   ASSERT_EQ(table.rows.size(), 6U);
-  for (const auto& row : table.rows) EXPECT_LE(row.relative_error_estimate, 1e-3);  // asked by the case
-  for (const auto* program : {"FreeFEM", "Viscontact"}) EXPECT_TRUE(table.versions.contains(program)) << program;
+  for (const auto& row : table.rows)
+    EXPECT_LE(row.relative_error_estimate, 1e-3);  // asked by the case
+  for (const auto* program : {"FreeFEM", "Viscontact"})
+    EXPECT_TRUE(table.versions.contains(program)) << program;
   // Six gaps and five terms: nearly interpolation. The basis lacks ln q, which it makes up for to a few parts in a thousand.
   EXPECT_LT(read_fit(folder / "fit.json").largest_relative_residual, 1e-2);
   for (const auto& model : read_comparison(folder / "comparison.json").models)
@@ -74,8 +81,9 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   const auto again = run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-such-freefem"});
   expect_done(again);
   EXPECT_EQ(write_times(folder), made);
-  EXPECT_THAT(again.errors, AllOf(HasSubstr("table.csv is up to date"), HasSubstr("fit.json is up to date"),
-                                  HasSubstr("trajectories are up to date"), HasSubstr("report: up to date")));
+  EXPECT_THAT(again.errors,
+              AllOf(HasSubstr("table.csv is up to date"), HasSubstr("fit.json is up to date"),
+                    HasSubstr("trajectories are up to date"), HasSubstr("report: up to date")));
 }
 
 TEST_F(Run, ChangedMotionIsSimulatedAgainButNotTabulated) {
@@ -116,7 +124,8 @@ TEST_F(Run, ChangedBasisIsFittedAgainButNotTabulated) {
 
 TEST_F(Run, ModelsThatTheCaseNoLongerNamesAreGone) {
   expect_done(run());
-  put_text(case_file(), replaced(gentle_case_text(), "end_time = 4.0", "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
+  put_text(case_file(), replaced(gentle_case_text(), "end_time = 4.0",
+                                 "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
   expect_done(run());
   EXPECT_EQ(files_below(folder() / "trajectories").size(), 2U);
   EXPECT_EQ(read_comparison(folder() / "comparison.json").models.size(), 2U);
@@ -150,7 +159,8 @@ TEST_P(DamagedFile, ThatIsCutInHalfIsMadeAgain) { expect_mended("half"); }
 TEST_P(DamagedFile, ThatIsEmptyIsMadeAgain) { expect_mended(""); }
 
 INSTANTIATE_TEST_SUITE_P(Each, DamagedFile,
-                         ::testing::Values("table.csv", "fit.json", "trajectories/inertial.csv", "comparison.json"),
+                         ::testing::Values("table.csv", "fit.json", "trajectories/inertial.csv",
+                                           "comparison.json"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase_if(name, [](char c) { return c == '.' || c == '/'; });
@@ -160,7 +170,8 @@ INSTANTIATE_TEST_SUITE_P(Each, DamagedFile,
 TEST_F(Run, MissingFileIsMadeAgain) {
   expect_done(run());
   const auto complete = files_below(folder());
-  for (const auto* name : {"fit.json", "trajectories/viscous_contact.csv", "comparison.json", "report.html", "case.toml"}) {
+  for (const auto* name : {"fit.json", "trajectories/viscous_contact.csv", "comparison.json",
+                           "report.html", "case.toml"}) {
     fs::remove(folder() / name);
     expect_done(run());
     EXPECT_TRUE(fs::exists(folder() / name)) << name;
@@ -182,8 +193,10 @@ TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {
   const ScratchFolder programs;
   put_text(programs.path() / "gnuplot", "#!/bin/sh\nexit 1\n");
   make_executable(programs.path() / "gnuplot");
-  const auto failed = run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
-                                     {"VISCONTACT_FREEFEM=" + fake_.executable(), "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
+  const auto failed =
+      run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM=" + fake_.executable(),
+                      "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
   expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("gnuplot"));
   EXPECT_TRUE(fs::exists(folder() / "comparison.json"));
   EXPECT_FALSE(fs::exists(folder() / "report.html"));

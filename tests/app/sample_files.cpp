@@ -10,7 +10,9 @@
 
 namespace viscontact {
 
-std::string lecture_case_text() { return read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/lecture.toml"); }
+std::string lecture_case_text() {
+  return read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/lecture.toml");
+}
 
 std::string exact_table_text() {
   constexpr int kRows = 30;
@@ -22,7 +24,9 @@ std::string exact_table_text() {
   table.container = "none: exact drag in a half-space";
   for (int i = 0; i < kRows; ++i) {
     ForceTableRow row;
-    row.gap = i + 1 == kRows ? kLargest : kSmallest * std::pow(kLargest / kSmallest, static_cast<double>(i) / (kRows - 1));
+    row.gap = i + 1 == kRows ? kLargest
+                             : kSmallest * std::pow(kLargest / kSmallest,
+                                                    static_cast<double>(i) / (kRows - 1));
     row.reference_velocity = -1;
     row.drag_factor = brenner_drag_factor(row.gap);
     row.force = 6 * std::numbers::pi * table.viscosity * table.radius * row.drag_factor;
@@ -39,8 +43,10 @@ std::string replaced(std::string text, const std::string& old_part, const std::s
 
 std::string gentle_case_text() {
   std::string text = lecture_case_text();
-  text = replaced(text, "gaps = { from = 1e-3, to = 2.0, count = 40,", "gaps = { from = 0.05, to = 1.5, count = 6,");
-  text = replaced(text, "container = { radius = 40.0, height = 80.0 }", "container = { radius = 5.0, height = 10.0 }");
+  text = replaced(text, "gaps = { from = 1e-3, to = 2.0, count = 40,",
+                  "gaps = { from = 0.05, to = 1.5, count = 6,");
+  text = replaced(text, "container = { radius = 40.0, height = 80.0 }",
+                  "container = { radius = 5.0, height = 10.0 }");
   text = replaced(text, "relative_accuracy = 1e-5", "relative_accuracy = 1e-3");
   // The impulse, 40, is what the film absorbs between q = 1 and about 0.7.
   text = replaced(text, "value = -200.0", "value = -20.0");

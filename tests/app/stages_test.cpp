@@ -32,14 +32,18 @@ class Stages : public ::testing::Test {
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
   void fit(const std::string& basis) const {
-    expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", basis}));
+    expect_done(
+        run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", basis}));
   }
   /// Six trajectories in run/, from the fit of the asymptotic basis.
   void simulate() const {
     fit("asymptotic");
-    expect_done(run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
+    expect_done(run_viscontact(
+        {"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
   }
-  Trajectory trajectory(const std::string& model) const { return read_trajectory(path("run/trajectories/" + model + ".csv")); }
+  Trajectory trajectory(const std::string& model) const {
+    return read_trajectory(path("run/trajectories/" + model + ".csv"));
+  }
   ModelComparison comparison_of(const std::string& model) const {
     for (const auto& entry : read_comparison(path("run/comparison.json")).models)
       if (entry.model == model) return entry;
@@ -50,14 +54,15 @@ class Stages : public ::testing::Test {
 };
 
 TEST_F(Stages, FitFileSaysBasisWeightsTableAndVersions) {
-  expect_done(run_viscontact(
-      {"fit", path("table.csv"), "-o", path("new/folder/fit.json"), "--basis", "asymptotic", "--weights", "absolute"}));
+  expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new/folder/fit.json"),
+                              "--basis", "asymptotic", "--weights", "absolute"}));
   const auto fit = read_fit(path("new/folder/fit.json"));
   EXPECT_EQ(fit.basis, "asymptotic");
   EXPECT_EQ(fit.weights, Weights::kAbsolute);
   EXPECT_EQ(fit.table_sha256, sha256(read_file(path("table.csv"))));
   EXPECT_EQ(fit.gap_interval, (std::array{1e-3, 2.0}));
-  for (const auto* program : {"Viscontact", "Ceres", "Eigen"}) EXPECT_TRUE(fit.versions.contains(program)) << program;
+  for (const auto* program : {"Viscontact", "Ceres", "Eigen"})
+    EXPECT_TRUE(fit.versions.contains(program)) << program;
 }
 
 TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
@@ -72,7 +77,8 @@ TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
 TEST_F(Stages, SameFitIsNotMadeAgainAnotherIs) {
   fit("lecture");
   const auto made = std::filesystem::last_write_time(path("fit.json"));
-  const auto again = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", "lecture"});
+  const auto again =
+      run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis", "lecture"});
   EXPECT_THAT(again.errors, HasSubstr("up to date"));
   EXPECT_EQ(std::filesystem::last_write_time(path("fit.json")), made);
   fit("asymptotic");
@@ -98,10 +104,11 @@ TEST_F(Stages, SimulateWritesOneTrajectoryForEachModelAndCopiesCaseAndFit) {
 
 TEST_F(Stages, SimulateRunsTheAskedModelsOnly) {
   fit("asymptotic");
-  expect_done(run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run"), "--models",
-                              "viscous_contact,reference"}));
+  expect_done(run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o",
+                              path("run"), "--models", "viscous_contact,reference"}));
   std::vector<std::string> names;
-  for (const auto& [file, text] : files_below(path("run/trajectories"))) names.push_back(std::filesystem::path(file).stem());
+  for (const auto& [file, text] : files_below(path("run/trajectories")))
+    names.push_back(std::filesystem::path(file).stem());
   EXPECT_THAT(names, ElementsAre("reference", "viscous_contact"));
 }
 
@@ -119,7 +126,8 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
     }
   put("table.csv", replaced(kept, "# rows: 30", "# rows: " + std::to_string(count)));
   fit("asymptotic");
-  const std::vector<std::string> arguments = {"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
+  const std::vector<std::string> arguments = {
+      "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
   const auto before = files_below(scratch_.path());
   expect_refusal(run_viscontact(arguments), ExitCode::kBadInput, HasSubstr("0.01"));
   EXPECT_EQ(files_below(scratch_.path()), before);  // not even the models that would have worked
@@ -134,7 +142,8 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
 }
 
 TEST_F(Stages, MinimalGapsAreTheLecturesNumbers) {
-  put("case.toml", replaced(lecture_case_text(), "[viscous_contact]\ntime_step = 1e-3", "[viscous_contact]\ntime_step = 1e-4"));
+  put("case.toml", replaced(lecture_case_text(), "[viscous_contact]\ntime_step = 1e-3",
+                            "[viscous_contact]\ntime_step = 1e-4"));
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
   EXPECT_EQ(read_comparison(path("run/comparison.json")).reference_model, "inertial");
@@ -145,7 +154,8 @@ TEST_F(Stages, MinimalGapsAreTheLecturesNumbers) {
   EXPECT_NEAR(comparison_of("inertial").minimal_gap_time, 2.00072819, 1e-3);  // one row's spacing
   EXPECT_NEAR(comparison_of("reference").minimal_gap / 2.97084661e-3, 1 - 8.9e-3, 2e-3);
   ASSERT_TRUE(comparison_of("viscous_contact_regular_drag").recovered_minimal_gap);
-  EXPECT_NEAR(*comparison_of("viscous_contact_regular_drag").recovered_minimal_gap / 3e-3, 1, 0.03);  // the exact drag gives 3.004e-3 as h -> 0
+  EXPECT_NEAR(*comparison_of("viscous_contact_regular_drag").recovered_minimal_gap / 3e-3, 1,
+              0.03);  // the exact drag gives 3.004e-3 as h -> 0
 }
 
 TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
@@ -153,9 +163,11 @@ TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
   constexpr double kShift = 0.01;
   std::string text = "time,gap,velocity\n";
   for (const auto& row : trajectory("inertial").rows)
-    text += format_number(row.time) + "," + format_number(row.gap + kShift) + "," + format_number(row.velocity) + "\n";
+    text += format_number(row.time) + "," + format_number(row.gap + kShift) + "," +
+            format_number(row.velocity) + "\n";
   put("mine.csv", text);
-  expect_done(run_viscontact({"compare", path("run"), path("mine.csv"), "-o", path("run/comparison.json")}));
+  expect_done(run_viscontact(
+      {"compare", path("run"), path("mine.csv"), "-o", path("run/comparison.json")}));
   EXPECT_EQ(read_comparison(path("run/comparison.json")).models.size(), all_models().size() + 1);
   const auto mine = comparison_of("mine");
   // Round-off of sums over 4000 rows.
@@ -167,7 +179,8 @@ TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
 
 TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {
   simulate();
-  expect_done(run_viscontact({"compare", path("run"), "--reference", "reference_exact", "-o", path("elsewhere/c.json")}));
+  expect_done(run_viscontact(
+      {"compare", path("run"), "--reference", "reference_exact", "-o", path("elsewhere/c.json")}));
   const auto comparison = read_comparison(path("elsewhere/c.json"));
   EXPECT_EQ(comparison.reference_model, "reference_exact");
   for (const auto& model : comparison.models)
@@ -183,16 +196,20 @@ TEST_F(Stages, ReportIsOneSelfContainedPageWithFivePlots) {
   const std::string page = read_file(path("run/report.html"));
 
   const std::regex svg("<svg[ >]");
-  EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), svg), std::sregex_iterator()), 5);
+  EXPECT_EQ(
+      std::distance(std::sregex_iterator(page.begin(), page.end(), svg), std::sregex_iterator()),
+      5);
   const std::string rest = std::regex_replace(page, std::regex("xmlns(:[a-z]+)?=\"[^\"]*\""), "");
-  EXPECT_THAT(rest, AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("@import")), Not(HasSubstr("<link")),
-                          Not(HasSubstr("<script")), Not(HasSubstr("<img"))));
+  EXPECT_THAT(rest,
+              AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("@import")),
+                    Not(HasSubstr("<link")), Not(HasSubstr("<script")), Not(HasSubstr("<img"))));
   const std::regex link("(src|href)\\s*=\\s*['\"]?([^'\" >]*)");
-  for (auto found = std::sregex_iterator(rest.begin(), rest.end(), link); found != std::sregex_iterator(); ++found)
+  for (auto found = std::sregex_iterator(rest.begin(), rest.end(), link);
+       found != std::sregex_iterator(); ++found)
     EXPECT_THAT((*found)[2].str(), ::testing::StartsWith("#"));
 
-  EXPECT_THAT(page, AllOf(HasSubstr("<title>&lt;script&gt;&amp;"), HasSubstr("Lefebvre 2008"), HasSubstr("q ln q"),
-                          HasSubstr("0.00297")));
+  EXPECT_THAT(page, AllOf(HasSubstr("<title>&lt;script&gt;&amp;"), HasSubstr("Lefebvre 2008"),
+                          HasSubstr("q ln q"), HasSubstr("0.00297")));
   for (const auto& model : all_models()) EXPECT_THAT(page, HasSubstr(std::string(model.name)));
   EXPECT_THAT(page, Not(::testing::ContainsRegex("[>, ]-?nan[<, ]")));
 }

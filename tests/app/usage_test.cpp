@@ -28,27 +28,36 @@ class WrongCommandLine : public ::testing::TestWithParam<WrongUsage> {};
 
 TEST_P(WrongCommandLine, EndsWithExitCode2AndPointsToHelp) {
   const auto result = run_viscontact(GetParam().arguments);
-  expect_refusal(result, ExitCode::kWrongUsage, AllOf(HasSubstr(GetParam().said), HasSubstr("--help")));
+  expect_refusal(result, ExitCode::kWrongUsage,
+                 AllOf(HasSubstr(GetParam().said), HasSubstr("--help")));
   EXPECT_EQ(result.output, "");
 }
 
 // None of the files exists: the command line is refused before anything is read.
 INSTANTIATE_TEST_SUITE_P(
     Each, WrongCommandLine,
-    ::testing::Values(WrongUsage{"NoCommand", {}, "subcommand"},
-                      WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "subcommand"},
-                      WrongUsage{"UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
-                      WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
-                      WrongUsage{"ArgumentTooMany", {"fit", "table.csv", "other.csv", "-o", "fit.json"}, "other.csv"},
-                      WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
-                      WrongUsage{"MissingFit", {"simulate", "case.toml", "-o", "out"}, "--fit"},
-                      WrongUsage{"MissingCase", {"run", "-o", "out"}, "CASE"},
-                      WrongUsage{"MissingFolder", {"report"}, "DIR"},
-                      WrongUsage{"OptionWithoutValue", {"compare", "out", "--reference"}, "--reference"},
-                      WrongUsage{"ZeroJobs", {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "0"}, "--jobs"},
-                      WrongUsage{"NegativeJobs", {"run", "case.toml", "-o", "out", "--jobs", "-1"}, "--jobs"},
-                      WrongUsage{"JobsNotANumber", {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "x"}, "--jobs"},
-                      WrongUsage{"JobsAFraction", {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "1.5"}, "--jobs"}),
+    ::testing::Values(
+        WrongUsage{"NoCommand", {}, "subcommand"},
+        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "subcommand"},
+        WrongUsage{
+            "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
+        WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
+        WrongUsage{
+            "ArgumentTooMany", {"fit", "table.csv", "other.csv", "-o", "fit.json"}, "other.csv"},
+        WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
+        WrongUsage{"MissingFit", {"simulate", "case.toml", "-o", "out"}, "--fit"},
+        WrongUsage{"MissingCase", {"run", "-o", "out"}, "CASE"},
+        WrongUsage{"MissingFolder", {"report"}, "DIR"},
+        WrongUsage{"OptionWithoutValue", {"compare", "out", "--reference"}, "--reference"},
+        WrongUsage{
+            "ZeroJobs", {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "0"}, "--jobs"},
+        WrongUsage{"NegativeJobs", {"run", "case.toml", "-o", "out", "--jobs", "-1"}, "--jobs"},
+        WrongUsage{"JobsNotANumber",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "x"},
+                   "--jobs"},
+        WrongUsage{"JobsAFraction",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "1.5"},
+                   "--jobs"}),
     [](const auto& test) { return test.param.name; });
 
 struct Help {
@@ -68,21 +77,26 @@ TEST_P(CommandHelp, IsPrintedWithEveryOption) {
   for (const auto& option : GetParam().options) EXPECT_THAT(result.output, HasSubstr(option));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, CommandHelp,
-                         ::testing::Values(Help{"run", {"CASE", "-o,--output", "--jobs"}},
-                                           Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
-                                           Help{"fit", {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights",
-                                                        "relative", "absolute"}},
-                                           Help{"simulate", {"CASE", "--fit", "-o,--output", "--models",
-                                                             "viscous_contact_threshold", "--lubrication-limit"}},
-                                           Help{"compare", {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
-                                           Help{"report", {"DIR"}}, Help{"doctor", {}}),
-                         [](const auto& test) { return test.param.command; });
+INSTANTIATE_TEST_SUITE_P(
+    Each, CommandHelp,
+    ::testing::Values(Help{"run", {"CASE", "-o,--output", "--jobs"}},
+                      Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
+                      Help{"fit",
+                           {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights",
+                            "relative", "absolute"}},
+                      Help{"simulate",
+                           {"CASE", "--fit", "-o,--output", "--models", "viscous_contact_threshold",
+                            "--lubrication-limit"}},
+                      Help{"compare",
+                           {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
+                      Help{"report", {"DIR"}}, Help{"doctor", {}}),
+    [](const auto& test) { return test.param.command; });
 
 TEST(ProgramHelp, NamesEveryCommand) {
   const auto result = run_viscontact({"--help"});
   expect_done(result);
-  for (const auto* command : {"run", "tabulate", "fit", "simulate", "compare", "report", "doctor", "--version"})
+  for (const auto* command :
+       {"run", "tabulate", "fit", "simulate", "compare", "report", "doctor", "--version"})
     EXPECT_THAT(result.output, HasSubstr(std::string("  ") + command + " "));
 }
 
@@ -103,15 +117,17 @@ TEST(Version, IsPrintedWithoutFreeFem) {
 TEST(Doctor, FindsNothingMissingAndSolvesAKnownRow) {
   const auto result = run_viscontact({"doctor"});
   expect_done(result);
-  EXPECT_THAT(result.output, AllOf(HasSubstr("FreeFEM solves"), HasSubstr("gnuplot"), HasSubstr("Ceres"), HasSubstr("SUNDIALS"),
-                                   Not(HasSubstr("MISSING"))));
+  EXPECT_THAT(result.output,
+              AllOf(HasSubstr("FreeFEM solves"), HasSubstr("gnuplot"), HasSubstr("Ceres"),
+                    HasSubstr("SUNDIALS"), Not(HasSubstr("MISSING"))));
 }
 
 TEST(Doctor, SaysHowToMendWhatIsMissing) {
   const ScratchFolder empty;
   const auto result = run_viscontact({"doctor"}, {"PATH=" + empty.path().string()});
   EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kExternalProgram));
-  EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"), HasSubstr("apt-get install gnuplot-nox")));
+  EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"),
+                                   HasSubstr("apt-get install gnuplot-nox")));
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ TEST(CaseFile, KeepsItsTextAndItsPath) {
 
 TEST(CaseFile, MayHaveWindowsLineEnds) {
   std::string text;
-  for (const char character : lecture_text()) text += character == '\n' ? std::string("\r\n") : std::string(1, character);
+  for (const char character : lecture_text())
+    text += character == '\n' ? std::string("\r\n") : std::string(1, character);
   EXPECT_EQ(required_motion(read_text(text)).mass, 20);
 }
 
@@ -35,7 +36,8 @@ TEST(CaseFile, IsRefusedWhenItIsEmpty) { expect_refused({"", 1}, "title", "is mi
 TEST(CaseFile, IsRefusedWhenItIsAFolderOrMissing) {
   const TemporaryFolder folder;
   for (const auto& path : {folder.path(), folder.path() / "missing.toml"})
-    EXPECT_THAT(bad_input([&] { read_case(path); }), AllOf(StartsWith(path.string() + ": "), HasSubstr("cannot be read")));
+    EXPECT_THAT(bad_input([&] { read_case(path); }),
+                AllOf(StartsWith(path.string() + ": "), HasSubstr("cannot be read")));
 }
 
 struct NotToml {
@@ -55,15 +57,16 @@ TEST_P(NotTomlFile, IsRefusedWithTheLineWhereTomlEnds) {
 
 INSTANTIATE_TEST_SUITE_P(
     Like, NotTomlFile,
-    ::testing::Values(NotToml{"ATable", "gap,reference_velocity,force\n1,-1,3\n", 1},
-                      NotToml{"Json", "{ \"basis\": \"lecture\" }\n", 1},
-                      NotToml{"AKeyWithoutAValue", "title = \"t\"\n[fluid]\nviscosity =\n", 3},
-                      NotToml{"AKeyTwice", "title = \"t\"\n[fluid]\nviscosity = 1\nviscosity = 2\n", 4},
-                      NotToml{"ATableTwice", "title = \"t\"\n[fluid]\nviscosity = 1\n[fluid]\n", 4},
-                      NotToml{"AnOpenList", "title = \"t\"\n[a]\nb = [1, 2\nc = 3\n", 4},
-                      NotToml{"ACommaForAPoint", "title = \"t\"\n[fluid]\nviscosity = 3,0\n", 3},
-                      NotToml{"ANumberTooLargeForADouble", "title = \"t\"\n[fluid]\nviscosity = 1e400\n", 3},
-                      NotToml{"NoUtf8", "title = \"\xff\xfe\"\n", 1}),
+    ::testing::Values(
+        NotToml{"ATable", "gap,reference_velocity,force\n1,-1,3\n", 1},
+        NotToml{"Json", "{ \"basis\": \"lecture\" }\n", 1},
+        NotToml{"AKeyWithoutAValue", "title = \"t\"\n[fluid]\nviscosity =\n", 3},
+        NotToml{"AKeyTwice", "title = \"t\"\n[fluid]\nviscosity = 1\nviscosity = 2\n", 4},
+        NotToml{"ATableTwice", "title = \"t\"\n[fluid]\nviscosity = 1\n[fluid]\n", 4},
+        NotToml{"AnOpenList", "title = \"t\"\n[a]\nb = [1, 2\nc = 3\n", 4},
+        NotToml{"ACommaForAPoint", "title = \"t\"\n[fluid]\nviscosity = 3,0\n", 3},
+        NotToml{"ANumberTooLargeForADouble", "title = \"t\"\n[fluid]\nviscosity = 1e400\n", 3},
+        NotToml{"NoUtf8", "title = \"\xff\xfe\"\n", 1}),
     [](const auto& parameter) { return parameter.param.name; });
 
 /// Reads a damaged text: it is a case, or it is refused as bad input; anything else fails the test.

@@ -6,14 +6,14 @@
 #include <stdexcept>
 
 #include "common/file.hpp"
-
 #include "tests/common/failure.hpp"
 
 namespace viscontact {
 namespace {
 
 int line_at(const std::string& text, std::size_t position) {
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+  return 1 + static_cast<int>(std::count(
+                 text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
 }
 
 /// Where "name = value" begins.
@@ -22,7 +22,8 @@ std::size_t find_key(const std::string& text, const LectureKey& key) {
   const auto found = header == std::string::npos
                          ? header
                          : text.find(std::string(key.name) + " = " + key.value, header);
-  if (found == std::string::npos) throw std::logic_error(std::string("no such key in the lecture's case: ") + key.path);
+  if (found == std::string::npos)
+    throw std::logic_error(std::string("no such key in the lecture's case: ") + key.path);
   return found;
 }
 
@@ -46,7 +47,8 @@ EditedCase without_key(const LectureKey& key) {
   auto length = std::string(key.name).size() + 3 + std::string(key.value).size();
   // In an inline table the line is its own; else that of the header, or the first of the file.
   const auto line_start = text.rfind('\n', at) + 1;
-  const auto header = *key.header == '\0' ? 0 : text.find(std::string("\n") + key.header + "\n") + 1;
+  const auto header =
+      *key.header == '\0' ? 0 : text.find(std::string("\n") + key.header + "\n") + 1;
   const int line = line_at(text, at == line_start ? header : at);
   // An inline table may not keep the comma.
   if (text.compare(at + length, 2, ", ") == 0) {
@@ -79,8 +81,10 @@ void expect_refused(const EditedCase& edited, const std::string& path, const std
   using ::testing::StartsWith;
   const TemporaryFolder folder;
   const auto file = folder.file("case.toml", edited.text);
-  EXPECT_THAT(bad_input([&] { read_case(file); }),
-              AllOf(StartsWith(file.string() + ":" + std::to_string(edited.line) + ": " + path + " "), HasSubstr(words)));
+  EXPECT_THAT(
+      bad_input([&] { read_case(file); }),
+      AllOf(StartsWith(file.string() + ":" + std::to_string(edited.line) + ": " + path + " "),
+            HasSubstr(words)));
 }
 
 }  // namespace viscontact

@@ -106,7 +106,8 @@ TEST(LimitCase, GoesWithAFitOfKOverQAlone) {
 
 TEST(ShippedCases, AreAllRead) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases")) {
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases")) {
     EXPECT_NO_THROW(read_case(entry.path())) << entry.path();
     ++count;
   }

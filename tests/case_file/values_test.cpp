@@ -17,9 +17,11 @@ using ::testing::StartsWith;
 constexpr LectureKey kContainer = {"tabulation.container", "[tabulation]", "container",
                                    "{ radius = 40.0, height = 80.0 }"};
 constexpr LectureKey kGeometry = {"tabulation.geometry.kind", "[tabulation]", "kind", "\"plane\""};
-constexpr LectureKey kForce = {"motion.external_force", "[motion]", "external_force",
-                               "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
-constexpr LectureKey kRoughness = {"viscous_contact.roughness", "[viscous_contact]", "roughness", "[0.0, 0.0]"};
+constexpr LectureKey kForce = {
+    "motion.external_force", "[motion]", "external_force",
+    "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
+constexpr LectureKey kRoughness = {"viscous_contact.roughness", "[viscous_contact]", "roughness",
+                                   "[0.0, 0.0]"};
 
 const std::string kFitKeys =
     "basis = \"lecture\"               # a/q + b + c q + d q^2 + e q^3\nweights = \"relative\"\n";
@@ -38,20 +40,27 @@ TEST(CaseValues, MayBeWholeNumbers) {
 }
 
 TEST(CaseValues, MayBeNegativeWhereThatHasAMeaning) {
-  EXPECT_EQ(required_motion(read_text(with_value({"", "[motion]", "initial_velocity", "0.0"}, "-2.5").text)).initial_velocity, -2.5);
+  EXPECT_EQ(required_motion(
+                read_text(with_value({"", "[motion]", "initial_velocity", "0.0"}, "-2.5").text))
+                .initial_velocity,
+            -2.5);
 }
 
 TEST(Container, SaysThatAFluidWithoutWallsIsNotAvailable) {
-  expect_refused(with_value(kContainer, "\"unbounded\""), kContainer.path, "a fluid without walls is not available");
+  expect_refused(with_value(kContainer, "\"unbounded\""), kContainer.path,
+                 "a fluid without walls is not available");
 }
 
 TEST(Container, MustBeWiderThanTheSphere) {
-  expect_refused(with_value(kContainer, "{ radius = 1.0, height = 80.0 }"), "tabulation.container.radius",
+  expect_refused(with_value(kContainer, "{ radius = 1.0, height = 80.0 }"),
+                 "tabulation.container.radius",
                  "is 1; must be greater than the sphere's radius, 1");
 }
 
 TEST(Geometry, IsThePlaneByDefault) {
-  EXPECT_EQ(required_tabulation(read_text(with_text("geometry = { kind = \"plane\" }", "").text)).geometry, "plane");
+  EXPECT_EQ(required_tabulation(read_text(with_text("geometry = { kind = \"plane\" }", "").text))
+                .geometry,
+            "plane");
 }
 
 TEST(Geometry, ListsWhatThereIsToOneWhoAsksForAnother) {
@@ -65,11 +74,13 @@ TEST(ExternalForceOfACase, MayLastLongerThanTheMotion) {
 }
 
 TEST(ExternalForceOfACase, MustLastToTheEndOfTheMotion) {
-  expect_refused(with_value(kForce, "[ { until = 3.5, value = -3 } ]"), kForce.path, "must reach motion.end_time, 4");
+  expect_refused(with_value(kForce, "[ { until = 3.5, value = -3 } ]"), kForce.path,
+                 "must reach motion.end_time, 4");
 }
 
 TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
-  const auto edited = with_text("\n[reference]\n", "\n[[motion.external_force]]\nuntil = 1\nvalue = 5\n"
+  const auto edited = with_text("\n[reference]\n",
+                                "\n[[motion.external_force]]\nuntil = 1\nvalue = 5\n"
                                 "[[motion.external_force]]\nuntil = 4\nvalue = 6\n\n[reference]\n");
   std::string text = edited.text;
   const auto at = text.find("external_force = ");
@@ -78,7 +89,8 @@ TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
 }
 
 TEST(Roughness, MayBeAnythingBelowTheRadius) {
-  EXPECT_THAT(required_motion(read_text(with_value(kRoughness, "[0.25, 0.5]").text)).roughness, ElementsAre(0.25, 0.5));
+  EXPECT_THAT(required_motion(read_text(with_value(kRoughness, "[0.25, 0.5]").text)).roughness,
+              ElementsAre(0.25, 0.5));
 }
 
 TEST(Roughness, SaysWhatItsTwoNumbersAre) {
@@ -100,7 +112,8 @@ TEST(FitOfACase, MayBeAFileElsewhere) {
 }
 
 TEST(FitOfACase, IsEitherAFileOrABasis) {
-  expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis", "there are: file");
+  expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis",
+                 "there are: file");
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {
@@ -108,30 +121,36 @@ TEST(FitOfACase, HasAFileThatIsText) {
 }
 
 TEST(FitOfACase, ListsTheBasesThereAre) {
-  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis", "lecture, asymptotic");
-  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights", "relative or absolute");
+  expect_refused(with_value({"", "[fit]", "basis", "\"lecture\""}, "\"cubic\""), "fit.basis",
+                 "lecture, asymptotic");
+  expect_refused(with_value({"", "[fit]", "weights", "\"relative\""}, "\"none\""), "fit.weights",
+                 "relative or absolute");
 }
 
 TEST(ModelsOfACase, AreAListOfNames) {
-  const auto edited = with_text("end_time = 4.0\n", "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]\n");
+  const auto edited =
+      with_text("end_time = 4.0\n", "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]\n");
   EXPECT_THAT(read_text(edited.text).models, ElementsAre("inertial", "reference"));
 }
 
 TEST(ModelsOfACase, AreRefusedWhenThereIsNoneOfThatName) {
-  for (const auto* value : {"[\"inertial\", \"gluey\"]", "[]", "\"inertial\"", "[1]", "[\"inertial\", 2]", "{ inertial = true }"}) {
+  for (const auto* value : {"[\"inertial\", \"gluey\"]", "[]", "\"inertial\"", "[1]",
+                            "[\"inertial\", 2]", "{ inertial = true }"}) {
     SCOPED_TRACE(value);
-    auto edited = with_text("end_time = 4.0\n", std::string("models = ") + value + "\nend_time = 4.0\n");
+    auto edited =
+        with_text("end_time = 4.0\n", std::string("models = ") + value + "\nend_time = 4.0\n");
     expect_refused(edited, "motion.models", "");
   }
-  expect_refused(with_text("end_time = 4.0\n", "models = [\"gluey\"]\nend_time = 4.0\n"), "motion.models",
-                 "no model is named 'gluey'; there are reference,");
+  expect_refused(with_text("end_time = 4.0\n", "models = [\"gluey\"]\nend_time = 4.0\n"),
+                 "motion.models", "no model is named 'gluey'; there are reference,");
 }
 
 TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {
   const auto expect_missing = [](const std::string& section, const auto& ask) {
     const Case c = read_text(without_section(section));
     EXPECT_THAT(bad_input([&] { ask(c); }),
-                AllOf(StartsWith(c.path.string() + ": "), HasSubstr("[" + section + "]"))) << section;
+                AllOf(StartsWith(c.path.string() + ": "), HasSubstr("[" + section + "]")))
+        << section;
   };
   expect_missing("tabulation", [](const Case& c) { required_tabulation(c); });
   expect_missing("fit", [](const Case& c) { required_fit(c); });

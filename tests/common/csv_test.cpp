@@ -23,7 +23,9 @@ const std::array<std::string, 3> kNames = {"time", "gap", "gamma"};
 class Csv : public ::testing::Test {
  protected:
   /// What is read from a file of this text; gamma may be absent.
-  CsvFile<3> read(const std::string& text) const { return read_csv(folder_.file("file.csv", text), kNames, 2); }
+  CsvFile<3> read(const std::string& text) const {
+    return read_csv(folder_.file("file.csv", text), kNames, 2);
+  }
 
   /// The message with which a file of this text is refused, from behind the file's name.
   std::string refusal(const std::string& text) const {
@@ -38,8 +40,11 @@ class Csv : public ::testing::Test {
 };
 
 TEST_F(Csv, GivesCommentsNumbersAndLines) {
-  const auto csv = read("# viscosity: 3\n# container: 40 x 80: closed\n# no comment of ours\ntime,gap,gamma\n0,1,\n# between\n0.5,1e-3,-2\n");
-  EXPECT_THAT(csv.comments, ElementsAre(Pair("container", "40 x 80: closed"), Pair("viscosity", "3")));
+  const auto csv = read(
+      "# viscosity: 3\n# container: 40 x 80: closed\n# no comment of ours\ntime,gap,gamma\n0,1,\n# "
+      "between\n0.5,1e-3,-2\n");
+  EXPECT_THAT(csv.comments,
+              ElementsAre(Pair("container", "40 x 80: closed"), Pair("viscosity", "3")));
   ASSERT_EQ(csv.rows.size(), 2U);
   EXPECT_THAT(csv.rows[0].fields, ElementsAre(0.0, 1.0, std::nullopt));
   EXPECT_THAT(csv.rows[1].fields, ElementsAre(0.5, 1e-3, -2.0));
@@ -73,7 +78,9 @@ TEST_F(Csv, TakesAByteOrderMark) {
   EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
 }
 
-TEST_F(Csv, TakesALastLineWithoutItsEndWhereNoCountIsPromised) { EXPECT_EQ(read("time,gap\n1,2\n3,4").rows.size(), 2U); }
+TEST_F(Csv, TakesALastLineWithoutItsEndWhereNoCountIsPromised) {
+  EXPECT_EQ(read("time,gap\n1,2\n3,4").rows.size(), 2U);
+}
 
 TEST_F(Csv, DropsBlanksAroundFields) {
   const auto csv = read(" time , gap\n 1\t, 2 \n");
@@ -81,7 +88,9 @@ TEST_F(Csv, DropsBlanksAroundFields) {
   EXPECT_THAT(csv.rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
 }
 
-TEST_F(Csv, RefusesAMissingColumn) { EXPECT_EQ(refusal("time,gamma\n1,2\n"), ": column 'gap' is missing from the header line"); }
+TEST_F(Csv, RefusesAMissingColumn) {
+  EXPECT_EQ(refusal("time,gamma\n1,2\n"), ": column 'gap' is missing from the header line");
+}
 
 TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
   EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' is twice in the header line");
@@ -92,9 +101,13 @@ TEST_F(Csv, RefusesAnEmptyFile) {
   EXPECT_THAT(refusal("# viscosity: 3\n"), StartsWith(": has no header line"));
 }
 
-TEST_F(Csv, RefusesAShortRow) { EXPECT_EQ(refusal("# x: y\ntime,gap\n1,2\n3\n"), ":4: has fewer fields than the header line"); }
+TEST_F(Csv, RefusesAShortRow) {
+  EXPECT_EQ(refusal("# x: y\ntime,gap\n1,2\n3\n"), ":4: has fewer fields than the header line");
+}
 
-TEST_F(Csv, RefusesALongRow) { EXPECT_EQ(refusal("time,gap\n1,2,3\n"), ":2: has more fields than the header line"); }
+TEST_F(Csv, RefusesALongRow) {
+  EXPECT_EQ(refusal("time,gap\n1,2,3\n"), ":2: has more fields than the header line");
+}
 
 TEST_F(Csv, RefusesALineBeyondAllReason) {
   const std::size_t limit = std::size_t{1} << 24;  // of the library
@@ -109,13 +122,17 @@ TEST_F(Csv, CutsALongFieldInItsMessage) {
 }
 
 TEST_F(Csv, RefusesWhatIsNoFiniteNumber) {
-  for (const std::string text : {"nan", "NaN", "inf", "-inf", "1e400", "1e-400", "1.5x", "one", "\"1\""})
-    EXPECT_EQ(refusal("time,gap\n0,1\n0," + text + "\n"), ":3: gap is not a finite number ('" + text + "')");
+  for (const std::string text :
+       {"nan", "NaN", "inf", "-inf", "1e400", "1e-400", "1.5x", "one", "\"1\""})
+    EXPECT_EQ(refusal("time,gap\n0,1\n0," + text + "\n"),
+              ":3: gap is not a finite number ('" + text + "')");
 }
 
 TEST_F(Csv, RefusesFewerOrMoreRowsThanPromised) {
-  EXPECT_THAT(refusal("# rows: 3\ntime,gap\n1,2\n3,4\n"), AllOf(HasSubstr("has 2 rows"), HasSubstr("says 3")));
-  EXPECT_THAT(refusal("# rows: 1\ntime,gap\n1,2\n3,4\n"), AllOf(HasSubstr("has 2 rows"), HasSubstr("says 1")));
+  EXPECT_THAT(refusal("# rows: 3\ntime,gap\n1,2\n3,4\n"),
+              AllOf(HasSubstr("has 2 rows"), HasSubstr("says 3")));
+  EXPECT_THAT(refusal("# rows: 1\ntime,gap\n1,2\n3,4\n"),
+              AllOf(HasSubstr("has 2 rows"), HasSubstr("says 1")));
   EXPECT_EQ(read("# rows: 2\ntime,gap\n1,2\n3,4\n").rows.size(), 2U);
 }
 
@@ -129,11 +146,17 @@ TEST_F(Csv, CutAnywhereIsRefusedWhereACountIsPromised) {
   }
 }
 
-TEST_F(Csv, RefusesABinaryFile) { EXPECT_THAT(refusal(std::string("\x7f" "ELF\0\1\2\n\3\4", 10)), HasSubstr("time")); }
+TEST_F(Csv, RefusesABinaryFile) {
+  EXPECT_THAT(refusal(std::string("\x7f"
+                                  "ELF\0\1\2\n\3\4",
+                                  10)),
+              HasSubstr("time"));
+}
 
 TEST_F(Csv, NamesTheEmptyFieldThatMustBeThere) {
   const auto csv = read("time,gap\n1,\n");
-  EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }), "f.csv:2: gap is empty; must be a number");
+  EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }),
+            "f.csv:2: gap is empty; must be a number");
   EXPECT_EQ(required_field(csv.rows[0], kNames, 0, "f.csv"), 1.0);
 }
 
@@ -142,18 +165,21 @@ TEST(CsvComment, IsReadAsANumberOrNamedInTheError) {
   EXPECT_EQ(csv_comment_number(comments, "viscosity", "f.csv"), 3.5);
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "radius", "f.csv"); }),
             "f.csv: # radius: is not a finite number ('wide')");
-  EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }), "f.csv: the line '# mass: NUMBER' is missing");
+  EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }),
+            "f.csv: the line '# mass: NUMBER' is missing");
 }
 
 TEST(CsvComment, RoundTrips) {
-  const CsvComments comments = {{"container", "radius 40, height: 80"}, {"empty", ""}, {"version of FreeFEM", "4.11"}};
+  const CsvComments comments = {
+      {"container", "radius 40, height: 80"}, {"empty", ""}, {"version of FreeFEM", "4.11"}};
   EXPECT_EQ(read_csv_comments(write_csv_comments(comments)), comments);
 }
 
 TEST(CsvFile, ThatIsMissingIsNamed) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "none.csv";
-  EXPECT_THAT(bad_input([&] { read_csv(path, kNames, 1); }), StartsWith(path.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_csv(path, kNames, 1); }),
+              StartsWith(path.string() + ": cannot be read"));
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ using ::testing::UnorderedElementsAre;
 TEST(ReadFile, GivesEveryByte) {
   const TemporaryFolder folder;
   std::string bytes;
-  for (int i = 0; i < 300'000; ++i) bytes += static_cast<char>(i % 256);  // several buffers, NUL and CR LF among them
+  for (int i = 0; i < 300'000; ++i)
+    bytes += static_cast<char>(i % 256);  // several buffers, NUL and CR LF among them
   EXPECT_EQ(read_file(folder.file("bytes", bytes)), bytes);
   EXPECT_EQ(read_file(folder.file("empty", "")), "");
 }
@@ -28,7 +29,8 @@ TEST(ReadFile, GivesEveryByte) {
 TEST(ReadFile, NamesAMissingFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "missing.csv";
-  EXPECT_THAT(bad_input([&] { read_file(path); }), StartsWith(path.string() + ": cannot be read (No such file"));
+  EXPECT_THAT(bad_input([&] { read_file(path); }),
+              StartsWith(path.string() + ": cannot be read (No such file"));
 }
 
 TEST(ReadFile, NamesAFolderInPlaceOfAFile) {
@@ -76,7 +78,8 @@ TEST(WriteFile, RefusesAPathBelowAFileAndLeavesTheFile) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
   EXPECT_THAT(bad_input([&] { write_file(file / "fit.json", "x"); }), StartsWith(file.string()));
-  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }), StartsWith(file.string()));
+  EXPECT_THAT(bad_input([&] { write_file(file / "deep" / "fit.json", "x"); }),
+              StartsWith(file.string()));
   EXPECT_EQ(read_file(file), "old");
   EXPECT_THAT(folder.names(), ElementsAre("file"));
 }
@@ -93,7 +96,8 @@ TEST(WriteFile, LeavesTheOldFileWhenTheNewOneCannotBeWrittenBesideIt) {
   // The old name just fits; the longer one of the new file beside it does not.
   const std::string name(250, 'x');
   const auto path = folder.file(name, "old");
-  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }), StartsWith(path.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(path, "new"); }),
+              StartsWith(path.string() + ": cannot be written"));
   EXPECT_EQ(read_file(path), "old");
   EXPECT_THAT(folder.names(), ElementsAre(name));
 }
@@ -128,14 +132,16 @@ TEST(WriteFile, RefusesALinkToItself) {
   const TemporaryFolder folder;
   const auto link = folder.path() / "link";
   std::filesystem::create_symlink("link", link);
-  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }), StartsWith(link.string() + ": cannot be written"));
+  EXPECT_THAT(bad_input([&] { write_file(link, "x"); }),
+              StartsWith(link.string() + ": cannot be written"));
   EXPECT_TRUE(std::filesystem::is_symlink(link));
 }
 
 TEST(CheckOutputFile, AcceptsWhatCanBeWrittenAndMakesNothing) {
   const TemporaryFolder folder;
   EXPECT_EQ(check_output_file(folder.path() / "new"), folder.path() / "new");
-  EXPECT_EQ(check_output_file(folder.path() / "missing" / "new"), folder.path() / "missing" / "new");
+  EXPECT_EQ(check_output_file(folder.path() / "missing" / "new"),
+            folder.path() / "missing" / "new");
   EXPECT_EQ(check_output_file("new"), "new");
   EXPECT_THAT(folder.names(), IsEmpty());
   EXPECT_EQ(check_output_file(folder.file("old", "old")), folder.path() / "old");
@@ -145,7 +151,8 @@ TEST(CheckOutputFile, RefusesAFolderAndADevice) {
   const TemporaryFolder folder;
   EXPECT_THAT(bad_input([&] { check_output_file(folder.path()); }),
               StartsWith(folder.path().string() + ": cannot be written (Is a directory"));
-  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }), StartsWith("/dev/null: cannot be written"));
+  EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }),
+              StartsWith("/dev/null: cannot be written"));
 }
 
 TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
@@ -159,8 +166,10 @@ TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
 TEST(MakeFolder, NamesAFileInTheWay) {
   const TemporaryFolder folder;
   const auto file = folder.file("file", "old");
-  EXPECT_THAT(bad_input([&] { make_folder(file); }), StartsWith(file.string() + ": cannot be made"));
-  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }), StartsWith((file / "below").string() + ": cannot be made"));
+  EXPECT_THAT(bad_input([&] { make_folder(file); }),
+              StartsWith(file.string() + ": cannot be made"));
+  EXPECT_THAT(bad_input([&] { make_folder(file / "below"); }),
+              StartsWith((file / "below").string() + ": cannot be made"));
   EXPECT_EQ(read_file(file), "old");
 }
 

@@ -47,7 +47,8 @@ void interrupt_a_child(const std::string& number_file) {
   catch_interrupts();
   std::thread([=] {
     pid_t child = 0;
-    while (!(std::ifstream(number_file) >> child)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    while (!(std::ifstream(number_file) >> child))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     ::kill(::getpid(), SIGINT);
   }).detach();
   try {

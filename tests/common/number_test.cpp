@@ -34,15 +34,17 @@ TEST(Number, RandomDoublesOfEveryMagnitudeRoundTripToTheBit) {
 
 TEST(Number, SubnormalsRoundTripToTheBit) {
   std::mt19937_64 random(2007);
-  constexpr std::uint64_t kFraction = (std::uint64_t{1} << 52) - 1;  // exponent bits zero: subnormal
+  constexpr std::uint64_t kFraction =
+      (std::uint64_t{1} << 52) - 1;  // exponent bits zero: subnormal
   for (int i = 0; i < 50'000; ++i)
     ASSERT_NO_FATAL_FAILURE(expect_round_trip(std::bit_cast<double>(random() & kFraction)));
 }
 
 TEST(Number, ExtremesRoundTripToTheBit) {
   using Limits = std::numeric_limits<double>;
-  for (const double value : {0.0, 1.0, 0.1, std::numbers::pi, Limits::min(), Limits::max(), Limits::denorm_min(),
-                             Limits::epsilon(), std::nextafter(Limits::min(), 0.0), 9007199254740993.0, 1e22, 1e23})
+  for (const double value :
+       {0.0, 1.0, 0.1, std::numbers::pi, Limits::min(), Limits::max(), Limits::denorm_min(),
+        Limits::epsilon(), std::nextafter(Limits::min(), 0.0), 9007199254740993.0, 1e22, 1e23})
     for (const double sign : {1.0, -1.0}) expect_round_trip(sign * value);
 }
 
@@ -57,15 +59,19 @@ TEST(Number, IsWrittenInItsShortestForm) {
 
 TEST(Number, ReadsAsTheNearestDouble) {
   const std::vector<std::pair<std::string, double>> accepted = {
-      {"1", 1.0}, {"+1.5", 1.5}, {"-1.5E-3", -1.5e-3}, {" \t2.5\t ", 2.5}, {".5", 0.5}, {"5.", 5.0}, {"0e400", 0.0},
-      {"0.1000000000000000055511151231257827", 0.1}};
-  for (const auto& [text, value] : accepted) EXPECT_EQ(parse_number(text), std::optional(value)) << "'" << text << "'";
+      {"1", 1.0},           {"+1.5", 1.5},
+      {"-1.5E-3", -1.5e-3}, {" \t2.5\t ", 2.5},
+      {".5", 0.5},          {"5.", 5.0},
+      {"0e400", 0.0},       {"0.1000000000000000055511151231257827", 0.1}};
+  for (const auto& [text, value] : accepted)
+    EXPECT_EQ(parse_number(text), std::optional(value)) << "'" << text << "'";
 }
 
 TEST(Number, RefusesWhatIsNoneThatADoubleCanHold) {
-  for (const std::string text : {"", " ", "nan", "NaN", "-nan", "nan(1)", "inf", "-inf", "infinity", "1e400", "-1e400",
-                                 "1e-400", "-1e-400", "1.5x", "x1.5", "1.5 2", "1,5", "0x10", "1e", "1e+", "--1", "-+1",
-                                 "++1", "+-1", "+", "-", ".", "+ 1", "1\n", "one"})
+  for (const std::string text :
+       {"",       " ",      "nan",     "NaN",  "-nan", "nan(1)", "inf", "-inf", "infinity", "1e400",
+        "-1e400", "1e-400", "-1e-400", "1.5x", "x1.5", "1.5 2",  "1,5", "0x10", "1e",       "1e+",
+        "--1",    "-+1",    "++1",     "+-1",  "+",    "-",      ".",   "+ 1",  "1\n",      "one"})
     EXPECT_EQ(parse_number(text), std::nullopt) << "'" << text << "'";
 }
 

@@ -51,7 +51,8 @@ TEST(Process, SaysThatAProgramIsMissing) {
 
 TEST(Process, SaysThatAFileMayNotBeRun) {
   const TemporaryFolder folder;
-  const auto result = run_process({folder.file("text", "no program\n").string()});  // not executable, for root neither
+  const auto result = run_process(
+      {folder.file("text", "no program\n").string()});  // not executable, for root neither
   EXPECT_FALSE(result.started);
   EXPECT_THAT(result.output, HasSubstr("Permission denied"));
 }
@@ -71,7 +72,8 @@ TEST(Process, ReplacesAVariableThatIsSetAlready) {
   EXPECT_THAT(result.output, HasSubstr("HOME=elsewhere\n"));
   std::size_t count = 0;
   const std::string lines = "\n" + result.output;
-  for (auto at = lines.find("\nHOME="); at != std::string::npos; at = lines.find("\nHOME=", at + 1)) ++count;
+  for (auto at = lines.find("\nHOME="); at != std::string::npos; at = lines.find("\nHOME=", at + 1))
+    ++count;
   EXPECT_EQ(count, 1U);
 }
 
@@ -82,12 +84,14 @@ TEST(Process, TalksBothWaysWithoutDeadlock) {
   const std::string input = large_input(4'000'000);
   const auto result = run_process({"cat"}, {}, input);
   EXPECT_EQ(result.exit_status, 0);
-  EXPECT_TRUE(result.output == input) << result.output.size() << " bytes came back of " << input.size();
+  EXPECT_TRUE(result.output == input)
+      << result.output.size() << " bytes came back of " << input.size();
 }
 
 TEST(Process, MayAnswerOnlyWhenAllIsReadOrTalkBeforeItReads) {
   const std::string input = large_input(1'000'000);
-  EXPECT_TRUE(shell("content=$(cat; echo .); printf %s \"${content%.}\"", {}, input).output == input);
+  EXPECT_TRUE(shell("content=$(cat; echo .); printf %s \"${content%.}\"", {}, input).output ==
+              input);
   const auto result = shell("head -c 1000000 /dev/zero | tr '\\0' x; wc -c", {}, input);
   EXPECT_EQ(result.output.substr(0, 1'000'000), std::string(1'000'000, 'x'));
   EXPECT_THAT(result.output.substr(1'000'000), HasSubstr(std::to_string(input.size())));
@@ -114,7 +118,8 @@ TEST(Process, ReportsTheMemoryOfTheChild) {
 TEST(Process, LeavesNoDescriptorOpen) {
   const auto count = [] {
     std::size_t open = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) ++open;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+      ++open;
     return open;
   };
   const auto before = count();

@@ -20,7 +20,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 Fit complete_fit() {
-  Fit fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1.0 / 3}, 3, 1), "lecture", Weights::kAbsolute);
+  Fit fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1.0 / 3}, 3, 1), "lecture",
+                            Weights::kAbsolute);
   fit.table_sha256 = sha256("table");
   fit.versions = {{"Ceres", "2.1.0"}, {"a \"quoted\" name", "\xC3\xA9"}};
   return fit;
@@ -81,7 +82,8 @@ TEST(FitFile, ThatIsShippedIsReadAndUsable) {
     for (const double gap : {fit.gap_interval[0], middle, fit.gap_interval[1]}) {
       EXPECT_GT(force.resistance(gap), 0) << "at gap " << gap;
       // Gamma and its inverse are logarithms at worst: |ln q| roundings of each.
-      EXPECT_NEAR(force.gap_of_impulse(force.impulse(gap)) / gap, 1, 1e-15 * (10 + 10 * std::abs(std::log(gap))));
+      EXPECT_NEAR(force.gap_of_impulse(force.impulse(gap)) / gap, 1,
+                  1e-15 * (10 + 10 * std::abs(std::log(gap))));
     }
   }
   EXPECT_GE(count, 1);
@@ -129,26 +131,35 @@ TEST_F(Refusal, OfAFileCutAnywhere) {
 
 TEST_F(Refusal, OfAnUnknownKeyNamesIt) {
   EXPECT_EQ(with("\"basis\"", "\"colour\": 1, \"basis\""), ": colour is not a key of a fit file");
-  EXPECT_EQ(with("\"name\": \"q\"", "\"unit\": 1, \"name\": \"q\""), ": terms[1].unit is not a key of a fit file");
+  EXPECT_EQ(with("\"name\": \"q\"", "\"unit\": 1, \"name\": \"q\""),
+            ": terms[1].unit is not a key of a fit file");
 }
 
 TEST_F(Refusal, OfAValueOutOfRangeNamesTheKey) {
-  EXPECT_EQ(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"), ": reference_velocity is 0; must not be");
+  EXPECT_EQ(with("\"reference_velocity\": -1.0", "\"reference_velocity\": 0"),
+            ": reference_velocity is 0; must not be");
   EXPECT_EQ(with("\"viscosity\": 3.0", "\"viscosity\": 0"), ": viscosity is 0; must be > 0");
   EXPECT_EQ(with("\"radius\": 1.0", "\"radius\": -1"), ": radius is -1; must be > 0");
-  EXPECT_EQ(with("\"condition_number\": 1.0", "\"condition_number\": 0.5"), ": condition_number is 0.5; must be >= 1");
+  EXPECT_EQ(with("\"condition_number\": 1.0", "\"condition_number\": 0.5"),
+            ": condition_number is 0.5; must be >= 1");
   EXPECT_THAT(with("0.125", "2"), HasSubstr("gap_interval is [2,2.0]; must be 0 < first < second"));
   EXPECT_THAT(with("0.125", "0"), HasSubstr("gap_interval is [0,2.0]; must be 0 < first < second"));
   EXPECT_EQ(with("0.125", "0.125, 1"), ": gap_interval must be two gaps");
-  EXPECT_EQ(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""), ": weights is 'cubic'; must be relative or absolute");
+  EXPECT_EQ(with("\"weights\": \"relative\"", "\"weights\": \"cubic\""),
+            ": weights is 'cubic'; must be relative or absolute");
 }
 
-TEST_F(Refusal, OfANumberThatNoDoubleHolds) { EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"), HasSubstr("1e400")); }
+TEST_F(Refusal, OfANumberThatNoDoubleHolds) {
+  EXPECT_THAT(with("\"viscosity\": 3.0", "\"viscosity\": 1e400"), HasSubstr("1e400"));
+}
 
 TEST_F(Refusal, OfATermNamesItsPlace) {
-  EXPECT_EQ(with("\"name\": \"q\"", "\"name\": \"q^9\""), ": terms[1].name is 'q^9', which is no term");
-  EXPECT_EQ(with("\"name\": \"q\"", "\"name\": \"1/q\""), ": terms[1].name is '1/q', a second time");
-  EXPECT_EQ(with("\"coefficient\": 0.25", "\"coefficient\": \"0.25\""), ": terms[1].coefficient is \"0.25\"; must be a finite number");
+  EXPECT_EQ(with("\"name\": \"q\"", "\"name\": \"q^9\""),
+            ": terms[1].name is 'q^9', which is no term");
+  EXPECT_EQ(with("\"name\": \"q\"", "\"name\": \"1/q\""),
+            ": terms[1].name is '1/q', a second time");
+  EXPECT_EQ(with("\"coefficient\": 0.25", "\"coefficient\": \"0.25\""),
+            ": terms[1].coefficient is \"0.25\"; must be a finite number");
 }
 
 TEST_F(Refusal, OfACovarianceOfAnotherSize) {
@@ -163,9 +174,11 @@ TEST_F(Refusal, OfACovarianceOfAnotherSize) {
 
 TEST(FitFile, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }), StartsWith(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(folder.path()); }),
+              StartsWith(folder.path().string() + ": cannot be read"));
   const auto missing = folder.path() / "none.json";
-  EXPECT_THAT(bad_input([&] { read_fit(missing); }), StartsWith(missing.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_fit(missing); }),
+              StartsWith(missing.string() + ": cannot be read"));
 }
 
 }  // namespace

@@ -21,18 +21,20 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 Json schema() {
-  return Json::parse(read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs" / "fit.schema.json"));
+  return Json::parse(
+      read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs" / "fit.schema.json"));
 }
 
 Json good_file() {
-  Fit fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  Fit fit =
+      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
   fit.versions = {{"Ceres", "2.1.0"}};
   return Json::parse(write_fit(fit));
 }
 
 /// A value of each type that the schema does not allow: "number", "string", ... are the keys.
-const Json kOneOfEach = {{"number", 1.5}, {"string", "text"}, {"array", Json::array({1})}, {"object", {{"x", 1}}},
-                         {"boolean", true}, {"null", nullptr}};
+const Json kOneOfEach = {{"number", 1.5},        {"string", "text"}, {"array", Json::array({1})},
+                         {"object", {{"x", 1}}}, {"boolean", true},  {"null", nullptr}};
 
 class Schema : public ::testing::Test {
  protected:
@@ -48,16 +50,19 @@ class Schema : public ::testing::Test {
     expect_refused(changed(good, place, [](Json& object) { object["surplus"] = 1; }), "surplus");
     for (const auto& [key, rule] : rules.at("properties").items()) {
       SCOPED_TRACE(key);
-      ASSERT_TRUE(good.at(place).contains(key)) << "in the schema, but not in what write_fit writes";
+      ASSERT_TRUE(good.at(place).contains(key))
+          << "in the schema, but not in what write_fit writes";
       expect_value_rules(rule, key, place);
     }
     for (const auto& [key, value] : good.at(place).items())
-      EXPECT_TRUE(rules.at("properties").contains(key)) << key << " is written, but not in the schema";
+      EXPECT_TRUE(rules.at("properties").contains(key))
+          << key << " is written, but not in the schema";
     for (const std::string key : rules.at("required")) {
       EXPECT_TRUE(rules.at("properties").contains(key)) << key;
       expect_refused(changed(good, place, [&](Json& object) { object.erase(key); }), key);
     }
-    EXPECT_EQ(rules.at("required").size(), rules.at("properties").size()) << "the reader has no optional keys";
+    EXPECT_EQ(rules.at("required").size(), rules.at("properties").size())
+        << "the reader has no optional keys";
   }
 
   void expect_refused(const Json& json, const std::string& key) const {
@@ -71,13 +76,15 @@ class Schema : public ::testing::Test {
     return json;
   }
 
-  void expect_value_rules(const Json& rule, const std::string& key, const Json::json_pointer& place) const {
+  void expect_value_rules(const Json& rule, const std::string& key,
+                          const Json::json_pointer& place) const {
     const Json good = good_file();
     const auto refused = [&](const Json& value) {
       expect_refused(changed(good, place, [&](Json& object) { object[key] = value; }), key);
     };
     const auto read_well = [&](const Json& value) {
-      EXPECT_NO_THROW(read(changed(good, place, [&](Json& object) { object[key] = value; }))) << value;
+      EXPECT_NO_THROW(read(changed(good, place, [&](Json& object) { object[key] = value; })))
+          << value;
     };
     for (const auto& [type, value] : kOneOfEach.items())
       if (type != rule.at("type")) refused(value);
@@ -104,13 +111,15 @@ class Schema : public ::testing::Test {
         for (const auto& [type, value] : kOneOfEach.items())
           if (type != argument.at("type")) refused({{"Ceres", value}});
       } else {
-        EXPECT_TRUE(name == "type" || name == "description") << "the test does not know the rule " << name;
+        EXPECT_TRUE(name == "type" || name == "description")
+            << "the test does not know the rule " << name;
       }
     }
   }
 
   template <class Refused>
-  static void expect_element_type(const Json& rule, const std::string& key, const Refused& refused, const Json& good) {
+  static void expect_element_type(const Json& rule, const std::string& key, const Refused& refused,
+                                  const Json& good) {
     for (const auto& [type, value] : kOneOfEach.items()) {
       if (type == rule.at("type")) continue;
       Json elements = good;
@@ -140,14 +149,16 @@ TEST_F(Schema, RulesOfATermAreTheReaders) {
 }
 
 TEST_F(Schema, KnowsEveryTermThereIs) {
-  const Json names = schema().at("properties").at("terms").at("items").at("properties").at("name").at("enum");
+  const Json names =
+      schema().at("properties").at("terms").at("items").at("properties").at("name").at("enum");
   std::set<std::string> terms;
   for (const auto& term : all_terms()) terms.emplace(term.name);
   EXPECT_EQ(names.get<std::set<std::string>>(), terms);
 }
 
 TEST_F(Schema, KnowsEveryWeights) {
-  for (const std::string word : schema().at("properties").at("weights").at("enum")) EXPECT_NO_THROW(parse_weights(word));
+  for (const std::string word : schema().at("properties").at("weights").at("enum"))
+    EXPECT_NO_THROW(parse_weights(word));
 }
 
 TEST_F(Schema, IsOfTheDraftItClaims) {

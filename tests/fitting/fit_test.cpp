@@ -101,14 +101,16 @@ TEST(Fit, RecoversPlantedCoefficients) {
     ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
     for (auto& row : table.rows) {
       row.force = 0;
-      for (std::size_t i = 0; i < planted.size(); ++i) row.force += planted[i] * basis.terms[i].value(row.gap);
+      for (std::size_t i = 0; i < planted.size(); ++i)
+        row.force += planted[i] * basis.terms[i].value(row.gap);
     }
     const auto fit = fit_force_table(table, basis.name, Weights::kRelative);
     ASSERT_EQ(fit.terms.size(), planted.size());
     for (std::size_t i = 0; i < planted.size(); ++i) {
       EXPECT_EQ(fit.terms[i].name, basis.terms[i].name);
       // Forces are rounded to eps = 2e-16; the conditioning brings it back, in units of the smallest column (1e-2 of the largest).
-      EXPECT_NEAR(fit.terms[i].coefficient, planted[i], 1e-13 * fit.condition_number) << basis.name << " " << fit.terms[i].name;
+      EXPECT_NEAR(fit.terms[i].coefficient, planted[i], 1e-13 * fit.condition_number)
+          << basis.name << " " << fit.terms[i].name;
     }
     EXPECT_LT(fit.largest_relative_residual, 1e-14 * fit.condition_number);
   }
@@ -116,30 +118,38 @@ TEST(Fit, RecoversPlantedCoefficients) {
 
 TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
   // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact in doubles too.
-  const auto one = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
-  const auto several = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4, 0.5}, 3, 1), "lecture", Weights::kRelative);
+  const auto one =
+      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  const auto several = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4, 0.5}, 3, 1),
+                                       "lecture", Weights::kRelative);
   EXPECT_EQ(several.reference_velocity, -1);
   ASSERT_EQ(several.terms.size(), one.terms.size());
   for (std::size_t i = 0; i < one.terms.size(); ++i) {
     // The same minimum, by another sequence of roundings.
     const double rounding = 1e-14 * one.condition_number * std::abs(one.terms[i].coefficient);
-    EXPECT_NEAR(several.terms[i].coefficient, one.terms[i].coefficient, rounding) << one.terms[i].name;
+    EXPECT_NEAR(several.terms[i].coefficient, one.terms[i].coefficient, rounding)
+        << one.terms[i].name;
     // Three times the rows, three times the residuals: s^2 (A^T A)^-1 falls as (n - p) / (3 n - p).
-    EXPECT_NEAR(several.terms[i].standard_error / one.terms[i].standard_error, std::sqrt(45.0 / 145), 1e-10);
+    EXPECT_NEAR(several.terms[i].standard_error / one.terms[i].standard_error,
+                std::sqrt(45.0 / 145), 1e-10);
   }
 }
 
 TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
-  const auto at_one = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1), "lecture", Weights::kRelative);
-  const auto at_four = fit_force_table(exact_drag_table(fifty_gaps(), {-4, -1}, 3, 1), "lecture", Weights::kRelative);
+  const auto at_one = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1), "lecture",
+                                      Weights::kRelative);
+  const auto at_four = fit_force_table(exact_drag_table(fifty_gaps(), {-4, -1}, 3, 1), "lecture",
+                                       Weights::kRelative);
   EXPECT_EQ(at_four.reference_velocity, -4);
   for (std::size_t i = 0; i < at_one.terms.size(); ++i)
     EXPECT_NEAR(at_four.terms[i].coefficient, 4 * at_one.terms[i].coefficient,
-                1e-14 * at_one.condition_number * std::abs(4 * at_one.terms[i].coefficient));  // rounding, as above
+                1e-14 * at_one.condition_number *
+                    std::abs(4 * at_one.terms[i].coefficient));  // rounding, as above
 }
 
 TEST(Fit, OfTheExactDragHasTheLeadingCoefficientOfTheory) {
-  const auto fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative);
+  const auto fit =
+      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative);
   ASSERT_EQ(fit.terms[0].name, "1/q");
   // At the smallest gap 1/q is all but 2.4e-3 of the drag, and the fit is within 6e-6 of it there.
   EXPECT_NEAR(fit.terms[0].coefficient / (6 * std::numbers::pi * 3), 1, 1e-5);
@@ -150,26 +160,33 @@ TEST(Fit, NeedsAsManyDifferentGapsAsTerms) {
   const auto table = exact_drag_table({0.1, 0.2, 0.3, 0.3, 0.4}, {-1, -2}, 3, 1);
   EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kRelative); }),
               AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
-  EXPECT_THAT(bad_input([] { fit_force_table(ForceTable{}, "lecture", Weights::kRelative); }), HasSubstr("0 different gap"));
+  EXPECT_THAT(bad_input([] { fit_force_table(ForceTable{}, "lecture", Weights::kRelative); }),
+              HasSubstr("0 different gap"));
 }
 
 TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
   std::vector<double> gaps;
   for (int i = 0; i < 10; ++i) gaps.push_back(0.5 * (1 + i * 1e-15));
   const auto table = exact_drag_table(gaps, {-1}, 3, 1);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { fit_force_table(table, "lecture", Weights::kRelative); }),
+  EXPECT_THAT(failure(ExitCode::kNotConverged,
+                      [&] { fit_force_table(table, "lecture", Weights::kRelative); }),
               HasSubstr("cannot be told apart"));
 }
 
 TEST(Fit, NamesAnUnknownBasis) {
-  EXPECT_THAT(bad_input([] { fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "cubic", Weights::kRelative); }),
+  EXPECT_THAT(bad_input([] {
+                fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "cubic",
+                                Weights::kRelative);
+              }),
               AllOf(HasSubstr("'cubic'"), HasSubstr("lecture")));
 }
 
 TEST(Weights, AreNamedAndReadBack) {
-  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) EXPECT_EQ(parse_weights(to_string(weights)), weights);
+  for (const auto weights : {Weights::kRelative, Weights::kAbsolute})
+    EXPECT_EQ(parse_weights(to_string(weights)), weights);
   EXPECT_EQ(to_string(Weights::kRelative), "relative");
-  EXPECT_THAT(bad_input([] { parse_weights("squared"); }), AllOf(HasSubstr("'squared'"), HasSubstr("relative or absolute")));
+  EXPECT_THAT(bad_input([] { parse_weights("squared"); }),
+              AllOf(HasSubstr("'squared'"), HasSubstr("relative or absolute")));
 }
 
 }  // namespace

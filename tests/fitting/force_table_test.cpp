@@ -42,7 +42,8 @@ TEST(ForceTable, RoundTripsToTheBit) {
     ForceTableRow row;
     row.gap = random_positive(random);
     // Their product must not underflow to 0: a force opposed to its velocity is asked for.
-    row.reference_velocity = (i % 2 == 0 ? -1 : 1) * std::ldexp(random_positive(random) > 1 ? 1.1 : 0.7, i - 150);
+    row.reference_velocity =
+        (i % 2 == 0 ? -1 : 1) * std::ldexp(random_positive(random) > 1 ? 1.1 : 0.7, i - 150);
     row.force = -row.reference_velocity * std::ldexp(1.0 / (i + 3), 300 - i);
     row.drag_factor = random_positive(random);
     row.relative_error_estimate = random_positive(random);
@@ -73,15 +74,16 @@ TEST(ForceTable, RoundTripsToTheBit) {
 
 TEST(ForceTable, HasTheColumnsOfTheInterface) {
   EXPECT_THAT(write_force_table(exact_drag_table({0.5}, {-1}, 3, 1)),
-              HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,degrees_of_freedom,seconds\n0.5,-1,"));
+              HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,"
+                        "degrees_of_freedom,seconds\n0.5,-1,"));
 }
 
 constexpr const char* kHead = "# viscosity: 3\n# radius: 2\n";
 
 TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
   const TemporaryFolder folder;
-  const auto table =
-      read_force_table(folder.file("own.csv", std::string(kHead) + "force,gap,reference_velocity\n1000,0.5,-1\n"));
+  const auto table = read_force_table(
+      folder.file("own.csv", std::string(kHead) + "force,gap,reference_velocity\n1000,0.5,-1\n"));
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0].gap, 0.5);
   EXPECT_EQ(table.rows[0].reference_velocity, -1);
@@ -96,14 +98,17 @@ struct WrongTable {
   const char* message;  // behind the file's name
 };
 
-void PrintTo(const WrongTable& table, std::ostream* stream) { *stream << table.what; }  // for GoogleTest's messages
+void PrintTo(const WrongTable& table, std::ostream* stream) {
+  *stream << table.what;
+}  // for GoogleTest's messages
 
 class Wrong : public ::testing::TestWithParam<WrongTable> {};
 
 TEST_P(Wrong, TableIsRefusedWithFileAndLine) {
   const TemporaryFolder folder;
   const auto path = folder.file("table.csv", GetParam().text);
-  EXPECT_THAT(bad_input([&] { read_force_table(path); }), StartsWith(path.string() + GetParam().message));
+  EXPECT_THAT(bad_input([&] { read_force_table(path); }),
+              StartsWith(path.string() + GetParam().message));
 }
 
 const std::string kColumnsLine = "gap,reference_velocity,force\n";
@@ -114,44 +119,57 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         WrongTable{"Empty", "", ": has no header line"},
         WrongTable{"NoRows", kGoodHead, ": has no rows"},
-        WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n", ": the line '# viscosity: NUMBER' is missing"},
-        WrongTable{"NoRadius", "# viscosity: 1\n" + kColumnsLine + "1,-1,1\n", ": the line '# radius: NUMBER' is missing"},
+        WrongTable{"NoViscosity", "# radius: 1\n" + kColumnsLine + "1,-1,1\n",
+                   ": the line '# viscosity: NUMBER' is missing"},
+        WrongTable{"NoRadius", "# viscosity: 1\n" + kColumnsLine + "1,-1,1\n",
+                   ": the line '# radius: NUMBER' is missing"},
         WrongTable{"ViscosityZero", "# viscosity: 0\n# radius: 1\n" + kColumnsLine + "1,-1,1\n",
                    ": # viscosity: is 0; must be > 0"},
         WrongTable{"RadiusNegative", "# viscosity: 1\n# radius: -1\n" + kColumnsLine + "1,-1,1\n",
                    ": # radius: is -1; must be > 0"},
-        WrongTable{"ViscosityNoNumber", "# viscosity: nan\n# radius: 1\n" + kColumnsLine + "1,-1,1\n",
+        WrongTable{"ViscosityNoNumber",
+                   "# viscosity: nan\n# radius: 1\n" + kColumnsLine + "1,-1,1\n",
                    ": # viscosity: is not a finite number ('nan')"},
         WrongTable{"NoForceColumn", kHead + std::string("gap,reference_velocity\n1,-1\n"),
                    ": column 'force' is missing from the header line"},
         WrongTable{"GapZero", kGoodHead + "1,-1,1\n0,-1,1\n", ":5: gap is 0; must be > 0"},
         WrongTable{"GapNegative", kGoodHead + "-0.5,-1,1\n", ":4: gap is -0.5; must be > 0"},
         WrongTable{"GapEmpty", kGoodHead + ",-1,1\n", ":4: gap is empty"},
-        WrongTable{"VelocityZero", kGoodHead + "1,0,1\n", ":4: reference_velocity is 0; must not be"},
+        WrongTable{"VelocityZero", kGoodHead + "1,0,1\n",
+                   ":4: reference_velocity is 0; must not be"},
         WrongTable{"ForceAlongVelocity", kGoodHead + "1,-1,-1\n", ":4: force is -1 at velocity -1"},
         WrongTable{"ForceZero", kGoodHead + "1,-1,0\n", ":4: force is 0 at velocity -1"},
-        WrongTable{"ForceNan", kGoodHead + "1,-1,1\n1,-1,1\n1,-1,nan\n", ":6: force is not a finite number ('nan')"},
-        WrongTable{"ForceOverflows", kGoodHead + "1,-1,1e400\n", ":4: force is not a finite number ('1e400')"},
+        WrongTable{"ForceNan", kGoodHead + "1,-1,1\n1,-1,1\n1,-1,nan\n",
+                   ":6: force is not a finite number ('nan')"},
+        WrongTable{"ForceOverflows", kGoodHead + "1,-1,1e400\n",
+                   ":4: force is not a finite number ('1e400')"},
         WrongTable{"ShortRow", kGoodHead + "1,-1\n", ":4: has fewer fields"},
         WrongTable{"LongRow", kGoodHead + "1,-1,1,1\n", ":4: has more fields"},
-        WrongTable{"NegativeErrorEstimate", kHead + std::string("gap,reference_velocity,force,relative_error_estimate\n1,-1,1,-1e-5\n"),
-                   ":4: relative_error_estimate is -1e-05; must be >= 0"},
-        WrongTable{"Truncated", "# rows: 2\n" + kGoodHead + "1,-1,1\n", ": has 1 rows where its header says 2"}),
+        WrongTable{
+            "NegativeErrorEstimate",
+            kHead +
+                std::string("gap,reference_velocity,force,relative_error_estimate\n1,-1,1,-1e-5\n"),
+            ":4: relative_error_estimate is -1e-05; must be >= 0"},
+        WrongTable{"Truncated", "# rows: 2\n" + kGoodHead + "1,-1,1\n",
+                   ": has 1 rows where its header says 2"}),
     [](const auto& tested) { return tested.param.what; });
 
 TEST(ForceTable, CutAnywhereIsRefused) {
   const TemporaryFolder folder;
   const auto text = write_force_table(exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
   for (std::size_t length = 0; length < text.size(); ++length)
-    EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }), "")
+    EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
+              "")
         << "cut to " << length << " of " << text.size() << " bytes";
 }
 
 TEST(ForceTable, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
   const TemporaryFolder folder;
-  EXPECT_THAT(bad_input([&] { read_force_table(folder.path()); }), StartsWith(folder.path().string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_force_table(folder.path()); }),
+              StartsWith(folder.path().string() + ": cannot be read"));
   const auto missing = folder.path() / "none.csv";
-  EXPECT_THAT(bad_input([&] { read_force_table(missing); }), StartsWith(missing.string() + ": cannot be read"));
+  EXPECT_THAT(bad_input([&] { read_force_table(missing); }),
+              StartsWith(missing.string() + ": cannot be read"));
 }
 
 }  // namespace

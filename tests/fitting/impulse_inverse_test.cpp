@@ -41,21 +41,26 @@ struct Sample {
   double smallest_gap;
 };
 
-void PrintTo(const Sample& sample, std::ostream* stream) { *stream << sample.name; }  // for GoogleTest's messages
+void PrintTo(const Sample& sample, std::ostream* stream) {
+  *stream << sample.name;
+}  // for GoogleTest's messages
 
 std::vector<Sample> samples() {
   const auto exact = [](std::string_view basis) {
-    return fit_force_table(exact_drag_table(log_spaced(1e-3, 2, 40), {-1}, 3, 1), basis, Weights::kRelative);
+    return fit_force_table(exact_drag_table(log_spaced(1e-3, 2, 40), {-1}, 3, 1), basis,
+                           Weights::kRelative);
   };
   const auto limit = BelowInterval::kLubricationLimit;
-  return {{"Lecture", exact("lecture"), BelowInterval::kError, 1e-3},
-          {"Asymptotic", exact("asymptotic"), BelowInterval::kError, 1e-3},
-          {"LectureBelow", exact("lecture"), limit, 1e-12},
-          {"AsymptoticBelow", exact("asymptotic"), limit, 1e-12},
-          {"LeadingTermFarBelow", planted_fit({{"1/q", 56.5}}, 1e-3, 2), limit, 1e-300},
-          {"NegativeRegularPartBelow", planted_fit({{"1/q", 1}, {"1", -5}, {"q", 10}}, 0.125, 2), limit, 1e-9},
-          {"LargeRegularPartBelow", planted_fit({{"1/q", 1e-3}, {"1", 50}}, 0.5, 2), limit, 1e-9},
-          {"NoLeadingTerm", planted_fit({{"1", 2}, {"q^3", 1}}, 1e-3, 2), BelowInterval::kError, 1e-3}};
+  return {
+      {"Lecture", exact("lecture"), BelowInterval::kError, 1e-3},
+      {"Asymptotic", exact("asymptotic"), BelowInterval::kError, 1e-3},
+      {"LectureBelow", exact("lecture"), limit, 1e-12},
+      {"AsymptoticBelow", exact("asymptotic"), limit, 1e-12},
+      {"LeadingTermFarBelow", planted_fit({{"1/q", 56.5}}, 1e-3, 2), limit, 1e-300},
+      {"NegativeRegularPartBelow", planted_fit({{"1/q", 1}, {"1", -5}, {"q", 10}}, 0.125, 2), limit,
+       1e-9},
+      {"LargeRegularPartBelow", planted_fit({{"1/q", 1e-3}, {"1", 50}}, 0.5, 2), limit, 1e-9},
+      {"NoLeadingTerm", planted_fit({{"1", 2}, {"q^3", 1}}, 1e-3, 2), BelowInterval::kError, 1e-3}};
 }
 
 class Inverse : public ::testing::TestWithParam<Sample> {};
@@ -70,7 +75,8 @@ TEST_P(Inverse, GivesTheGapBackToRoundOff) {
   constexpr int kGaps = 100'000;
   for (int i = 0; i < kGaps; ++i) {
     const double gap = std::clamp(std::exp(logarithm(random)), smallest, largest);
-    const double error = std::abs(force.gap_of_impulse(force.impulse(gap)) / gap - 1) / round_off(fit, force, gap);
+    const double error =
+        std::abs(force.gap_of_impulse(force.impulse(gap)) / gap - 1) / round_off(fit, force, gap);
     if (error > worst) {
       worst = error;
       worst_gap = gap;
@@ -85,7 +91,8 @@ TEST_P(Inverse, GivesTheEndsOfTheIntervalBack) {
   const auto [from, to] = fit.gap_interval;
   double gap_above = from;
   double gap_below = to;
-  for (int i = 0; i < 20; ++i) {  // the ends and their neighbours, one unit in the last place after the other
+  for (int i = 0; i < 20;
+       ++i) {  // the ends and their neighbours, one unit in the last place after the other
     for (const double gap : {gap_above, gap_below}) {
       const double back = force.gap_of_impulse(force.impulse(gap));
       EXPECT_NEAR(back / gap, 1, round_off(fit, force, gap)) << "gap " << gap;
@@ -110,7 +117,8 @@ TEST(ImpulseInverse, StaysInsideAnyIntervalItIsGiven) {
     const LubricationForce force(planted_fit({{"1/q", 56.5}, {"1", 10}}, from, to));
     for (const double gap : {from, std::nextafter(from, to), std::nextafter(to, from), to}) {
       double back = 0;
-      ASSERT_NO_THROW(back = force.gap_of_impulse(force.impulse(gap))) << "[" << from << ", " << to << "]";
+      ASSERT_NO_THROW(back = force.gap_of_impulse(force.impulse(gap)))
+          << "[" << from << ", " << to << "]";
       ASSERT_GE(back, from);
       ASSERT_LE(back, to);
     }
@@ -133,29 +141,36 @@ TEST(ImpulseInverse, IsMonotonicAcrossTheLowerEnd) {
 
 TEST(ImpulseInverse, NamesTheIntervalItLeaves) {
   const LubricationForce force(planted_fit({{"1/q", 56.5}}, 1e-3, 2));
-  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(1e-3) - 1); }), HasSubstr("thinner than the fitted interval [0.001, 2]"));
-  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }), HasSubstr("wider than the fitted interval [0.001, 2]"));
-  const LubricationForce limit(planted_fit({{"1/q", 56.5}}, 1e-3, 2), BelowInterval::kLubricationLimit);
-  EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }), HasSubstr("wider than the fitted interval [0.001, 2]"));
+  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(1e-3) - 1); }),
+              HasSubstr("thinner than the fitted interval [0.001, 2]"));
+  EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }),
+              HasSubstr("wider than the fitted interval [0.001, 2]"));
+  const LubricationForce limit(planted_fit({{"1/q", 56.5}}, 1e-3, 2),
+                               BelowInterval::kLubricationLimit);
+  EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }),
+              HasSubstr("wider than the fitted interval [0.001, 2]"));
 }
 
 TEST(ImpulseInverse, RefusesWhatIsNoImpulse) {
-  const LubricationForce force(planted_fit({{"1/q", 56.5}}, 1e-3, 2), BelowInterval::kLubricationLimit);
+  const LubricationForce force(planted_fit({{"1/q", 56.5}}, 1e-3, 2),
+                               BelowInterval::kLubricationLimit);
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::quiet_NaN()), Error);
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::infinity()), Error);
 }
 
 TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
-  const LubricationForce force(planted_fit({{"1/q", 1}}, 1e-3, 2), BelowInterval::kLubricationLimit);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { force.gap_of_impulse(-1000); }), HasSubstr("thinner than the smallest number"));
+  const LubricationForce force(planted_fit({{"1/q", 1}}, 1e-3, 2),
+                               BelowInterval::kLubricationLimit);
+  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
+              HasSubstr("thinner than the smallest number"));
 }
 
 TEST(ImpulseInverse, GivesTheLecturesMinimalGap) {
   // Without inertia Gamma(q_min) = Gamma(q0) + impulse of the push, -200 for 2 units of time (physics.md, section 4), on the exact
   // drag. The fit is within 6e-6 of the drag everywhere, hence Gamma too, and dq/q = dGamma/k = 6e-6 * 400/56.5 at worst;
   // the residual changes sign, so 1e-5 holds.
-  const LubricationForce force(
-      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative));
+  const LubricationForce force(fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1),
+                                               "asymptotic", Weights::kRelative));
   constexpr double kExact = 2.97084661e-3;
   EXPECT_NEAR(force.gap_of_impulse(force.impulse(1) - 400), kExact, 1e-5 * kExact);
 }

@@ -14,7 +14,8 @@ struct LongSolution {
 };
 
 /// QR by Gram and Schmidt, each column orthogonalised twice (which is enough: Giraud & Langou 2005).
-inline LongSolution long_double_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side) {
+inline LongSolution long_double_least_squares(const Eigen::MatrixXd& matrix,
+                                              const Eigen::VectorXd& right_hand_side) {
   const LongMatrix a = matrix.cast<long double>();
   const LongVector b = right_hand_side.cast<long double>();
   LongMatrix q = a;

@@ -18,7 +18,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Fit exact_fit(std::string_view basis, double velocity = -1) {
-  return fit_force_table(exact_drag_table(fifty_gaps(), {velocity}, 3, 1), basis, Weights::kRelative);
+  return fit_force_table(exact_drag_table(fifty_gaps(), {velocity}, 3, 1), basis,
+                         Weights::kRelative);
 }
 
 /// int_from^to f by Simpson's rule in ln q.
@@ -42,15 +43,18 @@ TEST_P(OnBothBases, ResistanceIsTheTablesForceWithinTheFitsResidual) {
   const LubricationForce force(fit);
   for (const auto& row : table.rows)
     // Some rounding (1e-13) beside the residual that the fit itself states.
-    EXPECT_NEAR(-force.resistance(row.gap) * row.reference_velocity / row.force, 1, fit.largest_relative_residual + 1e-13);
+    EXPECT_NEAR(-force.resistance(row.gap) * row.reference_velocity / row.force, 1,
+                fit.largest_relative_residual + 1e-13);
 }
 
 TEST_P(OnBothBases, ResistanceDoesNotDependOnTheVelocityOfTheFit) {
   // F_lub(q, u) = -R(q) u is linear in u: a table at another velocity has the same R.
   const LubricationForce force(exact_fit(GetParam(), -1));
-  const LubricationForce receding(exact_fit(GetParam(), 8));  // a power of two: scaling is exact but for the solver's own roundings
+  const LubricationForce receding(exact_fit(
+      GetParam(), 8));  // a power of two: scaling is exact but for the solver's own roundings
   for (const double gap : log_spaced(1e-3, 1, 23))
-    EXPECT_NEAR(receding.resistance(gap) / force.resistance(gap), 1, 1e-12);  // eps times the conditioning (some 1e2)
+    EXPECT_NEAR(receding.resistance(gap) / force.resistance(gap), 1,
+                1e-12);  // eps times the conditioning (some 1e2)
 }
 
 TEST_P(OnBothBases, LogSlopeIsGapTimesTheDerivativeOfTheResistance) {
@@ -58,9 +62,12 @@ TEST_P(OnBothBases, LogSlopeIsGapTimesTheDerivativeOfTheResistance) {
   for (const double gap : {1e-5, 5e-4, 2e-3, 0.1, 0.9}) {
     const double h = std::ldexp(gap, -8);
     const auto r = [&](double q) { return force.resistance(q); };
-    const double slope = (8 * (r(gap + h) - r(gap - h)) - (r(gap + 2 * h) - r(gap - 2 * h))) / (12 * h);
+    const double slope =
+        (8 * (r(gap + h) - r(gap - h)) - (r(gap + 2 * h) - r(gap - 2 * h))) / (12 * h);
     // Five points: off by 4 (h/q)^4 of the leading term's k/q^2, 1e-9 of it.
-    EXPECT_NEAR(force.resistance_log_slope(gap) / gap, slope, 2e-9 * force.leading_coefficient() / (gap * gap)) << "at gap " << gap;
+    EXPECT_NEAR(force.resistance_log_slope(gap) / gap, slope,
+                2e-9 * force.leading_coefficient() / (gap * gap))
+        << "at gap " << gap;
   }
 }
 
@@ -69,17 +76,21 @@ TEST_P(OnBothBases, ImpulseIsTheIntegralOfTheResistance) {
   const auto resistance = [&](double gap) { return force.resistance(gap); };
   // Simpson in ln q: h^4/180 ((ln q)^4-derivative of q R, at most 81 q R for q^4 terms) < 1e-11 of the whole.
   EXPECT_EQ(force.impulse(1), 0) << "q_ref is the radius";
-  EXPECT_NEAR(-force.impulse(1e-3), simpson(resistance, 1e-3, 1), 1e-10 * std::abs(force.impulse(1e-3)));
-  EXPECT_NEAR(force.impulse(0.7) - force.impulse(0.02), simpson(resistance, 0.02, 0.7), 1e-10 * std::abs(force.impulse(1e-3)));
+  EXPECT_NEAR(-force.impulse(1e-3), simpson(resistance, 1e-3, 1),
+              1e-10 * std::abs(force.impulse(1e-3)));
+  EXPECT_NEAR(force.impulse(0.7) - force.impulse(0.02), simpson(resistance, 0.02, 0.7),
+              1e-10 * std::abs(force.impulse(1e-3)));
   // Below the interval.
-  EXPECT_NEAR(force.impulse(1e-3) - force.impulse(1e-6), simpson(resistance, 1e-6, 1e-3), 1e-10 * std::abs(force.impulse(1e-6)));
+  EXPECT_NEAR(force.impulse(1e-3) - force.impulse(1e-6), simpson(resistance, 1e-6, 1e-3),
+              1e-10 * std::abs(force.impulse(1e-6)));
 }
 
 TEST_P(OnBothBases, RegularResistanceIsWhatIsLeftWithoutTheLeadingTerm) {
   const LubricationForce force(exact_fit(GetParam()));
   for (const double gap : log_spaced(1e-3, 1, 23)) {
     const double singular = force.leading_coefficient() / gap;
-    EXPECT_NEAR(force.regular_resistance(gap), force.resistance(gap) - singular, 4e-16 * (force.resistance(gap) + singular) * 4)
+    EXPECT_NEAR(force.regular_resistance(gap), force.resistance(gap) - singular,
+                4e-16 * (force.resistance(gap) + singular) * 4)
         << "a few roundings of the terms, at gap " << gap;
   }
   EXPECT_EQ(force.regular_resistance(1e-5), force.regular_resistance(1e-3));
@@ -107,7 +118,8 @@ TEST_P(OnBothBases, RefusesGapsOutsideItsIntervalAndNamesIt) {
   const LubricationForce force(exact_fit(GetParam()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double gap : {0.9e-3, 1.1, 0.0, -1.0, nan}) {
-    const auto names_interval = AllOf(HasSubstr("[0.001, 1]"), HasSubstr("outside the fitted interval"));
+    const auto names_interval =
+        AllOf(HasSubstr("[0.001, 1]"), HasSubstr("outside the fitted interval"));
     EXPECT_THAT(bad_input([&] { force.resistance(gap); }), names_interval) << gap;
     EXPECT_THAT(bad_input([&] { force.resistance_log_slope(gap); }), names_interval) << gap;
     EXPECT_THAT(bad_input([&] { force.impulse(gap); }), names_interval) << gap;
@@ -137,7 +149,8 @@ TEST(LubricationForce, OfTheLeadingTermAloneIsTheLecturesLogarithm) {
   EXPECT_EQ(force.leading_coefficient(), 56.5);
   for (const double gap : {1e-4, 0.3, 2.0, 4.0}) {
     EXPECT_DOUBLE_EQ(force.resistance(gap), 56.5 / gap);
-    EXPECT_NEAR(force.impulse(gap), 56.5 * std::log(gap / 2), 1e-15 * 56.5 * 20) << "ln q and ln r are rounded apart";
+    EXPECT_NEAR(force.impulse(gap), 56.5 * std::log(gap / 2), 1e-15 * 56.5 * 20)
+        << "ln q and ln r are rounded apart";
     EXPECT_EQ(force.regular_resistance(gap), 0);
   }
   EXPECT_EQ(force.radius(), 2);
@@ -146,7 +159,9 @@ TEST(LubricationForce, OfTheLeadingTermAloneIsTheLecturesLogarithm) {
 
 TEST(LubricationForce, RefusesAFitThatIsNotADrag) {
   // 1/q - 10 changes sign at q = 0.1, inside the interval.
-  EXPECT_THAT(bad_input([] { LubricationForce(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1)); }),
+  EXPECT_THAT(bad_input([] {
+                LubricationForce(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1));
+              }),
               AllOf(HasSubstr("resistance"), HasSubstr("must be positive")));
   // A force along its velocity.
   Fit fit = planted_fit({{"1/q", 1}}, 1e-3, 1);

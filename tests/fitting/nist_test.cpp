@@ -24,22 +24,25 @@ Eigen::MatrixXd powers() {
 /// The perturbation of Wampler 3, which is orthogonal to every polynomial of degree 5: the coefficients stay 1.
 Eigen::VectorXd perturbation() {
   Eigen::VectorXd values(kRows);
-  values << 759, -2048, 2048, -2048, 2523, -2048, 2048, -2048, 1838, -2048, 2048, -2048, 1838, -2048, 2048, -2048, 2523,
-      -2048, 2048, -2048, 759;
+  values << 759, -2048, 2048, -2048, 2523, -2048, 2048, -2048, 1838, -2048, 2048, -2048, 1838,
+      -2048, 2048, -2048, 2523, -2048, 2048, -2048, 759;
   return values;
 }
 
 /// The standard deviations that NIST certifies for Wampler 3; 100 times that for Wampler 4, 10000 times for Wampler 5.
-constexpr std::array<double, kColumns> kCertifiedDeviations = {2152.32624678170, 2363.55173469681, 779.343524331583,
-                                                               101.475507550350, 5.64566512170752, 0.112324854679312};
+constexpr std::array<double, kColumns> kCertifiedDeviations = {2152.32624678170, 2363.55173469681,
+                                                               779.343524331583, 101.475507550350,
+                                                               5.64566512170752, 0.112324854679312};
 
 TEST(NistWampler, OneIsRecovered) {
   const auto matrix = powers();
   const auto solution = solve_least_squares(matrix, matrix * Eigen::VectorXd::Ones(kColumns));
   for (int j = 0; j < kColumns; ++j) {
     // In units of the term's share at x = 20; the conditioning of the scaled columns is 2e3 or so, times eps.
-    EXPECT_NEAR(solution.coefficients(j), 1, 1e-15 * solution.condition_number * std::pow(20.0, 5 - j));
-    EXPECT_LT(std::sqrt(solution.covariance(j, j)), 1e-15 * solution.condition_number * std::pow(20.0, 5 - j))
+    EXPECT_NEAR(solution.coefficients(j), 1,
+                1e-15 * solution.condition_number * std::pow(20.0, 5 - j));
+    EXPECT_LT(std::sqrt(solution.covariance(j, j)),
+              1e-15 * solution.condition_number * std::pow(20.0, 5 - j))
         << "certified: 0";
   }
 }
@@ -50,7 +53,8 @@ TEST(NistWampler, TwoIsRecovered) {
   const auto matrix = powers();
   const auto solution = solve_least_squares(matrix, matrix * certified);
   for (int j = 0; j < kColumns; ++j)
-    EXPECT_NEAR(solution.coefficients(j), certified(j), 1e-15 * solution.condition_number * 32 * std::pow(20.0, -j));
+    EXPECT_NEAR(solution.coefficients(j), certified(j),
+                1e-15 * solution.condition_number * 32 * std::pow(20.0, -j));
 }
 
 class NistPerturbed : public ::testing::TestWithParam<double> {};
@@ -58,18 +62,23 @@ class NistPerturbed : public ::testing::TestWithParam<double> {};
 TEST_P(NistPerturbed, CoefficientsAndDeviationsAreCertified) {
   const double factor = GetParam();
   const auto matrix = powers();
-  const auto solution = solve_least_squares(matrix, matrix * Eigen::VectorXd::Ones(kColumns) + factor * perturbation());
+  const auto solution = solve_least_squares(
+      matrix, matrix * Eigen::VectorXd::Ones(kColumns) + factor * perturbation());
   for (int j = 0; j < kColumns; ++j) {
     const double certified = factor * kCertifiedDeviations[static_cast<std::size_t>(j)];
     // The certified values have 15 digits; each step of the solution may lose the conditioning's three or four.
-    EXPECT_NEAR(std::sqrt(solution.covariance(j, j)), certified, 1e-11 * certified) << "coefficient " << j;
+    EXPECT_NEAR(std::sqrt(solution.covariance(j, j)), certified, 1e-11 * certified)
+        << "coefficient " << j;
     // A coefficient cannot be known better than its deviation, relative to rounding.
-    EXPECT_NEAR(solution.coefficients(j), 1, 1e-11 * (certified + std::pow(20.0, 5 - j))) << "coefficient " << j;
+    EXPECT_NEAR(solution.coefficients(j), 1, 1e-11 * (certified + std::pow(20.0, 5 - j)))
+        << "coefficient " << j;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Wampler3To5, NistPerturbed, ::testing::Values(1.0, 100.0, 10000.0),
-                         [](const auto& tested) { return "PerturbedBy" + std::to_string(std::lround(tested.param)); });
+                         [](const auto& tested) {
+                           return "PerturbedBy" + std::to_string(std::lround(tested.param));
+                         });
 
 }  // namespace
 }  // namespace viscontact

@@ -16,14 +16,16 @@ namespace viscontact {
 /// `count` numbers from `from` to `to`, in geometric progression.
 inline std::vector<double> log_spaced(double from, double to, int count) {
   std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
+  for (int i = 0; i < count; ++i)
+    values.push_back(from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
   values.back() = to;
   return values;
 }
 
 /// The table that a perfect solver of the half-space would give.
-inline ForceTable exact_drag_table(const std::vector<double>& gaps, const std::vector<double>& velocities,
-                                   double viscosity, double radius) {
+inline ForceTable exact_drag_table(const std::vector<double>& gaps,
+                                   const std::vector<double>& velocities, double viscosity,
+                                   double radius) {
   ForceTable table;
   table.viscosity = viscosity;
   table.radius = radius;
@@ -49,7 +51,8 @@ struct NamedCoefficient {
 };
 
 /// A fit of given coefficients at u0 = -1, so that its resistance is the sum of coefficient * term.
-inline Fit planted_fit(std::initializer_list<NamedCoefficient> terms, double smallest_gap, double largest_gap) {
+inline Fit planted_fit(std::initializer_list<NamedCoefficient> terms, double smallest_gap,
+                       double largest_gap) {
   Fit fit;
   fit.basis = "planted";
   fit.reference_velocity = -1;

@@ -26,14 +26,17 @@ double numerical_derivative(double (*f)(double), double q) {
 double numerical_tolerance(double size, double q) { return 2e-9 * size / q; }
 
 /// |f| without the dip where a logarithm passes zero.
-double size_of(double (*f)(double), double q) { return std::abs(f(q)) + std::abs(f(2 * q)) + std::abs(f(q / 2)); }
+double size_of(double (*f)(double), double q) {
+  return std::abs(f(q)) + std::abs(f(2 * q)) + std::abs(f(q / 2));
+}
 
 class EachTerm : public ::testing::TestWithParam<Term> {};
 
 TEST_P(EachTerm, HasItsDerivativeByTheLogarithmAsLogSlope) {
   const auto& term = GetParam();
   for (const double q : {1e-4, 0.03, 0.9, 1.0, 7.0})
-    EXPECT_NEAR(term.log_slope(q) / q, numerical_derivative(term.value, q), numerical_tolerance(size_of(term.value, q), q))
+    EXPECT_NEAR(term.log_slope(q) / q, numerical_derivative(term.value, q),
+                numerical_tolerance(size_of(term.value, q), q))
         << term.name << " at " << q;
 }
 
@@ -51,8 +54,11 @@ TEST_P(EachTerm, IsFoundByItsName) {
   EXPECT_EQ(found->value, GetParam().value);
 }
 
-INSTANTIATE_TEST_SUITE_P(Terms, EachTerm, ::testing::ValuesIn(all_terms().begin(), all_terms().end()),
-                         [](const auto& tested) { return "Number" + std::to_string(tested.index); });
+INSTANTIATE_TEST_SUITE_P(Terms, EachTerm,
+                         ::testing::ValuesIn(all_terms().begin(), all_terms().end()),
+                         [](const auto& tested) {
+                           return "Number" + std::to_string(tested.index);
+                         });
 
 TEST(Terms, AreWhatTheirNamesSay) {
   const double q = 0.3;

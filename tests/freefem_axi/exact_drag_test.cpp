@@ -20,14 +20,18 @@ struct ExactDrag {
 
 /// The exact drag in a closed cylinder of 5 x 10 sphere radii.
 ExactDrag exact_drag_in_cylinder(double gap) {
-  const std::array<std::string, 5> columns = {"R_over_r", "H_over_r", "gap_over_r", "lambda", "n_digits"};
-  const auto file = read_csv(VISCONTACT_SOURCE_FOLDER "/data/reference/sphere_in_cylinder.csv", columns, columns.size());
-  const auto row = std::ranges::find_if(
-      file.rows, [&](const auto& r) { return *r.fields[0] == 5 && *r.fields[1] == 10 && *r.fields[2] == gap; });
+  const std::array<std::string, 5> columns = {"R_over_r", "H_over_r", "gap_over_r", "lambda",
+                                              "n_digits"};
+  const auto file = read_csv(VISCONTACT_SOURCE_FOLDER "/data/reference/sphere_in_cylinder.csv",
+                             columns, columns.size());
+  const auto row = std::ranges::find_if(file.rows, [&](const auto& r) {
+    return *r.fields[0] == 5 && *r.fields[1] == 10 && *r.fields[2] == gap;
+  });
   if (row == file.rows.end()) throw std::invalid_argument("the reference has no such gap");
   const double drag_factor = *row->fields[3];
   const double digits = *row->fields[4];
-  return {drag_factor, 0.5 * std::pow(10, std::floor(std::log10(drag_factor)) + 1 - digits) / drag_factor};
+  return {drag_factor,
+          0.5 * std::pow(10, std::floor(std::log10(drag_factor)) + 1 - digits) / drag_factor};
 }
 
 class ClosedCylinder : public ::testing::TestWithParam<double> {};
@@ -39,7 +43,8 @@ TEST_P(ClosedCylinder, DragIsExactToTheAskedAccuracyAndToItsOwnEstimate) {
   const auto row = solve_row(default_freefem(), tabulation, gap, -1);
   const auto exact = exact_drag_in_cylinder(gap);
   const double error = std::abs(row.drag_factor / exact.drag_factor - 1);
-  EXPECT_LT(error, kAccuracy);  // what was asked; the reference's 7 digits (5e-7 at worst) are well below
+  EXPECT_LT(error,
+            kAccuracy);  // what was asked; the reference's 7 digits (5e-7 at worst) are well below
   EXPECT_LE(row.relative_error_estimate, kAccuracy);
   // The estimate is of the finer mesh alone, the force is extrapolated: it must cover the true error, which is known to `rounding`.
   EXPECT_LT(error, row.relative_error_estimate + exact.rounding);
@@ -78,14 +83,17 @@ TEST(Scaling, DragFactorDependsOnRatiosOfLengthsOnly) {
   // About a micrometre, and a power of two: lengths over the radius are the same to the last bit, and so is the mesh; only
   // round-off of the solve remains (1e-13).
   const double binary = std::ldexp(1.0, -20);
-  const auto same_mesh = solve_row(default_freefem(), scaled_tabulation(kGap, binary), kGap * binary, kVelocity);
+  const auto same_mesh =
+      solve_row(default_freefem(), scaled_tabulation(kGap, binary), kGap * binary, kVelocity);
   EXPECT_NEAR(same_mesh.drag_factor / unit.drag_factor, 1, 1e-9);
   EXPECT_LT(same_mesh.force, 0);  // opposed to the velocity
 
   // A decimal micrometre: the container is 5.000000000000001 radii wide, and the mesh generator decides otherwise in places. Another
   // mesh of the same size errs by another amount of the same size: 2e-7 observed, where the estimates are some 1e-6.
-  const auto other_mesh = solve_row(default_freefem(), scaled_tabulation(kGap, 1e-6), kGap * 1e-6, kVelocity);
-  EXPECT_NEAR(other_mesh.drag_factor / unit.drag_factor, 1, unit.relative_error_estimate + other_mesh.relative_error_estimate);
+  const auto other_mesh =
+      solve_row(default_freefem(), scaled_tabulation(kGap, 1e-6), kGap * 1e-6, kVelocity);
+  EXPECT_NEAR(other_mesh.drag_factor / unit.drag_factor, 1,
+              unit.relative_error_estimate + other_mesh.relative_error_estimate);
 }
 
 TEST(Scaling, ForceIsLinearInTheVelocity) {

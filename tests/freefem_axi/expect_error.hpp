@@ -12,7 +12,8 @@ namespace viscontact {
 
 /// Expects `action()` to throw an Error of that exit code whose message satisfies `message`.
 template <class Action>
-void expect_error(const Action& action, ExitCode exit_code, const ::testing::Matcher<std::string>& message) {
+void expect_error(const Action& action, ExitCode exit_code,
+                  const ::testing::Matcher<std::string>& message) {
   try {
     action();
   } catch (const Error& error) {

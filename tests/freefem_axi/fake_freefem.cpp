@@ -8,7 +8,8 @@
 
 namespace viscontact {
 
-FakeFreeFem::FakeFreeFem(std::filesystem::path folder, const std::string& before) : folder_(std::move(folder)) {
+FakeFreeFem::FakeFreeFem(std::filesystem::path folder, const std::string& before)
+    : folder_(std::move(folder)) {
   // Called as: fake_freefem -nw -v 0 SCRIPT -name value ...
   put_text(executable(), "#!/bin/sh\nfolder='" + folder_.string() + "'\n" + R"(
 case $4 in

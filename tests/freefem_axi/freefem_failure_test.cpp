@@ -21,8 +21,10 @@ const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
 
 TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
   const FreeFem missing{"no-such-freefem", "."};
-  const auto said = AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install"), HasSubstr("VISCONTACT_FREEFEM"));
-  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram, said);
+  const auto said = AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install"),
+                          HasSubstr("VISCONTACT_FREEFEM"));
+  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+               said);
   expect_error([&] { (void)freefem_version(missing); }, ExitCode::kExternalProgram, said);
 }
 
@@ -30,15 +32,17 @@ TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
   const ScratchFolder scratch;
   put_text(scratch.path() / "text", "not a program");
   const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
-  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram, HasSubstr("text"));
+  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+               HasSubstr("text"));
 }
 
 TEST(FakeFreeFem, AnswersAsARowOfTheTable) {
   const ScratchFolder scratch;
   const FakeFreeFem fake(scratch.path());
   const auto row = solve_row(fake.freefem(), kTabulation, 0.25, -2);
-  EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, 0.25, -2), 1, 1e-15);  // 17 digits printed by awk
-  EXPECT_NEAR(row.drag_factor, 5, 1e-14);                                 // r/q + 1, round-off
+  EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, 0.25, -2), 1,
+              1e-15);                      // 17 digits printed by awk
+  EXPECT_NEAR(row.drag_factor, 5, 1e-14);  // r/q + 1, round-off
   EXPECT_EQ(row.relative_error_estimate, 1e-6);
   EXPECT_EQ(row.degrees_of_freedom, 1000);
   EXPECT_GE(row.seconds, 0);
@@ -61,23 +65,33 @@ TEST_P(FailingFreeFem, ErrorNamesTheRowAndItsLastLines) {
   auto said = GetParam().said;
   said.insert(said.end(), {"gap 0.25", "velocity -1"});
   for (const auto& part : said)
-    expect_error([&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
-                 AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
+    expect_error([&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); },
+                 ExitCode::kExternalProgram, AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Each, FailingFreeFem,
     ::testing::Values(
-        Failure{"GarbageAndExitStatus3", "for i in 1 2 3 4 5 6 7 8 9; do echo \"garbage $i\"; done; exit 3\n",
+        Failure{"GarbageAndExitStatus3",
+                "for i in 1 2 3 4 5 6 7 8 9; do echo \"garbage $i\"; done; exit 3\n",
                 {"exit status 3", "garbage 6 | garbage 7 | garbage 8 | garbage 9"}},
-        Failure{"ErrorOfTheScript", "echo 'viscontact-error the linear solve failed'; echo 'exit(4)'; exit 4\n",
+        Failure{"ErrorOfTheScript",
+                "echo 'viscontact-error the linear solve failed'; echo 'exit(4)'; exit 4\n",
                 {"exit status 4", ": the linear solve failed"}},
         Failure{"NothingAndExitStatus0", "exit 0\n", {"exit status 0"}},
-        Failure{"KilledByASignal", "echo 'out of memory'; kill -KILL $$\n", {"exit status 137", "out of memory"}},
-        Failure{"ForceNotANumber", "echo 'viscontact-result nan 0 0'; exit 0\n", {"viscontact-result nan 0 0"}},
-        Failure{"ForceInfinite", "echo 'viscontact-result -inf 0 0'; exit 0\n", {"viscontact-result -inf 0 0"}},
-        Failure{"ResultCutShort", "echo 'viscontact-result 1.5'; exit 0\n", {"viscontact-result 1.5"}},
-        Failure{"ResultThenAFailure", "echo 'viscontact-result 1.5 0 10'; echo 'double free'; exit 134\n",
+        Failure{"KilledByASignal",
+                "echo 'out of memory'; kill -KILL $$\n",
+                {"exit status 137", "out of memory"}},
+        Failure{"ForceNotANumber",
+                "echo 'viscontact-result nan 0 0'; exit 0\n",
+                {"viscontact-result nan 0 0"}},
+        Failure{"ForceInfinite",
+                "echo 'viscontact-result -inf 0 0'; exit 0\n",
+                {"viscontact-result -inf 0 0"}},
+        Failure{
+            "ResultCutShort", "echo 'viscontact-result 1.5'; exit 0\n", {"viscontact-result 1.5"}},
+        Failure{"ResultThenAFailure",
+                "echo 'viscontact-result 1.5 0 10'; echo 'double free'; exit 134\n",
                 {"exit status 134", "double free"}}),
     [](const auto& test) { return test.param.name; });
 
@@ -85,8 +99,11 @@ TEST(OtherProgram, HasNoFreeFemVersion) {
   const ScratchFolder scratch;
   put_text(scratch.path() / "other", "#!/bin/sh\necho hello\n");
   make_executable(scratch.path() / "other");
-  expect_error([&] { (void)freefem_version({(scratch.path() / "other").string(), scratch.path()}); }, ExitCode::kExternalProgram,
-               HasSubstr("other"));
+  expect_error(
+      [&] {
+        (void)freefem_version({(scratch.path() / "other").string(), scratch.path()});
+      },
+      ExitCode::kExternalProgram, HasSubstr("other"));
 }
 
 TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
@@ -95,7 +112,8 @@ TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
 }
 
 TEST(Geometry, UnknownOneIsBadInputThatListsThoseThereAre) {
-  expect_error([] { (void)find_geometry("torus"); }, ExitCode::kBadInput, AllOf(HasSubstr("torus"), HasSubstr("plane")));
+  expect_error([] { (void)find_geometry("torus"); }, ExitCode::kBadInput,
+               AllOf(HasSubstr("torus"), HasSubstr("plane")));
 }
 
 }  // namespace

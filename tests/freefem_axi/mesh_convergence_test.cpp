@@ -26,9 +26,10 @@ struct Level {
 std::vector<Level> solve_all_levels() {
   // data/reference/sphere_in_cylinder.csv; 7 digits, so errors are known to 1e-7, 3 % of the finest mesh's.
   constexpr double kExact = 11.5022038 * 6 * std::numbers::pi;
-  const auto result = run_freefem(default_freefem(), "plane.edp",
-                                  {"-radius", "1", "-gap", "0.1", "-viscosity", "1", "-velocity", "-1", "-containerRadius", "5",
-                                   "-containerHeight", "10", "-accuracy", "1e-15", "-cells", "4", "-levels", "4"});
+  const auto result = run_freefem(
+      default_freefem(), "plane.edp",
+      {"-radius", "1", "-gap", "0.1", "-viscosity", "1", "-velocity", "-1", "-containerRadius", "5",
+       "-containerHeight", "10", "-accuracy", "1e-15", "-cells", "4", "-levels", "4"});
   EXPECT_EQ(result.exit_status, 0);
   std::vector<Level> levels;
   std::istringstream lines(result.output);
@@ -45,7 +46,9 @@ std::vector<Level> solve_all_levels() {
   return levels;
 }
 
-double order(double coarse_error, double fine_error) { return std::log(std::abs(coarse_error / fine_error)) / std::log(kRefinement); }
+double order(double coarse_error, double fine_error) {
+  return std::log(std::abs(coarse_error / fine_error)) / std::log(kRefinement);
+}
 
 // One test for both forces: they come from one run of seconds.
 TEST(MeshConvergence, ForceByDissipationConvergesAtTwiceTheOrderOfTheBoundaryStress) {

@@ -96,7 +96,8 @@ TEST_F(RowJournalFile, SecondHolderIsRefusedUntilTheFirstLetsGo) {
   {
     RowJournal journal(path(), kHash);
     journal.append(kFirst);
-    expect_error([&] { const RowJournal second(path(), kHash); }, ExitCode::kBadInput, HasSubstr("another tabulation"));
+    expect_error([&] { const RowJournal second(path(), kHash); }, ExitCode::kBadInput,
+                 HasSubstr("another tabulation"));
     journal.append(kSecond);
   }
   const RowJournal later(path(), kHash);
@@ -108,18 +109,12 @@ TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
   // A folder where the file should be, and a file where its folder should be: refused to root as well.
   const auto folder = scratch_.path() / "folder.rows";
   std::filesystem::create_directory(folder);
-  expect_error([&] { const RowJournal journal(folder, kHash); }, ExitCode::kBadInput, HasSubstr(folder.string()));
+  expect_error([&] { const RowJournal journal(folder, kHash); }, ExitCode::kBadInput,
+               HasSubstr(folder.string()));
   put_text(scratch_.path() / "file", "");
   const auto below = scratch_.path() / "file" / "table.csv.rows";
   expect_error([&] { const RowJournal journal(below, kHash); }, ExitCode::kBadInput,
                HasSubstr((scratch_.path() / "file").string()));
-}
-
-TEST_F(RowJournalFile, IsGoneOnceRemoved) {
-  RowJournal journal(path(), kHash);
-  journal.append(kFirst);
-  journal.remove();
-  EXPECT_FALSE(std::filesystem::exists(path()));
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace viscontact {
 
 ScratchFolder::ScratchFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "viscontact_test_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
+  if (::mkdtemp(name.data()) == nullptr)
+    throw std::system_error(errno, std::generic_category(), name);
   path_ = name;
 }
 
@@ -26,7 +27,8 @@ void put_text(const std::filesystem::path& path, const std::string& text) {
 }
 
 void make_executable(const std::filesystem::path& path) {
-  std::filesystem::permissions(path, std::filesystem::perms::owner_exec, std::filesystem::perm_options::add);
+  std::filesystem::permissions(path, std::filesystem::perms::owner_exec,
+                               std::filesystem::perm_options::add);
 }
 
 }  // namespace viscontact

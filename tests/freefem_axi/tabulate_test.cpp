@@ -26,8 +26,8 @@ void no_report(const TabulateProgress&) {}
 std::vector<std::array<double, 6>> values_of(const ForceTable& table) {
   std::vector<std::array<double, 6>> values;
   for (const auto& row : table.rows)
-    values.push_back({row.gap, row.reference_velocity, row.force, row.drag_factor, row.relative_error_estimate,
-                      row.degrees_of_freedom});
+    values.push_back({row.gap, row.reference_velocity, row.force, row.drag_factor,
+                      row.relative_error_estimate, row.degrees_of_freedom});
   return values;
 }
 
@@ -41,20 +41,24 @@ class Tabulate : public ::testing::Test {
 
 TEST_F(Tabulate, RowsAreGapsInTheirOrderForEachVelocityWhicheverIsFinishedFirst) {
   tabulation_.reference_velocities = {-1, 2};
-  const FakeFreeFem fake(scratch_.path(), "[ $gap = 0.125 ] && sleep 0.3\n");  // the first comes last
+  const FakeFreeFem fake(scratch_.path(),
+                         "[ $gap = 0.125 ] && sleep 0.3\n");  // the first comes last
   const auto table = tabulate(fake.freefem(), tabulation_, 4, journal(), no_report);
   std::vector<std::pair<double, double>> order;
   for (const auto& row : table.rows) order.emplace_back(row.reference_velocity, row.gap);
-  EXPECT_THAT(order, ElementsAre(std::pair(-1, 0.125), std::pair(-1, 0.25), std::pair(-1, 0.5), std::pair(-1, 1),
-                                 std::pair(2, 0.125), std::pair(2, 0.25), std::pair(2, 0.5), std::pair(2, 1)));
+  EXPECT_THAT(order, ElementsAre(std::pair(-1, 0.125), std::pair(-1, 0.25), std::pair(-1, 0.5),
+                                 std::pair(-1, 1), std::pair(2, 0.125), std::pair(2, 0.25),
+                                 std::pair(2, 0.5), std::pair(2, 1)));
   for (const auto& row : table.rows)
-    EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, row.gap, row.reference_velocity), 1, 1e-15);  // round-off of awk
+    EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, row.gap, row.reference_velocity), 1,
+                1e-15);  // round-off of awk
 }
 
 TEST_F(Tabulate, NumberOfProcessesDoesNotChangeTheRows) {
   const FakeFreeFem fake(scratch_.path());
   const auto one = tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
-  const auto four = tabulate(fake.freefem(), tabulation_, 4, scratch_.path() / "other.rows", no_report);
+  const auto four =
+      tabulate(fake.freefem(), tabulation_, 4, scratch_.path() / "other.rows", no_report);
   EXPECT_EQ(values_of(one), values_of(four));
   EXPECT_EQ(fake.answered().size(), 8U);
 }
@@ -82,15 +86,20 @@ TEST_F(Tabulate, ProgressCountsUpToAllRows) {
 }
 
 TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
-  const FakeFreeFem fake(scratch_.path(), "[ $gap = 0.25 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
-  expect_error([&] { (void)tabulate(fake.freefem(), tabulation_, 2, journal(), no_report); }, ExitCode::kExternalProgram,
-               AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck"), Not(HasSubstr("gap 0.5"))));
+  const FakeFreeFem fake(
+      scratch_.path(),
+      "[ $gap = 0.25 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
+  expect_error(
+      [&] { (void)tabulate(fake.freefem(), tabulation_, 2, journal(), no_report); },
+      ExitCode::kExternalProgram,
+      AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck"), Not(HasSubstr("gap 0.5"))));
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1"));
 
   put_text(scratch_.path() / "mended", "");
   std::vector<std::size_t> done;
-  const auto table = tabulate(fake.freefem(), tabulation_, 2, journal(),
-                              [&](const TabulateProgress& progress) { done.push_back(progress.rows_done); });
+  const auto table =
+      tabulate(fake.freefem(), tabulation_, 2, journal(),
+               [&](const TabulateProgress& progress) { done.push_back(progress.rows_done); });
   EXPECT_EQ(table.rows.size(), 4U);
   EXPECT_THAT(done, ElementsAre(4U));  // three were there
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1", "0.25 -1"));
@@ -105,8 +114,12 @@ TEST_F(Tabulate, JournalOfAnotherTabulationIsNotUsed) {
 }
 
 TEST_F(Tabulate, MissingFreeFemIsSaidOnceBeforeAnythingIsWritten) {
-  expect_error([&] { (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, journal(), no_report); },
-               ExitCode::kExternalProgram, AllOf(HasSubstr("no-such-freefem"), Not(HasSubstr("rows failed"))));
+  expect_error(
+      [&] {
+        (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, journal(), no_report);
+      },
+      ExitCode::kExternalProgram,
+      AllOf(HasSubstr("no-such-freefem"), Not(HasSubstr("rows failed"))));
   EXPECT_FALSE(std::filesystem::exists(journal()));
 }
 
@@ -121,9 +134,13 @@ TEST(TabulationHash, ChangesWithEverythingThatTheForceDependsOn) {
       tabulation_hash(base),
       changed([](Tabulation& t) { t.viscosity = 2; }),
       changed([](Tabulation& t) { t.radius = 2; }),
-      changed([](Tabulation& t) { t.gaps = {0.5, 1.0000000000000002}; }),
+      changed([](Tabulation& t) {
+        t.gaps = {0.5, 1.0000000000000002};
+      }),
       changed([](Tabulation& t) { t.reference_velocities = {1}; }),
-      changed([](Tabulation& t) { t.reference_velocities = {-1, 1}; }),
+      changed([](Tabulation& t) {
+        t.reference_velocities = {-1, 1};
+      }),
       changed([](Tabulation& t) { t.container_radius = 6; }),
       changed([](Tabulation& t) { t.container_height = 11; }),
       changed([](Tabulation& t) { t.relative_accuracy = 1e-4; }),
@@ -138,7 +155,8 @@ TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
   const ScratchFolder scratch;
   constexpr double kAccuracy = 1e-3;
   const auto tabulation = unit_tabulation({0.05, 0.5}, 40, kAccuracy);
-  const auto table = tabulate(default_freefem(), tabulation, 2, scratch.path() / "table.csv.rows", no_report);
+  const auto table =
+      tabulate(default_freefem(), tabulation, 2, scratch.path() / "table.csv.rows", no_report);
   ASSERT_EQ(table.rows.size(), 2U);
   for (const auto& row : table.rows) {
     EXPECT_LE(row.relative_error_estimate, kAccuracy);

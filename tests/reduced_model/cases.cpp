@@ -15,7 +15,8 @@ namespace {
 constexpr double kViscosity = 3;
 constexpr double kRadius = 1;
 
-Motion motion_with_settings(double mass, double end_time, std::vector<ExternalForce::Piece> pieces) {
+Motion motion_with_settings(double mass, double end_time,
+                            std::vector<ExternalForce::Piece> pieces) {
   Motion motion{mass, 1, 0, end_time, ExternalForce(std::move(pieces))};
   motion.reference_time_step = 1e-3;
   motion.inertial_relative_tolerance = 1e-9;
@@ -53,7 +54,8 @@ Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
     row.gap = gaps[0] * std::pow(gaps[1] / gaps[0], static_cast<double>(i) / (kRows - 1));
     if (i == kRows - 1) row.gap = gaps[1];
     row.reference_velocity = -1;
-    row.force = 6 * std::numbers::pi * kViscosity * kRadius * brenner_drag_factor(row.gap / kRadius);
+    row.force =
+        6 * std::numbers::pi * kViscosity * kRadius * brenner_drag_factor(row.gap / kRadius);
     table.rows.push_back(row);
   }
   return fit_force_table(table, basis, Weights::kRelative);
@@ -73,7 +75,8 @@ const TrajectoryRow& lowest_row(const Trajectory& trajectory) {
 
 const TrajectoryRow& row_at(const Trajectory& trajectory, double time) {
   const auto found = std::ranges::find(trajectory.rows, time, &TrajectoryRow::time);
-  if (found == trajectory.rows.end()) throw std::out_of_range("no row at time " + std::to_string(time));
+  if (found == trajectory.rows.end())
+    throw std::out_of_range("no row at time " + std::to_string(time));
   return *found;
 }
 

@@ -17,8 +17,9 @@ using ::testing::StartsWith;
 using Function = std::function<double(double)>;
 
 /// q and u at these times. All numbers in these tests are dyadic: sup and L1 by hand come out to the bit.
-Trajectory sampled(const std::string& model, const std::vector<double>& times, const Function& gap,
-                   const Function& velocity = [](double) { return 0.0; }) {
+Trajectory sampled(
+    const std::string& model, const std::vector<double>& times, const Function& gap,
+    const Function& velocity = [](double) { return 0.0; }) {
   Trajectory trajectory;
   trajectory.model = model;
   for (const double t : times) trajectory.rows.push_back({t, gap(t), velocity(t), {}, {}, {}});
@@ -34,7 +35,8 @@ ModelComparison compared(const Trajectory& trajectory, const Trajectory& referen
 }
 
 TEST(Comparison, IsZeroWithItself) {
-  const auto a = sampled("a", {0, 1, 3}, [](double t) { return t * t; }, [](double t) { return 2 * t; });
+  const auto a = sampled(
+      "a", {0, 1, 3}, [](double t) { return t * t; }, [](double t) { return 2 * t; });
   const auto result = compare_trajectories({a}, "a").models.at(0);
   EXPECT_EQ(result.sup_gap_distance, 0);
   EXPECT_EQ(result.l1_gap_distance, 0);
@@ -43,7 +45,8 @@ TEST(Comparison, IsZeroWithItself) {
 
 TEST(Comparison, MeasuresLinearFunctionsOnDifferentGrids) {
   const auto a = sampled("a", {0, 0.5, 2}, constant(1), constant(0.25));
-  const auto b = sampled("b", {0, 0.25, 1, 2}, [](double t) { return 1 + t; }, constant(1));
+  const auto b = sampled(
+      "b", {0, 0.25, 1, 2}, [](double t) { return 1 + t; }, constant(1));
   const auto result = compared(a, b);
   EXPECT_EQ(result.sup_gap_distance, 2);
   EXPECT_EQ(result.l1_gap_distance, 2);
@@ -52,8 +55,10 @@ TEST(Comparison, MeasuresLinearFunctionsOnDifferentGrids) {
 
 TEST(Comparison, MeasuresFunctionsThatCrossBetweenTheirRows) {
   // |t - (2 - t)| over [0, 2]: two triangles of area 1.
-  const auto a = sampled("a", {0, 2}, [](double t) { return t; }, constant(1));
-  const auto b = sampled("b", {0, 2}, [](double t) { return 2 - t; }, constant(-1));
+  const auto a = sampled(
+      "a", {0, 2}, [](double t) { return t; }, constant(1));
+  const auto b = sampled(
+      "b", {0, 2}, [](double t) { return 2 - t; }, constant(-1));
   const auto result = compared(a, b);
   EXPECT_EQ(result.sup_gap_distance, 2);
   EXPECT_EQ(result.l1_gap_distance, 2);
@@ -72,8 +77,10 @@ TEST(Comparison, FindsTheLargestDistanceAtARowOfTheOtherTrajectory) {
 TEST(Comparison, SeesAParabolaAsItsChords) {
   // 1 + t^2 by steps H and H/2: at mid-step the chord of H is H^2/4 above, so sup = H^2/4 and L1 = 2 H^2/8 over [0, 2].
   const auto parabola = [](double t) { return 1 + t * t; };
-  const auto coarse = sampled("coarse", {0, 0.5, 1, 1.5, 2}, parabola, [](double t) { return 2 * t; });
-  const auto fine = sampled("fine", {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, parabola, [](double t) { return 2 * t; });
+  const auto coarse =
+      sampled("coarse", {0, 0.5, 1, 1.5, 2}, parabola, [](double t) { return 2 * t; });
+  const auto fine = sampled("fine", {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, parabola,
+                            [](double t) { return 2 * t; });
   const auto result = compared(coarse, fine);
   EXPECT_EQ(result.sup_gap_distance, 0.0625);
   EXPECT_EQ(result.l1_gap_distance, 0.0625);
@@ -81,7 +88,8 @@ TEST(Comparison, SeesAParabolaAsItsChords) {
 }
 
 TEST(Comparison, LooksOnlyAtTheTimesThatBothCover) {
-  const auto a = sampled("a", {0, 2}, [](double t) { return t; }, [](double t) { return t; });
+  const auto a = sampled(
+      "a", {0, 2}, [](double t) { return t; }, [](double t) { return t; });
   const auto b = sampled("b", {1, 3}, constant(0), constant(0));
   const auto result = compared(a, b);
   EXPECT_EQ(result.sup_gap_distance, 2);
@@ -91,7 +99,8 @@ TEST(Comparison, LooksOnlyAtTheTimesThatBothCover) {
 }
 
 TEST(Comparison, IsOfOneInstantWhereTheTimesTouch) {
-  const auto result = compared(sampled("a", {0, 1}, constant(3)), sampled("b", {1, 2}, constant(1)));
+  const auto result =
+      compared(sampled("a", {0, 1}, constant(3)), sampled("b", {1, 2}, constant(1)));
   EXPECT_EQ(result.sup_gap_distance, 2);
   EXPECT_EQ(result.l1_gap_distance, 0);
 }
@@ -111,13 +120,16 @@ TEST(Comparison, RefusesTwoTrajectoriesOfOneName) {
 TEST(Comparison, RefusesAReferenceThatIsNotThereAndListsWhatIs) {
   const auto a = sampled("one", {0, 1}, constant(1));
   const auto b = sampled("two", {0, 1}, constant(1));
-  EXPECT_THAT(bad_input([&] { compare_trajectories({a, b}, "three"); }),
+  EXPECT_THAT(bad_input([&] {
+                compare_trajectories({a, b}, "three");
+              }),
               AllOf(HasSubstr("'three'"), HasSubstr("one, two")));
   EXPECT_THAT(bad_input([&] { compare_trajectories({}, "three"); }), HasSubstr("'three'"));
 }
 
 TEST(Comparison, FindsTheFirstOfTheLowestRows) {
-  const auto a = sampled("a", {0, 1, 2, 3, 4}, [](double t) { return t == 1 || t == 3 ? 0.25 : 1.0; });
+  const auto a =
+      sampled("a", {0, 1, 2, 3, 4}, [](double t) { return t == 1 || t == 3 ? 0.25 : 1.0; });
   const auto result = compare_trajectories({a}, "a").models.at(0);
   EXPECT_EQ(result.minimal_gap, 0.25);
   EXPECT_EQ(result.minimal_gap_time, 1);
@@ -193,8 +205,8 @@ TEST(ComparisonFile, ReadsBackToTheBit) {
 }
 
 TEST(ComparisonFile, HasNullWhereAModelHasNoContact) {
-  EXPECT_THAT(write_comparison(two_models()),
-              AllOf(HasSubstr("\"recovered_minimal_gap\": null"), HasSubstr("\"contact_interval\": null")));
+  EXPECT_THAT(write_comparison(two_models()), AllOf(HasSubstr("\"recovered_minimal_gap\": null"),
+                                                    HasSubstr("\"contact_interval\": null")));
 }
 
 TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {
@@ -205,10 +217,12 @@ TEST(ComparisonFile, IsRefusedWhenItIsSomethingElse) {
   cut_off.resize(cut_off.size() / 2);
   for (const std::string& text :
        {std::string(), std::string("{}"), std::string("[1, 2]"), std::string("time,gap\n0,1\n"),
-        std::string(R"({"reference_model": 3, "models": {}})"), std::string(R"({"reference_model": "a", "models": {"a": 1}})"),
+        std::string(R"({"reference_model": 3, "models": {}})"),
+        std::string(R"({"reference_model": "a", "models": {"a": 1}})"),
         std::string(R"({"reference_model": "a", "models": 5})"), without_a_key, cut_off}) {
     const auto path = folder.file("wrong.json", text);
-    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ": ")) << text;
+    EXPECT_THAT(bad_input([&] { read_comparison(path); }), StartsWith(path.string() + ": "))
+        << text;
   }
 }
 

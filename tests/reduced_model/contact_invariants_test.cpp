@@ -29,7 +29,9 @@ struct RandomCase {
 
 /// Masses and viscosities over ten decades, up to six jumps of force over four, half of the surfaces rough.
 RandomCase random_case(std::mt19937_64& generator) {
-  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(generator); };
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(generator);
+  };
   const auto decades = [&](double from, double to) { return std::pow(10, uniform(from, to)); };
   const double mass = decades(-5, 5);
   std::vector<ExternalForce::Piece> pieces;
@@ -52,8 +54,9 @@ class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
     int contacts = 0;
     for (int i = 0; i < kCases; ++i) {
       const auto [motion, k] = random_case(generator);
-      SCOPED_TRACE(::testing::Message() << "case " << i << ": m = " << motion.mass << ", k = " << k
-                                        << ", h = " << motion.contact_time_step << ", s = " << motion.roughness[0]);
+      SCOPED_TRACE(::testing::Message()
+                   << "case " << i << ": m = " << motion.mass << ", k = " << k
+                   << ", h = " << motion.contact_time_step << ", s = " << motion.roughness[0]);
       const LubricationForce force(shifted_fit(k));
       ContactModel model = GetParam()(motion, force);
       // The film may be thinner than any double; that is no matter here.
@@ -74,7 +77,8 @@ class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
 };
 
 TEST_P(ContactInvariants, NeverOverlapNeverPullAtADistanceNeverForgetMoreThanTheSolidHolds) {
-  for_each_step([](const Motion&, const ContactModel& model, const TrajectoryRow&, const TrajectoryRow& row) {
+  for_each_step([](const Motion&, const ContactModel& model, const TrajectoryRow&,
+                   const TrajectoryRow& row) {
     EXPECT_GE(row.gap, model.contact_gap);
     EXPECT_LE(*row.gamma, 0);
     EXPECT_GE(*row.gamma, model.gamma_min);
@@ -86,15 +90,17 @@ TEST_P(ContactInvariants, NeverOverlapNeverPullAtADistanceNeverForgetMoreThanThe
 TEST_P(ContactInvariants, BalanceTheMomentumOfEveryStep) {
   // m (u^{n+1} - u^n) = h (f^n + F_lub): the film gives h lambda = gamma^n - gamma^{n+1}, the resolved drag the rest. Only a solid contact
   // may push beyond that, and never pull.
-  for_each_step([](const Motion& motion, const ContactModel& model, const TrajectoryRow& before, const TrajectoryRow& after) {
+  for_each_step([](const Motion& motion, const ContactModel& model, const TrajectoryRow& before,
+                   const TrajectoryRow& after) {
     const double m = motion.mass;
     const double h = after.time - before.time;
     const double push = h * motion.external_force.mean(before.time, after.time);
     const double drag = h * *after.lubrication_force;
     const double solid = m * (after.velocity - before.velocity) - push - drag;
     // The mean of f is a difference of impulses since t = 0, of at most 1e3 m each; then some ten roundings.
-    const double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) + std::abs(push) + std::abs(drag) +
-                         std::abs(*before.gamma) + std::abs(*after.gamma);
+    const double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) +
+                         std::abs(push) + std::abs(drag) + std::abs(*before.gamma) +
+                         std::abs(*after.gamma);
     const double round_off = kEpsilon * (16 * scale + 1e3 * m);
     if (*after.gamma == model.gamma_min) {
       EXPECT_GE(solid, -round_off);
@@ -105,10 +111,12 @@ TEST_P(ContactInvariants, BalanceTheMomentumOfEveryStep) {
 }
 
 TEST_P(ContactInvariants, MoveByTheirVelocity) {
-  for_each_step([](const Motion&, const ContactModel&, const TrajectoryRow& before, const TrajectoryRow& after) {
+  for_each_step([](const Motion&, const ContactModel&, const TrajectoryRow& before,
+                   const TrajectoryRow& after) {
     const double h = after.time - before.time;
     // Half an ulp of each gap, and of the time that h is the difference of (up to 10).
-    const double round_off = kEpsilon * (4 * (before.gap + after.gap) + 20 * std::abs(after.velocity));
+    const double round_off =
+        kEpsilon * (4 * (before.gap + after.gap) + 20 * std::abs(after.velocity));
     EXPECT_NEAR(after.gap - before.gap, h * after.velocity, round_off);
   });
 }
@@ -119,7 +127,8 @@ std::string model_name(const ::testing::TestParamInfo<MakeModel>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ContactInvariants,
-                         ::testing::Values(viscous_contact, viscous_contact_regular_drag, viscous_contact_threshold),
+                         ::testing::Values(viscous_contact, viscous_contact_regular_drag,
+                                           viscous_contact_threshold),
                          model_name);
 
 TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
@@ -130,11 +139,14 @@ TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
     motion.roughness = {0, 0};
     const double start = motion.mass * motion.initial_velocity;
     double largest = std::abs(start);
-    for (const auto& row : simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+    for (const auto& row :
+         simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
       const double momentum = start + motion.external_force.impulse(row.time);
       largest = std::max(largest, std::abs(momentum));
       // Up to 3200 steps, a few roundings each at the size of the largest momentum, all of one sign at worst.
-      ASSERT_NEAR(motion.mass * row.velocity + *row.gamma, momentum, 3200 * 4 * kEpsilon * (largest + 1e3 * motion.mass)) << i;
+      ASSERT_NEAR(motion.mass * row.velocity + *row.gamma, momentum,
+                  3200 * 4 * kEpsilon * (largest + 1e3 * motion.mass))
+          << i;
     }
   }
 }

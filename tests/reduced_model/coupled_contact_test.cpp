@@ -6,8 +6,8 @@
 #include "reduced_model/reference_exact.hpp"
 #include "reduced_model/viscous_contact_regular_drag.hpp"
 #include "reduced_model/viscous_contact_threshold.hpp"
-#include "tests/reduced_model/cases.hpp"
 #include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -31,7 +31,8 @@ double threshold_film(const LubricationForce& force, double threshold_gap, doubl
 
 TEST(RegularDrag, RecoversTheLecturesMinimalGap) {
   for (const auto& fit : {lecture_fit(), close_fit()})
-    EXPECT_NEAR(regular_drag_film(LubricationForce(fit), 1e-4) / 3.0e-3, 1, 0.03) << fit.basis;  // the bar
+    EXPECT_NEAR(regular_drag_film(LubricationForce(fit), 1e-4) / 3.0e-3, 1, 0.03)
+        << fit.basis;  // the bar
 }
 
 TEST(RegularDrag, ConvergesToTheImpulseThatTheResolvedDragLeavesAtFirstOrderInItsStep) {
@@ -46,8 +47,9 @@ TEST(RegularDrag, ConvergesToTheImpulseThatTheResolvedDragLeavesAtFirstOrderInIt
   const double coarse = regular_drag_film(force, 1e-3) / limit - 1;
   const double middle = regular_drag_film(force, 1e-4) / limit - 1;
   const double fine = regular_drag_film(force, 1e-5) / limit - 1;
-  EXPECT_NEAR(std::log10(coarse / middle), 1, 0.05);  // the next term of the error is of relative size 40 h: 0.04 / ln 10
-  EXPECT_NEAR(std::log10(middle / fine), 1, 0.05);    // and the landing within a step, at random
+  EXPECT_NEAR(std::log10(coarse / middle), 1,
+              0.05);  // the next term of the error is of relative size 40 h: 0.04 / ln 10
+  EXPECT_NEAR(std::log10(middle / fine), 1, 0.05);  // and the landing within a step, at random
   // "tends to 3.00e-3" (physics.md): to half a unit of what the lecture prints, 3e-3 with three digits at most.
   EXPECT_NEAR(limit, 3.00e-3, 1e-5);
 }
@@ -68,7 +70,9 @@ TEST(RegularDrag, FallsAtTheSpeedOfItsDragFarFromContact) {
   const auto trajectory = simulate_viscous_contact_regular_drag(motion, force);
   for (std::size_t n = 0; n < trajectory.rows.size(); ++n)
     // 40 steps of a few roundings each.
-    EXPECT_NEAR(trajectory.rows[n].velocity, -1.5 * (1 - std::pow(1.25, -static_cast<double>(n))), 1e-14) << n;
+    EXPECT_NEAR(trajectory.rows[n].velocity, -1.5 * (1 - std::pow(1.25, -static_cast<double>(n))),
+                1e-14)
+        << n;
 }
 
 TEST(Threshold, RecoversTheFilmOfTheReferenceAsItsStepShrinksWhateverTheThreshold) {
@@ -89,11 +93,13 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceAsItsStepShrinksWhateverTheThreshol
 TEST(Threshold, IsOffByTwelveHundredthsAtTheLecturesSettings) {
   const LubricationForce force(lecture_fit());
   const double exact = lowest_row(simulate_reference_exact(lecture_motion(), force)).gap;
-  EXPECT_NEAR(threshold_film(force, 0.1, 1e-3) / exact, 1, 0.12);  // measured: 0.117; proportional to h
+  EXPECT_NEAR(threshold_film(force, 0.1, 1e-3) / exact, 1,
+              0.12);  // measured: 0.117; proportional to h
 }
 
 TEST(Threshold, StaysAtItsThresholdWhileInContact) {
-  const auto trajectory = simulate_viscous_contact_threshold(lecture_motion(), LubricationForce(lecture_fit()));
+  const auto trajectory =
+      simulate_viscous_contact_threshold(lecture_motion(), LubricationForce(lecture_fit()));
   EXPECT_EQ(lowest_row(trajectory).gap, 0.1);
   EXPECT_EQ(row_at(trajectory, 2).gap, 0.1);
   EXPECT_LT(*row_at(trajectory, 2).gamma, 0);
@@ -113,18 +119,21 @@ TEST(Threshold, RefusesToStartBelowItsThreshold) {
   for (const double threshold_gap : {1.0, 1.5}) {
     Motion motion = lecture_motion();
     motion.threshold_gap = threshold_gap;
-    EXPECT_THAT(failure(ExitCode::kBadInput,
-                              [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
-                HasSubstr("viscous_contact.threshold_gap"));
+    EXPECT_THAT(
+        failure(
+            ExitCode::kBadInput,
+            [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
+        HasSubstr("viscous_contact.threshold_gap"));
   }
 }
 
 TEST(Threshold, RefusesAThresholdOutsideTheFit) {
   Motion motion = lecture_motion();
   motion.threshold_gap = 1e-4;
-  EXPECT_THAT(failure(ExitCode::kBadInput,
-                            [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
-              HasSubstr("[0.001, 2]"));
+  EXPECT_THAT(
+      failure(ExitCode::kBadInput,
+              [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
+      HasSubstr("[0.001, 2]"));
 }
 
 TEST(ContactModels, RefuseAFitWithoutAPositiveLeadingTerm) {

@@ -180,7 +180,8 @@ TEST(Cvode, GetsAroundAnErrorThatASmallerStepAvoids) {
   bool refused = false;
   StiffSystem system = oscillator();
   const auto derivative = system.derivative;
-  system.derivative = [&refused, derivative](double t, std::span<const double> y, std::span<double> result) {
+  system.derivative = [&refused, derivative](double t, std::span<const double> y,
+                                             std::span<double> result) {
     if (!refused && t > 0.5) {
       refused = true;
       throw Error(ExitCode::kBadInput, "not there");
@@ -198,8 +199,12 @@ TEST(Cvode, SaysWhenItGivesUp) {
   // y' = y^2 from 1 is infinite at t = 1.
   StiffSystem system;
   system.dimension = 1;
-  system.derivative = [](double, std::span<const double> y, std::span<double> derivative) { derivative[0] = y[0] * y[0]; };
-  system.jacobian = [](double, std::span<const double> y, std::span<double> jacobian) { jacobian[0] = 2 * y[0]; };
+  system.derivative = [](double, std::span<const double> y, std::span<double> derivative) {
+    derivative[0] = y[0] * y[0];
+  };
+  system.jacobian = [](double, std::span<const double> y, std::span<double> jacobian) {
+    jacobian[0] = 2 * y[0];
+  };
   system.event = [](std::span<const double>) { return 1.0; };
   system.invariant = [](double, std::span<const double>, std::span<double> gradient) {
     gradient[0] = 1;
@@ -207,7 +212,8 @@ TEST(Cvode, SaysWhenItGivesUp) {
   };
   Cvode cvode(system, std::array{1.0}, kTolerance, std::array{kTolerance});
   cvode.restart(0, 2);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { cvode.advance(2); }), HasSubstr("CVODE gave up at time"));
+  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { cvode.advance(2); }),
+              HasSubstr("CVODE gave up at time"));
 }
 
 }  // namespace

@@ -67,7 +67,8 @@ TEST(ExternalForce, RefusesToHaveNoPiece) {
 TEST(ExternalForce, RefusesPiecesWhoseTimesDoNotIncreaseFromZero) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::vector<ExternalForce::Piece>> wrong = {
-      {{0, 1}}, {{-1, 1}}, {{nan, 1}}, {{2, 1}, {2, -1}}, {{2, 1}, {1, -1}}, {{1, 1}, {2, 1}, {nan, 1}}};
+      {{0, 1}},          {{-1, 1}},         {{nan, 1}},
+      {{2, 1}, {2, -1}}, {{2, 1}, {1, -1}}, {{1, 1}, {2, 1}, {nan, 1}}};
   for (const auto& pieces : wrong)
     EXPECT_THAT(bad_input([&] { ExternalForce{pieces}; }), HasSubstr("until"));
 }

@@ -11,8 +11,8 @@
 
 #include "common/csv.hpp"
 #include "reduced_model/reference_exact.hpp"
-#include "tests/reduced_model/cases.hpp"
 #include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -20,26 +20,32 @@ namespace {
 using ::testing::HasSubstr;
 
 /// The largest |m u + Gamma(q) - P(t)| over the rows, relative to the largest |P| or m |u|.
-double first_integral_error(const Trajectory& trajectory, const Motion& motion, const LubricationForce& force) {
+double first_integral_error(const Trajectory& trajectory, const Motion& motion,
+                            const LubricationForce& force) {
   double largest = 0;
   double error = 0;
   const double at_start = motion.mass * motion.initial_velocity + force.impulse(motion.initial_gap);
   for (const auto& row : trajectory.rows) {
     const double momentum = at_start + motion.external_force.impulse(row.time);
     largest = std::max(largest, std::abs(momentum));
-    error = std::max(error, std::abs(motion.mass * row.velocity + force.impulse(row.gap) - momentum));
+    error =
+        std::max(error, std::abs(motion.mass * row.velocity + force.impulse(row.gap) - momentum));
   }
   return error / largest;
 }
 
 TEST(Inertial, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
-  const auto lowest = lowest_row(simulate_inertial(lecture_motion(), LubricationForce(lecture_fit())));
-  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1, 5e-3);  // the bar; the basis is 4.6e-3 off in places
+  const auto lowest =
+      lowest_row(simulate_inertial(lecture_motion(), LubricationForce(lecture_fit())));
+  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
+              5e-3);  // the bar; the basis is 4.6e-3 off in places
 }
 
 TEST(Inertial, FindsTheExactMinimalGapAndItsTimeWithTheAsymptoticBasis) {
-  const auto lowest = lowest_row(simulate_inertial(lecture_motion(), LubricationForce(close_fit())));
-  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1, 1e-5);  // as for ReferenceExact: what residuals of 7e-6 leave is 1e-6
+  const auto lowest =
+      lowest_row(simulate_inertial(lecture_motion(), LubricationForce(close_fit())));
+  EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
+              1e-5);  // as for ReferenceExact: what residuals of 7e-6 leave is 1e-6
   // The event is CVODE's to 1e-9 times the time; the exact value is printed to 5e-9.
   EXPECT_NEAR(lowest.time, kInertialMinimalGapTime, 1.5e-8);
 }
@@ -48,7 +54,8 @@ TEST(Inertial, KeepsTheFirstIntegralOnTheLecturesCase) {
   const Motion motion = lecture_motion();
   for (const auto& fit : {lecture_fit(), close_fit()}) {
     const LubricationForce force(fit);
-    EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force), 1e-8) << fit.basis;  // the bar
+    EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force), 1e-8)
+        << fit.basis;  // the bar
   }
 }
 
@@ -58,13 +65,16 @@ TEST(Inertial, KeepsTheFirstIntegralForASphereThatStartsFastAndBounces) {
   motion.end_time = 3;
   motion.external_force = ExternalForce({{0.5, -50}, {1.25, 120}, {1.5, 0}, {3, -80}});
   const LubricationForce force(leading_term_fit(50));
-  EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force), 1e-8);  // the bar
+  EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force),
+            1e-8);  // the bar
 }
 
 TEST(Inertial, HasARowWhereItTurns) {
   const auto trajectory = simulate_inertial(lecture_motion(), LubricationForce(lecture_fit()));
   const auto lowest = lowest_row(trajectory);
-  const double fastest = std::abs(std::ranges::max(trajectory.rows, {}, [](const auto& row) { return std::abs(row.velocity); }).velocity);
+  const double fastest = std::abs(std::ranges::max(trajectory.rows, {}, [](const auto& row) {
+                                    return std::abs(row.velocity);
+                                  }).velocity);
   // At the turn the velocity goes through 0 at rate f/R = 0.01 per unit of time; the event is found to 1e-14 or so in time.
   EXPECT_LT(std::abs(lowest.velocity), 1e-10 * fastest);
   EXPECT_LT(lowest.gap, row_at(trajectory, 2).gap);
@@ -73,10 +83,13 @@ TEST(Inertial, HasARowWhereItTurns) {
 TEST(Inertial, HasRowsAtEveryStepAndJump) {
   Motion motion = lecture_motion();
   motion.external_force = ExternalForce({{1.00005, -200}, {2, -100}, {4, 200}});
-  const auto trajectory = simulate_inertial(motion, LubricationForce(lecture_fit(), BelowInterval::kLubricationLimit));
+  const auto trajectory =
+      simulate_inertial(motion, LubricationForce(lecture_fit(), BelowInterval::kLubricationLimit));
   for (const double time : row_times(motion)) EXPECT_EQ(row_at(trajectory, time).time, time);
   EXPECT_EQ(row_at(trajectory, 1.00005).external_force, -100);
-  EXPECT_EQ(std::ranges::adjacent_find(trajectory.rows, std::ranges::greater_equal(), &TrajectoryRow::time), trajectory.rows.end());
+  EXPECT_EQ(std::ranges::adjacent_find(trajectory.rows, std::ranges::greater_equal(),
+                                       &TrajectoryRow::time),
+            trajectory.rows.end());
 }
 
 TEST(Inertial, StartsExactlyWhereItIsTold) {
@@ -105,7 +118,8 @@ TEST(Inertial, TendsToTheInertialessMotionAtFirstOrderInTheMass) {
 
 /// Compares with the exact states of the lecture's limit case, d2q/dt2 = -mu u/q + f.
 void expect_limit_case_states(double mu) {
-  const auto path = std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/reference/limit_case_states.csv";
+  const auto path =
+      std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/reference/limit_case_states.csv";
   const std::array<std::string, 4> columns = {"mu", "t", "ln_q", "u"};
   const auto trajectory = simulate_inertial(limit_motion(), LubricationForce(leading_term_fit(mu)));
   int compared = 0;
@@ -115,9 +129,11 @@ void expect_limit_case_states(double mu) {
     const auto& row = row_at(trajectory, *state.fields[1]);
     // Ten times relative_tolerance = 1e-9, in ln q and in time: where the film forms, ln q runs at u/q = -325 (mu = 0.01, t = 1).
     const double rate = row.velocity / row.gap;
-    EXPECT_NEAR(std::log(row.gap), *state.fields[2], 1e-8 * (1 + std::abs(rate))) << "t = " << row.time;
+    EXPECT_NEAR(std::log(row.gap), *state.fields[2], 1e-8 * (1 + std::abs(rate)))
+        << "t = " << row.time;
     // u = q w, and w is as far off as ln q is; u is printed to 1e-12 of the largest, 4.
-    EXPECT_NEAR(row.velocity, *state.fields[3], 1e-8 * (1 + std::abs(rate)) * std::abs(row.velocity) + 4e-12)
+    EXPECT_NEAR(row.velocity, *state.fields[3],
+                1e-8 * (1 + std::abs(rate)) * std::abs(row.velocity) + 4e-12)
         << "t = " << row.time;
   }
   EXPECT_EQ(compared, 6);
@@ -125,9 +141,13 @@ void expect_limit_case_states(double mu) {
 
 TEST(Inertial, AgreesWithTheLimitCase) { expect_limit_case_states(1); }
 
-TEST(Inertial, AgreesWithTheLimitCaseDownToAFilmOfTenToTheMinus18) { expect_limit_case_states(0.1); }
+TEST(Inertial, AgreesWithTheLimitCaseDownToAFilmOfTenToTheMinus18) {
+  expect_limit_case_states(0.1);
+}
 
-TEST(Inertial, AgreesWithTheLimitCaseDownToAFilmOfTenToTheMinus174) { expect_limit_case_states(0.01); }
+TEST(Inertial, AgreesWithTheLimitCaseDownToAFilmOfTenToTheMinus174) {
+  expect_limit_case_states(0.01);
+}
 
 TEST(Inertial, MeetsASharpToleranceInAThinFilm) {
   // The sphere turns within 1e-17 of the jump, less than a double tells apart from t = 2.
@@ -146,7 +166,8 @@ TEST(Inertial, FollowsItsTolerance) {
     motion.inertial_relative_tolerance = tolerance;
     return std::abs(std::log(simulate_inertial(motion, force).rows.back().gap) - exact);
   };
-  for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) EXPECT_LT(error(tolerance), 10 * tolerance) << tolerance;
+  for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11})
+    EXPECT_LT(error(tolerance), 10 * tolerance) << tolerance;
 }
 
 TEST(Inertial, SaysWhenItLeavesTheFit) {

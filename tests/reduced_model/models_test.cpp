@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/reduced_model/cases.hpp"
 #include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -18,8 +18,12 @@ using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 
 // interfaces.md, "Trajectory".
-const std::vector<std::string> kNames = {"reference",       "reference_exact",              "inertial",
-                                         "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"};
+const std::vector<std::string> kNames = {"reference",
+                                         "reference_exact",
+                                         "inertial",
+                                         "viscous_contact",
+                                         "viscous_contact_regular_drag",
+                                         "viscous_contact_threshold"};
 
 TEST(Models, AreThoseOfTheInterfaces) {
   std::vector<std::string> names;
@@ -49,7 +53,8 @@ TEST(Models, WithGammaAreTheContactModels) {
     const bool is_contact = model.name.starts_with("viscous_contact");
     EXPECT_EQ(model.contact != nullptr, is_contact) << model.name;
     const auto trajectory = simulate(model, motion, force);
-    for (const auto& row : trajectory.rows) ASSERT_EQ(row.gamma.has_value(), is_contact) << model.name;
+    for (const auto& row : trajectory.rows)
+      ASSERT_EQ(row.gamma.has_value(), is_contact) << model.name;
     EXPECT_EQ(trajectory.recovered_minimal_gap.has_value(), is_contact) << model.name;
   }
 }
@@ -66,25 +71,29 @@ TEST(Models, CoverTheMotionFromItsStartToItsEnd) {
     EXPECT_EQ(trajectory.rows.front().gap, 1) << model.name;
     EXPECT_EQ(trajectory.rows.back().time, 4) << model.name;
     for (const auto& row : trajectory.rows)
-      ASSERT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) && std::isfinite(row.lubrication_force.value()) &&
-                  row.external_force.has_value())
+      ASSERT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) &&
+                  std::isfinite(row.lubrication_force.value()) && row.external_force.has_value())
           << model.name << " at " << row.time;
   }
 }
 
 TEST(Models, PutTheirNameInFrontOfAnError) {
   const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));  // too short for the film
-  for (const auto* name : {"reference", "reference_exact", "inertial", "viscous_contact_threshold"}) {
+  for (const auto* name :
+       {"reference", "reference_exact", "inertial", "viscous_contact_threshold"}) {
     const auto message = bad_input([&] { simulate(find_model(name), lecture_motion(), force); });
-    EXPECT_THAT(message, AllOf(StartsWith("model " + std::string(name) + ": "), HasSubstr("[0.01, 2]")));
+    EXPECT_THAT(message,
+                AllOf(StartsWith("model " + std::string(name) + ": "), HasSubstr("[0.01, 2]")));
   }
 }
 
 TEST(Models, RunOnTheShippedLimitCase) {
   // Its fit reaches from 1e-300 to 1e300: nothing on the way may overflow.
-  const auto fit = read_fit(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/fits/limit.json");
+  const auto fit =
+      read_fit(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/fits/limit.json");
   const LubricationForce force(fit);
-  for (const auto* name : {"inertial", "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"})
+  for (const auto* name :
+       {"inertial", "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"})
     EXPECT_GT(simulate(find_model(name), limit_motion(), force).rows.size(), 6000U) << name;
 }
 

@@ -55,11 +55,13 @@ TEST(StepTime, EndsAtTheEndExactly) {
 }
 
 TEST(RowTimes, AreTheStepsAndTheJumps) {
-  EXPECT_THAT(row_times(motion_with(1, 0.25, {{0.625, -1}, {1, 1}})), ElementsAre(0, 0.25, 0.5, 0.625, 0.75, 1));
+  EXPECT_THAT(row_times(motion_with(1, 0.25, {{0.625, -1}, {1, 1}})),
+              ElementsAre(0, 0.25, 0.5, 0.625, 0.75, 1));
 }
 
 TEST(RowTimes, HaveAJumpThatIsAlsoAStepOnce) {
-  EXPECT_THAT(row_times(motion_with(1, 0.25, {{0.5, -1}, {1, 1}})), ElementsAre(0, 0.25, 0.5, 0.75, 1));
+  EXPECT_THAT(row_times(motion_with(1, 0.25, {{0.5, -1}, {1, 1}})),
+              ElementsAre(0, 0.25, 0.5, 0.75, 1));
 }
 
 TEST(RowTimes, HaveTheJumpWhereRoundOffSetsAStepApartFromIt) {
@@ -76,7 +78,8 @@ TEST(RowTimes, LeaveOutJumpsAtAndAfterTheEnd) {
 TEST(RowTimes, IncreaseStrictlyFromZeroToTheEnd) {
   // Steps and jumps that fall together up to round-off in many ways.
   for (const double step : {0.1, 0.07, 1.0 / 3, 1e-3}) {
-    const auto times = row_times(motion_with(2.1, step, {{0.3, 1}, {0.7, 2}, {1.4, 3}, {2.1 - 1e-12, 4}, {2.1, 5}}));
+    const auto times = row_times(
+        motion_with(2.1, step, {{0.3, 1}, {0.7, 2}, {1.4, 3}, {2.1 - 1e-12, 4}, {2.1, 5}}));
     EXPECT_EQ(times.front(), 0);
     EXPECT_EQ(times.back(), 2.1);
     EXPECT_EQ(std::ranges::adjacent_find(times, std::greater_equal<>()), times.end()) << step;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "reduced_model/reference_exact.hpp"
-#include "tests/reduced_model/cases.hpp"
 #include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -21,14 +21,16 @@ double euler_minimal_gap(const LubricationForce& force, double step) {
 }
 
 TEST(ReferenceExact, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
-  const auto lowest = lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(lecture_fit())));
+  const auto lowest =
+      lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(lecture_fit())));
   EXPECT_EQ(lowest.time, 2);
   // The bar. The basis itself is 4.6e-3 off the exact drag in places.
   EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 5e-3);
 }
 
 TEST(ReferenceExact, FindsTheExactMinimalGapWithTheAsymptoticBasis) {
-  const auto lowest = lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(close_fit())));
+  const auto lowest =
+      lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(close_fit())));
   EXPECT_EQ(lowest.time, 2);
   // Residuals of 7e-6 all of one sign would move ln q by 7e-6 * 400 / k = 5e-5; they alternate, and 1e-6 is left.
   EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 1e-5);
@@ -37,11 +39,14 @@ TEST(ReferenceExact, FindsTheExactMinimalGapWithTheAsymptoticBasis) {
 TEST(ReferenceExact, IsTheExponentialOfTheImpulseWhereTheDragIsKOverQ) {
   const double k = 0.7;
   const Motion motion = limit_motion();
-  for (const auto& row : simulate_reference_exact(motion, LubricationForce(leading_term_fit(k))).rows) {
+  for (const auto& row :
+       simulate_reference_exact(motion, LubricationForce(leading_term_fit(k))).rows) {
     const double ln_q = motion.external_force.impulse(row.time) / k;
     // Gamma, its inverse and the logarithm each round once or twice at the size of ln q.
     EXPECT_NEAR(std::log(row.gap), ln_q, 8e-16 * (1 + std::abs(ln_q))) << row.time;
-    EXPECT_NEAR(row.velocity, motion.external_force.value(row.time) / k * row.gap, 1e-15 * row.gap * 10) << row.time;
+    EXPECT_NEAR(row.velocity, motion.external_force.value(row.time) / k * row.gap,
+                1e-15 * row.gap * 10)
+        << row.time;
   }
 }
 
@@ -95,7 +100,8 @@ TEST(Reference, IsAPowerOfItsStepWhereTheDragIsKOverQ) {
   EXPECT_EQ(trajectory.steps, 16);
   for (int n = 0; n <= 16; ++n) {
     const auto& row = trajectory.rows[static_cast<std::size_t>(n)];
-    const double q = std::pow(1 - 0.125 * 2 / k, std::min(n, 8)) * std::pow(1 + 0.125 * 3 / k, std::max(n - 8, 0));
+    const double q = std::pow(1 - 0.125 * 2 / k, std::min(n, 8)) *
+                     std::pow(1 + 0.125 * 3 / k, std::max(n - 8, 0));
     // 16 steps of a few roundings each.
     EXPECT_NEAR(row.gap / q, 1, 1e-14) << n;
     EXPECT_NEAR(row.velocity, (n < 8 ? -2 : 3) * q / k, 1e-14 * q) << n;

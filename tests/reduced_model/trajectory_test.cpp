@@ -68,14 +68,16 @@ TEST(TrajectoryFile, HasTheColumnsOfTheInterfaces) {
   Trajectory trajectory;
   trajectory.model = "m";
   trajectory.rows = {{0, 1, 2, 3, 4, {}}};
-  EXPECT_THAT(write_trajectory(trajectory),
-              AllOf(HasSubstr("\ntime,gap,velocity,lubrication_force,external_force,gamma\n0,1,2,3,4,\n"),
-                    HasSubstr("# model: m\n")));
+  EXPECT_THAT(
+      write_trajectory(trajectory),
+      AllOf(HasSubstr("\ntime,gap,velocity,lubrication_force,external_force,gamma\n0,1,2,3,4,\n"),
+            HasSubstr("# model: m\n")));
 }
 
 TEST(TrajectoryFile, MayBeAUsersOwnWithThreeColumns) {
   const TemporaryFolder folder;
-  const auto read = read_trajectory(folder.file("measured in the lab.csv", "time,gap,velocity\n0,1,-2\n1.5,0,0\n"));
+  const auto read = read_trajectory(
+      folder.file("measured in the lab.csv", "time,gap,velocity\n0,1,-2\n1.5,0,0\n"));
   EXPECT_EQ(read.model, "measured in the lab");
   ASSERT_EQ(read.rows.size(), 2U);
   EXPECT_EQ(read.rows[1].time, 1.5);
@@ -86,8 +88,9 @@ TEST(TrajectoryFile, MayBeAUsersOwnWithThreeColumns) {
 
 TEST(TrajectoryFile, MayHaveItsColumnsInAnyOrderAndOthersBesides) {
   const TemporaryFolder folder;
-  const auto read = read_trajectory(
-      folder.file("t.csv", "# a comment without a key\r\nvelocity, comment ,gap,gamma,time\r\n1,words,2,-3,4\r\n"));
+  const auto read = read_trajectory(folder.file(
+      "t.csv",
+      "# a comment without a key\r\nvelocity, comment ,gap,gamma,time\r\n1,words,2,-3,4\r\n"));
   ASSERT_EQ(read.rows.size(), 1U);
   EXPECT_EQ(read.rows[0].time, 4);
   EXPECT_EQ(read.rows[0].gap, 2);
@@ -97,7 +100,9 @@ TEST(TrajectoryFile, MayHaveItsColumnsInAnyOrderAndOthersBesides) {
 
 TEST(TrajectoryFile, TakesItsNameFromItsModelLine) {
   const TemporaryFolder folder;
-  EXPECT_EQ(read_trajectory(folder.file("t.csv", "# model: mine\ntime,gap,velocity\n0,1,0\n")).model, "mine");
+  EXPECT_EQ(
+      read_trajectory(folder.file("t.csv", "# model: mine\ntime,gap,velocity\n0,1,0\n")).model,
+      "mine");
 }
 
 struct WrongFile {
@@ -131,19 +136,26 @@ INSTANTIATE_TEST_SUITE_P(
         WrongFile{"NoVelocity", "time,gap\n1,0\n", 0, "'velocity'"},
         WrongFile{"AColumnTwice", "time,gap,velocity,gap\n0,1,0,1\n", 0, "'gap' is twice"},
         WrongFile{"ANegativeGap", "time,gap,velocity\n0,1,0\n1,-1e-9,0\n", 3, "must be >= 0"},
-        WrongFile{"NaN", "# a: b\n# c: d\ntime,gap,velocity\n0,1,0\n1,nan,0\n", 5, "gap is not a finite number ('nan')"},
-        WrongFile{"Infinity", "time,gap,velocity\n0,1,inf\n", 2, "velocity is not a finite number ('inf')"},
+        WrongFile{"NaN", "# a: b\n# c: d\ntime,gap,velocity\n0,1,0\n1,nan,0\n", 5,
+                  "gap is not a finite number ('nan')"},
+        WrongFile{"Infinity", "time,gap,velocity\n0,1,inf\n", 2,
+                  "velocity is not a finite number ('inf')"},
         WrongFile{"ANumberTooLarge", "time,gap,velocity\n0,1e400,0\n", 2, "'1e400'"},
         WrongFile{"Words", "time,gap,velocity\n0,1,0\n0.5,one,0\n", 3, "'one'"},
         WrongFile{"ACommaForAPoint", "time,gap,velocity\n0,5,1,0\n", 2, "more fields"},
         WrongFile{"AnEmptyGap", "time,gap,velocity\n0,1,0\n1,,0\n", 3, "gap is empty"},
         WrongFile{"AnEmptyTime", "time,gap,velocity\n,1,0\n", 2, "time is empty"},
-        WrongFile{"AWrongGamma", "time,gap,velocity,gamma\n0,1,0,\n1,1,0,x\n", 3, "gamma is not a finite number ('x')"},
+        WrongFile{"AWrongGamma", "time,gap,velocity,gamma\n0,1,0,\n1,1,0,x\n", 3,
+                  "gamma is not a finite number ('x')"},
         WrongFile{"ARowTooShort", "time,gap,velocity\n0,1,0\n1,2\n", 3, "fewer fields"},
-        WrongFile{"TheSameTimeTwice", "time,gap,velocity\n0,1,0\n1,1,0\n1,2,0\n", 4, "must increase"},
-        WrongFile{"TimeThatGoesBack", "time,gap,velocity\n0,1,0\n1,1,0\n0.5,2,0\n", 4, "must increase"},
-        WrongFile{"RowsCutOff", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n", 0, "its header says 3"},
-        WrongFile{"AWrongNumberAtItsHead", "# recovered_minimal_gap: thin\ntime,gap,velocity\n0,1,0\n", 0,
+        WrongFile{"TheSameTimeTwice", "time,gap,velocity\n0,1,0\n1,1,0\n1,2,0\n", 4,
+                  "must increase"},
+        WrongFile{"TimeThatGoesBack", "time,gap,velocity\n0,1,0\n1,1,0\n0.5,2,0\n", 4,
+                  "must increase"},
+        WrongFile{"RowsCutOff", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n", 0,
+                  "its header says 3"},
+        WrongFile{"AWrongNumberAtItsHead",
+                  "# recovered_minimal_gap: thin\ntime,gap,velocity\n0,1,0\n", 0,
                   "recovered_minimal_gap"}),
     [](const auto& parameter) { return parameter.param.name; });
 

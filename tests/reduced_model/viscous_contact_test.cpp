@@ -26,12 +26,15 @@ Trajectory limit_trajectory(double step) {
 }
 
 std::array<double, 2> contact_interval(const Trajectory& trajectory) {
-  return compare_trajectories({trajectory}, trajectory.model).models.front().contact_interval.value();
+  return compare_trajectories({trajectory}, trajectory.model)
+      .models.front()
+      .contact_interval.value();
 }
 
 double sup_error(const Trajectory& trajectory) {
   double error = 0;
-  for (const auto& row : trajectory.rows) error = std::max(error, std::abs(row.gap - limit_gap(row.time)));
+  for (const auto& row : trajectory.rows)
+    error = std::max(error, std::abs(row.gap - limit_gap(row.time)));
   return error;
 }
 
@@ -49,7 +52,8 @@ TEST(ViscousContact, FollowsTheParabolasOfTheLimitCaseToFirstOrder) {
   // each: 2 h (t - 4) + h (t - 4) <= 6 h at t = 6.
   for (const double step : {1e-2, 1e-3, 1e-4})
     for (const auto& row : limit_trajectory(step).rows)
-      EXPECT_NEAR(row.gap, limit_gap(row.time), row.time < 4 ? 1.001 * step : 6.1 * step) << step << ", t = " << row.time;
+      EXPECT_NEAR(row.gap, limit_gap(row.time), row.time < 4 ? 1.001 * step : 6.1 * step)
+          << step << ", t = " << row.time;
 }
 
 TEST(ViscousContact, ConvergesToTheLimitCaseAtFirstOrderInItsStep) {
@@ -65,7 +69,8 @@ TEST(ViscousContact, RemembersExactlyTheImpulseItHasTaken) {
   for (const auto& row : limit_trajectory(1e-3).rows) {
     if (row.time < 1 + 2e-3 || row.time > 4 - 1e-3) continue;
     const double gamma = row.time <= 2 ? -2 * row.time : 2 * row.time - 8;
-    EXPECT_NEAR(*row.gamma, gamma, 1e-12) << row.time;  // 3000 roundings of numbers up to 4, at random
+    EXPECT_NEAR(*row.gamma, gamma, 1e-12)
+        << row.time;  // 3000 roundings of numbers up to 4, at random
     EXPECT_EQ(row.velocity, 0);
   }
 }
@@ -80,7 +85,8 @@ TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
 TEST(ViscousContact, HasNoFilmToRecoverWithoutContact) {
   Motion motion = limit_motion();
   motion.external_force = ExternalForce({{6, 2}});
-  EXPECT_FALSE(simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1))).recovered_minimal_gap);
+  EXPECT_FALSE(simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1)))
+                   .recovered_minimal_gap);
 }
 
 TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
@@ -90,7 +96,8 @@ TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
       for (const double ratio : {0.5, 1.0, 3.7}) {
         Motion motion{mass, 1e-6, 0, 1.1 + ratio, ExternalForce({{1, -push}, {10, push / ratio}})};
         motion.contact_time_step = 1e-3;
-        Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(1)));
+        Trajectory trajectory =
+            simulate_viscous_contact(motion, LubricationForce(leading_term_fit(1)));
         trajectory.model = "viscous_contact";
         EXPECT_NEAR(contact_interval(trajectory)[1], 1 + ratio, 1e-3 * (1 + 1e-6))
             << "m = " << mass << ", F = " << push << ", F/G = " << ratio;
@@ -122,7 +129,8 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
   motion.roughness = {0.004, 0.006};
   const double gamma_min = k * std::log(motion.roughness[0] + motion.roughness[1]);
   bool reached = false;
-  for (const auto& row : simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+  for (const auto& row :
+       simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
     reached = reached || *row.gamma == gamma_min;
     if (reached && row.time <= 2) {
       EXPECT_EQ(*row.gamma, gamma_min) << row.time;

@@ -1,0 +1,34 @@
+// Tables of named things: the geometries, bases, terms and models that there are.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+/// The names in a table, separated by commas.
+template <class Table>
+std::string names_of(const Table& table) {
+  std::string names;
+  for (const auto& row : table) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  return names;
+}
+
+/// The row of that name, or nullptr.
+template <class Table>
+auto find_named(const Table& table, std::string_view name) -> decltype(&*table.begin()) {
+  const auto found = std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+/// The row of that name. Throws Error(kBadInput) that lists the names there are.
+template <class Table>
+const auto& require_named(const Table& table, std::string_view name, const std::string& kind) {
+  if (const auto* row = find_named(table, name)) return *row;
+  throw Error(ExitCode::kBadInput, "no " + kind + " is named '" + std::string(name) + "'; there are: " + names_of(table));
+}
+
+}  // namespace viscontact
