@@ -101,6 +101,9 @@ const Cases kTabulate = {
     {"NoTabulation", {"tabulate", "@no_tabulation.toml", "-o", "@t.csv"}, "[tabulation]"},
     {"OutputBelowAFile", {"tabulate", "@case.toml", "-o", "@empty/t.csv"}, "empty"},
     {"OutputIsAFolder", {"tabulate", "@case.toml", "-o", "@folder"}, "folder"},
+    {"OutputIsAnotherFile",
+     {"tabulate", "@case.toml", "-o", "@fit.json"},
+     "fit.json: is there and is no table"},
 };
 INSTANTIATE_TEST_SUITE_P(Tabulate, BadInput, ::testing::ValuesIn(kTabulate), name_of);
 
@@ -115,6 +118,9 @@ const Cases kFit = {
     {"UnknownWeights", {"fit", "@table.csv", "-o", "@f.json", "--weights", "heavy"}, "heavy"},
     {"OutputBelowAFile", {"fit", "@table.csv", "-o", "@empty/f.json"}, "empty"},
     {"OutputIsAFolder", {"fit", "@table.csv", "-o", "@folder"}, "folder: cannot be written"},
+    {"OutputIsItsInput",
+     {"fit", "@table.csv", "-o", "@table.csv"},
+     "table.csv: is there and is no fit"},
 };
 INSTANTIATE_TEST_SUITE_P(Fit, BadInput, ::testing::ValuesIn(kFit), name_of);
 

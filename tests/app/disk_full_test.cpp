@@ -25,7 +25,7 @@ class DiskFull : public ::testing::Test {
 };
 
 TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
-  put_text(path("fit.json"), "old");
+  put_text(path("fit.json"), R"({"gap_interval": "of an older fit"})");
   const auto before = files_below(scratch_.path());
   const auto result =
       run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);

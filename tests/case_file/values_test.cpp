@@ -142,7 +142,7 @@ TEST(ModelsOfACase, AreRefusedWhenThereIsNoneOfThatName) {
     expect_refused(edited, "motion.models", "");
   }
   expect_refused(with_text("end_time = 4.0\n", "models = [\"gluey\"]\nend_time = 4.0\n"),
-                 "motion.models", "no model is named 'gluey'; there are reference,");
+                 "motion.models", "no model is named 'gluey'; there are: reference,");
 }
 
 TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {

@@ -135,6 +135,16 @@ TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
   }
 }
 
+TEST(Fit, RefusesForcesThatAreNotLinearInTheVelocity) {
+  auto table = exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1);
+  for (auto& row : table.rows) row.relative_error_estimate = 1e-6;
+  table.rows.back().force *= 1 + 1.9e-6;  // within what the two rows' estimates allow together
+  EXPECT_NO_THROW(fit_force_table(table, "lecture", Weights::kRelative));
+  table.rows.back().force *= 1 + 1e-6;
+  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kRelative); }),
+              HasSubstr("not linear in the velocity"));
+}
+
 TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
   const auto at_one = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1), "lecture",
                                       Weights::kRelative);
