@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <thread>
 
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "viscontact: {}; see viscontact --help\n", error.what());
+    say(fmt::format("viscontact: {}; see viscontact --help", error.what()));
     return static_cast<int>(ExitCode::kWrongUsage);
   }
   return static_cast<int>(healthy ? ExitCode::kDone : ExitCode::kExternalProgram);
@@ -195,17 +196,20 @@ int main(int argc, char** argv) {
   using viscontact::ExitCode;
   viscontact::catch_interrupts();
   try {
-    return viscontact::run(argc, argv);
+    const int exit_code = viscontact::run(argc, argv);
+    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      viscontact::throw_bad_input({"standard output"}, "cannot be written");
+    return exit_code;
   } catch (const viscontact::Error& error) {
     viscontact::clear_progress();
-    fmt::print(stderr, "viscontact: {}\n", error.what());
+    viscontact::say(fmt::format("viscontact: {}", error.what()));
     return static_cast<int>(error.exit_code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "viscontact: there is not enough memory for this\n");
+    viscontact::say("viscontact: there is not enough memory for this");
     return static_cast<int>(ExitCode::kNotConverged);
   } catch (const std::exception& error) {
     // The file system or a library, in a way that no check foresaw.
-    fmt::print(stderr, "viscontact: {}\n", error.what());
+    viscontact::say(fmt::format("viscontact: {}", error.what()));
     return static_cast<int>(ExitCode::kBadInput);
   }
 }

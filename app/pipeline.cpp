@@ -166,7 +166,13 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
         fmt::format(
             "is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
             fit.viscosity, fit.radius, c.viscosity, c.radius));
-  const LubricationForce force(fit, below);
+  const LubricationForce force = [&] {
+    try {
+      return LubricationForce(fit, below);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(), fmt::format("{}: {}", fit_path.string(), error.what()));
+    }
+  }();
   std::vector<Trajectory> trajectories;
   for (const auto& name : models_to_run(c, std::move(models))) {
     throw_if_interrupted();

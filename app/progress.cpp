@@ -1,6 +1,5 @@
 #include "app/progress.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -14,12 +13,13 @@ constexpr const char* kEraseLine = "\r\033[K";
 
 void show_progress(const std::string& text) {
   if (::isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "{}{}", kEraseLine, text);
+  std::fputs((kEraseLine + text).c_str(), stderr);
   std::fflush(stderr);
 }
 
 void clear_progress() { show_progress(""); }
 
-void say(const std::string& text) { fmt::print(stderr, "{}\n", text); }
+// Nobody may be listening (a closed or full standard error): then the words are lost, not the work.
+void say(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
 }  // namespace viscontact

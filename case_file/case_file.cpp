@@ -100,8 +100,8 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   } else {
     fit.basis = section.text("basis");
     at_key(section, "basis", [&] { return find_basis(fit.basis); });
-    fit.weights =
-        at_key(section, "weights", [&] { return parse_weights(section.text("weights")); });
+    const std::string weights = section.text("weights");
+    fit.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
   }
   section.finish();
   return fit;
@@ -120,6 +120,15 @@ ExternalForce read_external_force(const TomlSection& motion, double end_time) {
   return force;
 }
 
+double read_time_step(const TomlSection& section, double end_time) {
+  const double step = section.number("time_step", kPositive);
+  if (step > end_time)
+    section.fail(
+        "time_step",
+        fmt::format("is {}; must be a number > 0, at most motion.end_time, {}", step, end_time));
+  return step;
+}
+
 /// `models` of [motion]: which to run.
 std::vector<std::string> read_models(const TomlSection& section) {
   if (!section.has("models")) return {};
@@ -136,7 +145,7 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
                 read_external_force(section, end_time)};
 
   const auto reference = root.section("reference");
-  motion.reference_time_step = reference.number("time_step", kPositive);
+  motion.reference_time_step = read_time_step(reference, end_time);
   reference.finish();
 
   const auto inertial = root.section("inertial");
@@ -144,7 +153,7 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
   inertial.finish();
 
   const auto contact = root.section("viscous_contact");
-  motion.contact_time_step = contact.number("time_step", kPositive);
+  motion.contact_time_step = read_time_step(contact, end_time);
   motion.threshold_gap = contact.number("threshold_gap", kPositive);
   const auto roughness = contact.numbers("roughness", kNotNegative);
   if (roughness.size() != 2)

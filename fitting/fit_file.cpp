@@ -81,7 +81,9 @@ Json parse(const std::string& file, const std::string& text) {
     throw_bad_input({file, static_cast<int>(line)},
                     "is not valid JSON; write one with 'viscontact fit'");
   } catch (const Json::exception& error) {
-    throw_bad_input({file}, error.what());
+    // "[json.exception.out_of_range.406] number overflow parsing '1e400'": what is for users comes behind the bracket.
+    const std::string what = error.what();
+    throw_bad_input({file}, what.substr(std::min(what.size(), what.find("] ") + 2), 80));
   }
 }
 

@@ -45,6 +45,9 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side) {
   assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 &&
          matrix.rows() == right_hand_side.size());
+  if (!matrix.allFinite() || !right_hand_side.allFinite())
+    throw Error(ExitCode::kBadInput,
+                "a gap or a force is too small or too large: a term of the fit overflows");
   const Eigen::VectorXd scale =
       matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();

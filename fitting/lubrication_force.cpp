@@ -52,11 +52,15 @@ void LubricationForce::check_gap(double gap) const {
   const bool allowed = gap <= largest &&
                        (gap >= smallest || (below_ == BelowInterval::kLubricationLimit && gap > 0));
   if (!allowed)
-    throw Error(ExitCode::kBadInput,
-                fmt::format("gap {:.6g} is outside the fitted interval [{:.6g}, {:.6g}]; tabulate "
-                            "and fit further{}",
-                            gap, smallest, largest,
-                            gap < smallest ? ", or ask for the lubrication limit below it" : ""));
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format(
+            "gap {} is outside the fitted interval [{}, {}]; tabulate "
+            "and fit further{}",
+            gap, smallest, largest,
+            gap < smallest
+                ? ", or ask for the lubrication limit below it (simulate --lubrication-limit)"
+                : ""));
 }
 
 double LubricationForce::leading_coefficient() const {
@@ -106,11 +110,12 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
   double high = std::log(largest);
   if (impulse_wanted < impulse(smallest)) {
     if (below_ == BelowInterval::kError)
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
-                              "{:.6g}]; tabulate and fit further, "
-                              "or ask for the lubrication limit below it",
-                              smallest, largest));
+      throw Error(
+          ExitCode::kBadInput,
+          fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
+                      "{:.6g}]; tabulate and fit further, "
+                      "or ask for the lubrication limit below it (simulate --lubrication-limit)",
+                      smallest, largest));
     // k (s - ln q_min) + R_reg (e^s - q_min) = what is wanted beyond Gamma(q_min): the second term moves s by less than R_reg q_min / k.
     const double k = leading_coefficient();
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;

@@ -166,11 +166,9 @@ Comparison read_comparison(const std::filesystem::path& path) {
       comparison.models.push_back(model);
     }
     return comparison;
-  } catch (const nlohmann::json::exception& error) {
-    throw_bad_input(
-        {path.string()},
-        fmt::format("is not a comparison file ({}); write one with 'viscontact compare'",
-                    error.what()));
+  } catch (const nlohmann::json::exception&) {
+    throw_bad_input({path.string()},
+                    "is not a comparison file; write one with 'viscontact compare'");
   }
 }
 

@@ -38,11 +38,14 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
     const double h = next - t;
     const double f = motion.external_force.mean(t, next);
     const double resistance = model.resolved_resistance(model.contact_gap + state.gap);
-    const double free_velocity = (m * state.velocity + h * f) / (m + h * resistance);
-    const ContactState after = contact_step(state, free_velocity, m, model.gamma_min, h);
+    // Drag implicit in the velocity after the projection: m (u^{n+1} - u^n)/h = f - R u^{n+1} + lambda. So without
+    // contact the velocity is the following, and what a contact has to change weighs m + h R.
+    const double inertia = m + h * resistance;
+    const double free_velocity = (m * state.velocity + h * f) / inertia;
+    const ContactState after = contact_step(state, free_velocity, inertia, model.gamma_min, h);
     const double film_force = (state.gamma - after.gamma) / h;
     trajectory.rows.push_back({next, model.contact_gap + after.gap, after.velocity,
-                               film_force - resistance * free_velocity,
+                               film_force - resistance * after.velocity,
                                motion.external_force.value(next), after.gamma});
     lowest_gamma = std::min(lowest_gamma, after.gamma);
     state = after;

@@ -88,7 +88,9 @@ void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);
   throw Error(ExitCode::kNotConverged,
-              fmt::format("CVODE gave up at time {:.6g}: {} returned {}", time_, call, name.get()));
+              fmt::format("CVODE gave up at time {:.6g} ({} returned {}); take another "
+                          "inertial.relative_tolerance, or less extreme mass, velocity or force",
+                          time_, call, name.get()));
 }
 
 int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self) {

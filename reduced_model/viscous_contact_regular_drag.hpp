@@ -5,14 +5,15 @@
 
 namespace viscontact {
 
-/// The lecture's splitting ("Methode de splitting") where the fluid solver resolves all of the drag
-/// but its singular part k/q: each step is
+/// The lecture's splitting ("Methode de splitting") where the fluid solver resolves all of the drag but its
+/// singular part k/q. With the drag implicit, each step is
 ///
-///     m (u^{n+1/2} - u^n)/h = f^n - (R(q^n) - k/q^n) u^{n+1/2},
+///     m (u^{n+1} - u^n)/h = f^n - (R(q^n) - k/q^n) u^{n+1} + lambda,
 ///
-/// then the projection of viscous_contact.hpp on u^{n+1/2}. Below the fit's interval R - k/q is held at its
-/// value there. In contact this splitting gives the share h (R - k/q)/m of each step's load to a drag on a
-/// sphere that does not move, and gamma lacks it: an error of first order in h.
+/// lambda from the projection of viscous_contact.hpp: the velocity is that of the lecture's scheme, which projects
+/// the u^{n+1/2} of lambda = 0, but drag acts on the velocity that is left. (Taken on u^{n+1/2} it would act on a
+/// sphere at rest in contact, and gamma would lack the share h (R - k/q)/m of each step's load.)
+/// Below the fit's interval R - k/q is held at its value there.
 /// `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has no positive coefficient
 /// of 1/q, or when the motion leaves the fit's interval upwards.
 ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force);

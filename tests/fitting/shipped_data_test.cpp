@@ -23,7 +23,8 @@ TEST(ShippedTable, HasTheLecturesGridAndEveryRowWithin1e4OfBrenner) {
   for (const auto& row : table.rows) {
     // 1e-4 is what is asked of the table; below a gap of 1 the container of 40 x 80 radii adds less than 5e-6, and the rows asked for
     // 1e-5 themselves.
-    const double error = std::abs(row.drag_factor / brenner_drag_factor(row.gap / table.radius) - 1);
+    const double error =
+        std::abs(row.drag_factor / brenner_drag_factor(row.gap / table.radius) - 1);
     EXPECT_LT(error, row.gap <= 1 ? 1.5e-5 : 1e-4) << "gap " << row.gap;
     EXPECT_LE(row.relative_error_estimate, 1e-5) << "gap " << row.gap;
   }

@@ -83,18 +83,29 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceAsItsStepShrinksWhateverTheThreshol
     const double coarse = threshold_film(force, threshold_gap, 1e-3) / exact - 1;
     const double middle = threshold_film(force, threshold_gap, 1e-4) / exact - 1;
     const double fine = threshold_film(force, threshold_gap, 1e-5) / exact - 1;
-    EXPECT_GT(fine, 0) << threshold_gap;
+    EXPECT_LT(fine, 0) << threshold_gap;  // the impulse of a step's share of the impact is missing
     // First order, with a next term that grows as q_c falls: the drag varies over q_c, and a step covers h f/R of it.
     EXPECT_NEAR(std::log10(coarse / middle), 1, 0.02) << threshold_gap;
     EXPECT_NEAR(std::log10(middle / fine), 1, 0.01) << threshold_gap;
   }
 }
 
-TEST(Threshold, IsOffByTwelveHundredthsAtTheLecturesSettings) {
+TEST(Threshold, IsWithinHalfAPercentAtTheLecturesSettings) {
   const LubricationForce force(lecture_fit());
   const double exact = lowest_row(simulate_reference_exact(lecture_motion(), force)).gap;
-  EXPECT_NEAR(threshold_film(force, 0.1, 1e-3) / exact, 1,
-              0.12);  // measured: 0.117; proportional to h
+  // First order in h: 0.33 % measured at h = 1e-3. Drag that also acted on the sphere held at rest would make it 11.7 %.
+  EXPECT_NEAR(threshold_film(force, 0.1, 1e-3) / exact, 1, 0.005);
+}
+
+TEST(Threshold, KeepsItsFilmForALightSphere) {
+  // Without inertia to speak of, the film is that of `reference_exact`: mass must not enter by way of the step.
+  const LubricationForce force(lecture_fit());
+  Motion motion = lecture_motion();
+  const double exact = lowest_row(simulate_reference_exact(motion, force)).gap;
+  motion.mass = 1e-3;
+  const auto trajectory = simulate_viscous_contact_threshold(motion, force);
+  // The explicit R(q^n) makes the fall as inexact as `reference` is at this h: 0.9 %.
+  EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / exact, 1, 0.01);
 }
 
 TEST(Threshold, StaysAtItsThresholdWhileInContact) {
