@@ -7,8 +7,8 @@
 #include "common/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -70,8 +70,8 @@ void fill(const std::filesystem::path& folder) {
 class BadInput : public ::testing::TestWithParam<BadInputCase> {};
 
 TEST_P(BadInput, EndsWithExitCode3SaysWhatAndLeavesEveryFileAsItWas) {
-  const ScratchFolder scratch;
-  const ScratchFolder elsewhere;
+  const TemporaryFolder scratch;
+  const TemporaryFolder elsewhere;
   fill(scratch.path());
   const FakeFreeFem fake(elsewhere.path());
   std::vector<std::string> arguments;

@@ -4,8 +4,8 @@
 
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -21,7 +21,7 @@ class DiskFull : public ::testing::Test {
   DiskFull() { put_text(path("table.csv"), exact_table_text()); }
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
 };
 
 TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
@@ -35,7 +35,7 @@ TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
 }
 
 TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
-  const ScratchFolder elsewhere;
+  const TemporaryFolder elsewhere;
   const FakeFreeFem fake(elsewhere.path());
   put_text(path("case.toml"), lecture_case_text());
   const auto result =

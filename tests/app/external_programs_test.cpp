@@ -4,8 +4,8 @@
 
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -38,7 +38,7 @@ class ExternalPrograms : public ::testing::Test {
     return folder.string();
   }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
 };
 
 TEST_F(ExternalPrograms, MissingFreeFemIsSaidWithWhatToDo) {
@@ -88,7 +88,7 @@ TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
 
 TEST_F(ExternalPrograms, MissingGnuplotLeavesNoReport) {
   const std::string run = simulated_folder();
-  const ScratchFolder empty;
+  const TemporaryFolder empty;
   const auto before = files_below(run);
   const auto result = run_viscontact({"report", run}, {"PATH=" + empty.path().string()});
   expect_refusal(result, ExitCode::kExternalProgram,

@@ -10,8 +10,8 @@
 #include "fitting/force_table.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -22,7 +22,7 @@ using ::testing::SizeIs;
 class Interrupt : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Interrupt, KeepsFinishedRowsEndsFreeFemAndTheNextRunComputesOnlyTheRest) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto path = [&](const std::string& name) { return (scratch.path() / name).string(); };
   // The third row interrupts viscontact and would then take an hour; without the marker file it is a row like any other.
   const FakeFreeFem fake(scratch.path(), R"sh(

@@ -7,7 +7,7 @@
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 constexpr double kStep = 1e-3;  // of data/cases/limit.toml
 
 TEST(LimitCase, ViscousContactTouchesFrom1To4AndFollowsTheLimit) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   // FreeFEM is not needed: its absence is not noticed.
   expect_done(run_viscontact(
       {"run", VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml", "-o", scratch.path().string()},
@@ -48,7 +48,7 @@ TEST(LimitCase, ViscousContactTouchesFrom1To4AndFollowsTheLimit) {
 }
 
 TEST(LimitCase, IsNotSimulatedTwice) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::vector<std::string> arguments = {
       "run", VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml", "-o", scratch.path().string()};
   expect_done(run_viscontact(arguments));

@@ -7,7 +7,7 @@
 
 #include "common/file.hpp"
 #include "common/process.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 
@@ -15,7 +15,7 @@ ProgramResult run_viscontact(const std::vector<std::string>& arguments,
                              const std::vector<std::string>& environment,
                              const std::string& shell_before) {
   // The shell becomes the program, so that a signal that ends it is seen, and FreeFEM's parent is viscontact.
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto errors = scratch.path() / "errors";
   std::vector<std::string> command = {
       "/bin/sh", "-c", "exec 2>\"$1\"; shift; " + shell_before + " exec \"$0\" \"$@\"",

@@ -11,8 +11,8 @@
 #include "reduced_model/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -43,12 +43,12 @@ class Run : public ::testing::Test {
     return folder() / "trajectories" / (model + ".csv");
   }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
   FakeFreeFem fake_;
 };
 
 TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto folder = scratch.path() / "run";
   put_text(scratch.path() / "case.toml", gentle_case_text());
   const std::vector<std::string> arguments = {
@@ -190,7 +190,7 @@ TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
 }
 
 TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {
-  const ScratchFolder programs;
+  const TemporaryFolder programs;
   put_text(programs.path() / "gnuplot", "#!/bin/sh\nexit 1\n");
   make_executable(programs.path() / "gnuplot");
   const auto failed =

@@ -12,7 +12,7 @@
 #include "reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -50,7 +50,7 @@ class Stages : public ::testing::Test {
     throw std::invalid_argument("not compared: " + model);
   }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
 };
 
 TEST_F(Stages, FitFileSaysBasisWeightsTableAndVersions) {

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "tests/app/program.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -123,7 +123,7 @@ TEST(Doctor, FindsNothingMissingAndSolvesAKnownRow) {
 }
 
 TEST(Doctor, SaysHowToMendWhatIsMissing) {
-  const ScratchFolder empty;
+  const TemporaryFolder empty;
   const auto result = run_viscontact({"doctor"}, {"PATH=" + empty.path().string()});
   EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kExternalProgram));
   EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"),

@@ -13,6 +13,20 @@
 
 namespace viscontact {
 
+/// Writes (or replaces) a file as it is, without the code under test.
+inline void put_text(const std::filesystem::path& path, std::string_view text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+/// Makes a file a program.
+inline void make_executable(const std::filesystem::path& path) {
+  std::filesystem::permissions(path, std::filesystem::perms::owner_exec,
+                               std::filesystem::perm_options::add);
+}
+
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -31,10 +45,10 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// A file with these bytes, written without the code under test.
+  /// A file of that name in the folder with these bytes.
   std::filesystem::path file(const std::string& name, std::string_view content) const {
     const auto path = path_ / name;
-    std::ofstream(path, std::ios::binary) << content;
+    put_text(path, content);
     return path;
   }
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "common/error.hpp"
+#include "tests/common/failure.hpp"
 
 namespace viscontact {
 
@@ -14,14 +14,7 @@ namespace viscontact {
 template <class Action>
 void expect_error(const Action& action, ExitCode exit_code,
                   const ::testing::Matcher<std::string>& message) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), exit_code);
-    EXPECT_THAT(std::string(error.what()), message);
-    return;
-  }
-  FAIL() << "no Error was thrown";
+  EXPECT_THAT(failure(exit_code, action), message);
 }
 
 }  // namespace viscontact

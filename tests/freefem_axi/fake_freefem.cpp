@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "tests/freefem_axi/scratch_folder.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 

@@ -5,9 +5,9 @@
 #include <ostream>
 
 #include "freefem_axi/tabulation.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 
 namespace viscontact {
@@ -29,7 +29,7 @@ TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
 }
 
 TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   put_text(scratch.path() / "text", "not a program");
   const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
   expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
@@ -37,7 +37,7 @@ TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
 }
 
 TEST(FakeFreeFem, AnswersAsARowOfTheTable) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const FakeFreeFem fake(scratch.path());
   const auto row = solve_row(fake.freefem(), kTabulation, 0.25, -2);
   EXPECT_NEAR(row.force / FakeFreeFem::force(1, 1, 0.25, -2), 1,
@@ -60,7 +60,7 @@ std::ostream& operator<<(std::ostream& out, const Failure& failure) { return out
 class FailingFreeFem : public ::testing::TestWithParam<Failure> {};
 
 TEST_P(FailingFreeFem, ErrorNamesTheRowAndItsLastLines) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const FakeFreeFem fake(scratch.path(), GetParam().script);
   auto said = GetParam().said;
   said.insert(said.end(), {"gap 0.25", "velocity -1"});
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(OtherProgram, HasNoFreeFemVersion) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   put_text(scratch.path() / "other", "#!/bin/sh\necho hello\n");
   make_executable(scratch.path() / "other");
   expect_error(

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/file.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -38,7 +38,7 @@ class RowJournalFile : public ::testing::Test {
   }
   std::filesystem::path path() const { return scratch_.path() / "sub" / "table.csv.rows"; }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
 };
 
 TEST_F(RowJournalFile, FindsAppendedRowsAtOnceAndWhenOpenedAgain) {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "common/file.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/freefem_axi/scratch_folder.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
 
@@ -35,7 +35,7 @@ class Tabulate : public ::testing::Test {
  protected:
   std::filesystem::path journal() const { return scratch_.path() / "table.csv.rows"; }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
   Tabulation tabulation_ = unit_tabulation({0.125, 0.25, 0.5, 1}, 5, 1e-3);
 };
 
@@ -152,7 +152,7 @@ TEST(TabulationHash, ChangesWithEverythingThatTheForceDependsOn) {
 }
 
 TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   constexpr double kAccuracy = 1e-3;
   const auto tabulation = unit_tabulation({0.05, 0.5}, 40, kAccuracy);
   const auto table =
