@@ -157,8 +157,8 @@ TEST_F(Schema, KnowsEveryTermThereIs) {
 }
 
 TEST_F(Schema, KnowsEveryWeights) {
-  for (const std::string word : schema().at("properties").at("weights").at("enum"))
-    EXPECT_NO_THROW(parse_weights(word));
+  const Json words = schema().at("properties").at("weights").at("enum");
+  for (const std::string word : words) EXPECT_NO_THROW(parse_weights(word));
 }
 
 TEST_F(Schema, IsOfTheDraftItClaims) {
