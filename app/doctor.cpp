@@ -24,8 +24,7 @@ bool solve_known_row(const FreeFem& freefem) {
   constexpr double kTolerance = 1e-4;
   Tabulation tabulation;
   tabulation.viscosity = tabulation.radius = 1;
-  tabulation.container_radius = 40;
-  tabulation.container_height = 80;
+  tabulation.container = Container{40, 80};
   tabulation.relative_accuracy = kTolerance;
   const auto row = solve_row(freefem, tabulation, 0.1, -1);
   const double error = std::abs(row.drag_factor / kBrenner - 1);

@@ -56,6 +56,50 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   return gaps;
 }
 
+void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation) {
+  if (!tabulation_section.has("geometry")) return;  // a plane
+  const auto section = tabulation_section.section("geometry");
+  tabulation.geometry = section.text("kind");
+  const auto& geometry = at_key(
+      section, "kind", [&]() -> auto& { return find_geometry(tabulation.geometry); });
+  for (const auto& parameter : geometry.parameters) {
+    const std::string key(parameter.key);
+    tabulation.geometry_parameters.push_back(parameter.fallback && !section.has(key)
+                                                 ? *parameter.fallback
+                                                 : section.number(key, parameter.allowed));
+  }
+  section.finish();
+}
+
+/// `container`: { radius, height } that hold sphere and neighbour at every gap, or "unbounded".
+void read_container(const TomlSection& section, const RoomNeeded& room, Tabulation& tabulation) {
+  if (!find_geometry(tabulation.geometry).takes_container) {
+    if (section.has("container"))
+      section.fail("container", fmt::format("must not be there: a {} is its own container",
+                                            tabulation.geometry));
+    return;
+  }
+  if (section.is_text("container")) {
+    if (const auto text = section.text("container"); text != "unbounded")
+      section.fail(
+          "container",
+          fmt::format("is '{}'; must be \"unbounded\" or a table with radius and height", text));
+    return;
+  }
+  const auto table = section.section("container");
+  const Container container{table.number("radius", kPositive), table.number("height", kPositive)};
+  table.finish();
+  if (!(container.radius > room.container_radius))
+    table.fail("radius", fmt::format("is {}; must be greater than that of sphere and neighbour, {}",
+                                     container.radius, room.container_radius));
+  if (!(container.height > room.container_height))
+    table.fail("height",
+               fmt::format("is {}; must be greater than {}, what the largest gap, the sphere and "
+                           "its neighbour need",
+                           container.height, room.container_height));
+  tabulation.container = container;
+}
+
 Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
   Tabulation tabulation;
   tabulation.viscosity = viscosity;
@@ -67,28 +111,16 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   if (std::ranges::adjacent_find(velocities) != velocities.end())
     section.fail("reference_velocities", "has the same velocity twice");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
-  if (section.is_text("container"))
-    section.fail("container",
-                 "must be a table with radius and height (a fluid without walls is not available)");
-  const auto container = section.section("container");
-  tabulation.container_radius = container.number("radius", kPositive);
-  tabulation.container_height = container.number("height", kPositive);
-  container.finish();
-  if (!(tabulation.container_radius > radius))
-    container.fail("radius", fmt::format("is {}; must be greater than the sphere's radius, {}",
-                                         tabulation.container_radius, radius));
+  read_geometry(section, tabulation);
   const double widest = tabulation.gaps.back();
-  if (!(tabulation.container_height > widest + 2 * radius))
-    container.fail(
-        "height",
-        fmt::format("is {}; must be greater than the largest gap and the sphere's diameter, {}",
-                    tabulation.container_height, widest + 2 * radius));
-  if (section.has("geometry")) {
-    const auto geometry = section.section("geometry");
-    tabulation.geometry = geometry.text("kind");
-    at_key(geometry, "kind", [&] { return find_geometry(tabulation.geometry); });
-    geometry.finish();
-  }
+  const auto room =
+      find_geometry(tabulation.geometry).room(radius, widest, tabulation.geometry_parameters);
+  if (!(room.largest_gap > 0)) section.fail("geometry", "leaves no room for the sphere");
+  // Two lengths that are subtracted: equal up to rounding is equal.
+  if (!(widest <= room.largest_gap * (1 + 1e-12)))
+    section.fail("gaps", fmt::format("goes up to {}; in this {} a gap is at most {}", widest,
+                                     tabulation.geometry, room.largest_gap));
+  read_container(section, room, tabulation);
   section.finish();
   return tabulation;
 }

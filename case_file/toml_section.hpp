@@ -8,18 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "common/allowed.hpp"
+
 namespace viscontact {
-
-/// What a number may be, and how to say so.
-struct Allowed {
-  bool (*test)(double value);
-  std::string_view words;
-};
-
-inline constexpr Allowed kPositive = {[](double v) { return v > 0; }, "> 0"};
-inline constexpr Allowed kNotNegative = {[](double v) { return v >= 0; }, ">= 0"};
-inline constexpr Allowed kNotZero = {[](double v) { return v != 0; }, "different from 0"};
-inline constexpr Allowed kFinite = {[](double) { return true; }, "that is finite"};
 
 /// Every function throws Error(kBadInput) with file, line, key and what is allowed for a missing
 /// key (optional_... excepted), a wrong type, a value that is not finite or not allowed.

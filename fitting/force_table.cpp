@@ -35,6 +35,7 @@ ForceTable read_force_table(const std::filesystem::path& path) {
   ForceTable table;
   table.viscosity = positive_comment(csv.comments, "viscosity", file);
   table.radius = positive_comment(csv.comments, "radius", file);
+  table.geometry = comment_or(csv.comments, "geometry");
   table.container = comment_or(csv.comments, "container");
   table.case_hash = comment_or(csv.comments, "case");
   for (const auto& [key, value] : csv.comments)
@@ -47,7 +48,8 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     row.force = required_field(fields, kColumns, 2, file);
     if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; must be > 0", row.gap));
     if (row.reference_velocity == 0) throw_bad_input(here, "reference_velocity is 0; must not be");
-    if (!(row.force * row.reference_velocity < 0))
+    // A second sphere may move, and pull this one along.
+    if (!(row.force * row.reference_velocity < 0) && !table.geometry.starts_with("sphere"))
       throw_bad_input(here,
                       fmt::format("force is {} at velocity {}; a drag is opposed to the velocity",
                                   row.force, row.reference_velocity));
@@ -66,11 +68,10 @@ ForceTable read_force_table(const std::filesystem::path& path) {
 }
 
 std::string write_force_table(const ForceTable& table) {
-  CsvComments comments = {{"viscontact", "force table"},
-                          {"viscosity", format_number(table.viscosity)},
-                          {"radius", format_number(table.radius)},
-                          {"container", table.container},
-                          {"rows", std::to_string(table.rows.size())}};
+  CsvComments comments = {
+      {"viscontact", "force table"},           {"viscosity", format_number(table.viscosity)},
+      {"radius", format_number(table.radius)}, {"geometry", table.geometry},
+      {"container", table.container},          {"rows", std::to_string(table.rows.size())}};
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
   for (const auto& [program, version] : table.versions)
     comments[std::string(kVersionPrefix) + program] = version;

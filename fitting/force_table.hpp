@@ -13,8 +13,9 @@ namespace viscontact {
 struct ForceTableRow {
   double gap = 0;                 ///< q > 0
   double reference_velocity = 0;  ///< u0, not 0; negative: approaching
-  double force = 0;               ///< F_lub(q, u0) along the outward normal: opposite in sign to u0
-  double drag_factor = 0;         ///< lambda = -F_lub / (6 pi mu r u0)
+  double force = 0;  ///< F_lub(q, u0) along the outward normal: opposite in sign to u0, unless the
+                     ///< neighbour moves and pulls
+  double drag_factor = 0;              ///< lambda = -F_lub / (6 pi mu r u0)
   double relative_error_estimate = 0;  ///< of force, >= 0
   double degrees_of_freedom = 0;       ///< unknowns on the finest mesh
   double seconds = 0;                  ///< wall time of the row
@@ -25,6 +26,7 @@ struct ForceTableRow {
 struct ForceTable {
   double viscosity = 0;   ///< mu [M/(L T)], > 0
   double radius = 0;      ///< r [L], > 0
+  std::string geometry;   ///< what the sphere approaches, in words; empty in a user's own table
   std::string container;  ///< in words
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version

@@ -31,15 +31,13 @@ std::vector<GridPoint> grid_of(const Tabulation& tabulation) {
 ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
                     const std::filesystem::path& journal_path,
                     const std::function<void(const TabulateProgress&)>& report) {
-  find_geometry(tabulation.geometry);
   ForceTable table;
   table.versions["FreeFEM"] =
       freefem_version(freefem);  // first: if FreeFEM is missing, say so once
   table.viscosity = tabulation.viscosity;
   table.radius = tabulation.radius;
-  table.container = fmt::format("closed cylinder, radius {}, height {}",
-                                format_number(tabulation.container_radius),
-                                format_number(tabulation.container_height));
+  table.geometry = geometry_in_words(tabulation);
+  table.container = container_in_words(tabulation);
   table.case_hash = tabulation_hash(tabulation);
 
   RowJournal journal(journal_path, table.case_hash);

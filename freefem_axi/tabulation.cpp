@@ -2,32 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <sstream>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
-#include "common/named.hpp"
 #include "common/number.hpp"
 #include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
 namespace {
 
-constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp"},
-};
-
-// The coarsest mesh and how often it may be refined by 1.5 until the row's accuracy is met
-// (drag.idp). On the lecture's case the first two meshes reach 1e-5 (bench/README.md); the fourth
-// has 160 000 unknowns.
-constexpr int kCoarsestCells = 8;
-constexpr int kMostLevels = 4;
+// Cells across the film on the coarsest of three meshes, each twice as fine as the one before (drag.idp). The error estimate falls
+// like their -4th to -5th power; at 1e-5, 2 suffice over gaps of 1e-6 to 10 radii (bench/README.md). Coarser than 2 the film's block would have
+// one layer.
+double coarsest_cells(double relative_accuracy) {
+  return std::max(2.0, 2.0 * std::pow(1e-5 / relative_accuracy, 0.22));
+}
+constexpr int kLevels = 3;
+constexpr int kAttempts = 3;  // with 1.4 times the cells each, where the accuracy is not met
 
 // Raised whenever a change of the scripts changes what they compute, so that tables made before are
 // made again.
-constexpr int kMethod = 1;
+constexpr int kMethod = 2;
 
 /// The end of a program's output, on one line.
 std::string last_lines(const std::string& output) {
@@ -42,16 +42,28 @@ std::string last_lines(const std::string& output) {
 
 }  // namespace
 
-const Geometry& find_geometry(std::string_view name) {
-  return require_named(kGeometries, name, "geometry");
+std::string container_in_words(const Tabulation& tabulation) {
+  if (!find_geometry(tabulation.geometry).takes_container) return "none";
+  if (!tabulation.container) return "unbounded";
+  return fmt::format("closed cylinder, radius {}, height {}",
+                     format_number(tabulation.container->radius),
+                     format_number(tabulation.container->height));
+}
+
+std::string geometry_in_words(const Tabulation& tabulation) {
+  const auto& geometry = find_geometry(tabulation.geometry);
+  std::string words(geometry.name);
+  for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
+    words += fmt::format(", {} {}", geometry.parameters[i].key,
+                         format_number(tabulation.geometry_parameters.at(i)));
+  return words;
 }
 
 std::string tabulation_hash(const Tabulation& tabulation) {
-  std::string text =
-      fmt::format("{} {} {} {} {} {} {};", tabulation.geometry, format_number(tabulation.viscosity),
-                  format_number(tabulation.radius), format_number(tabulation.container_radius),
-                  format_number(tabulation.container_height),
-                  format_number(tabulation.relative_accuracy), kMethod);
+  std::string text = fmt::format(
+      "{}; {}; {} {} {} {};", geometry_in_words(tabulation), container_in_words(tabulation),
+      format_number(tabulation.viscosity), format_number(tabulation.radius),
+      format_number(tabulation.relative_accuracy), kMethod);
   for (const double gap : tabulation.gaps) text += " " + format_number(gap);
   text += ";";
   for (const double velocity : tabulation.reference_velocities)
@@ -62,14 +74,25 @@ std::string tabulation_hash(const Tabulation& tabulation) {
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                         double reference_velocity) {
   const auto start = std::chrono::steady_clock::now();
-  const auto result = run_freefem(
-      freefem, find_geometry(tabulation.geometry).script,
-      {"-radius", format_number(tabulation.radius), "-gap", format_number(gap), "-viscosity",
-       format_number(tabulation.viscosity), "-velocity", format_number(reference_velocity),
-       "-containerRadius", format_number(tabulation.container_radius), "-containerHeight",
-       format_number(tabulation.container_height), "-accuracy",
-       format_number(tabulation.relative_accuracy), "-cells", std::to_string(kCoarsestCells),
-       "-levels", std::to_string(kMostLevels)});
+  const auto& geometry = find_geometry(tabulation.geometry);
+  std::vector<std::string> arguments = {
+      "-radius",    format_number(tabulation.radius),
+      "-gap",       format_number(gap),
+      "-viscosity", format_number(tabulation.viscosity),
+      "-velocity",  format_number(reference_velocity),
+      "-accuracy",  format_number(tabulation.relative_accuracy),
+      "-cells",     format_number(coarsest_cells(tabulation.relative_accuracy)),
+      "-levels",    std::to_string(kLevels),
+      "-attempts",  std::to_string(kAttempts)};
+  if (geometry.takes_container) {
+    const auto container = tabulation.container.value_or(Container{});  // 0: unbounded
+    arguments.insert(arguments.end(), {"-containerRadius", format_number(container.radius),
+                                       "-containerHeight", format_number(container.height)});
+  }
+  for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
+    arguments.insert(arguments.end(), {std::string(geometry.parameters[i].flag),
+                                       format_number(tabulation.geometry_parameters.at(i))});
+  const auto result = run_freefem(freefem, geometry.script, arguments);
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   std::array<std::string, 3> words;

@@ -1,36 +1,39 @@
 // What is to be tabulated, and one row of it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fitting/force_table.hpp"
 #include "freefem_axi/freefem.hpp"
+#include "freefem_axi/geometry.hpp"
 
 namespace viscontact {
 
-/// F_lub over a grid of gaps and velocities, for a sphere on the axis of a closed cylinder. Lengths
-/// in any one unit.
+/// A closed no-slip cylinder on the axis [L].
+struct Container {
+  double radius = 0, height = 0;
+};
+
+/// F_lub over a grid of gaps and velocities, for a sphere and its neighbour on the axis. Lengths in any one unit.
 struct Tabulation {
   double viscosity = 0;                      ///< mu [M/(L T)], > 0
   double radius = 0;                         ///< r [L], > 0
   std::vector<double> gaps;                  ///< q [L], > 0
   std::vector<double> reference_velocities;  ///< u0 [L/T], none 0
-  double container_radius = 0;               ///< [L], > r
-  double container_height = 0;               ///< [L], > q + 2 r for every gap
-  double relative_accuracy = 0;              ///< asked of every row, in (0, 1)
-  std::string geometry = "plane";            ///< name of a Geometry
+  std::optional<Container>
+      container;  ///< larger than the geometry's RoomNeeded; none: unbounded fluid, or the geometry is its own
+  double relative_accuracy = 0;             ///< asked of every row, in (0, 1)
+  std::string geometry = "plane";           ///< name of a Geometry
+  std::vector<double> geometry_parameters;  ///< in the order of Geometry::parameters
 };
 
-/// What the sphere approaches. A geometry is added by writing its script and its row in
-/// tabulation.cpp.
-struct Geometry {
-  std::string_view name;    ///< what users type
-  std::string_view script;  ///< in this folder
-};
+/// In words, for a table's header: "closed cylinder, radius 40, height 80", "unbounded", or "none" where the geometry is its own.
+std::string container_in_words(const Tabulation& tabulation);
 
-/// The geometry of that name. Throws Error(kBadInput) that lists the names there are.
-const Geometry& find_geometry(std::string_view name);
+/// In words, for a table's header: "sphere, radius 2, velocity_ratio 0".
+std::string geometry_in_words(const Tabulation& tabulation);
 
 /// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
 std::string tabulation_hash(const Tabulation& tabulation);

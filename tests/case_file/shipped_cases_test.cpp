@@ -39,8 +39,8 @@ TEST(LecturesCase, TabulatesFortyGapsInTheLargeContainer) {
     // pow rounds once or twice.
     EXPECT_NEAR(tabulation.gaps[i] / tabulation.gaps[i - 1], std::pow(2000, 1.0 / 39), 1e-14) << i;
   EXPECT_THAT(tabulation.reference_velocities, ElementsAre(-1));
-  EXPECT_EQ(tabulation.container_radius, 40);
-  EXPECT_EQ(tabulation.container_height, 80);
+  EXPECT_EQ(tabulation.container.value().radius, 40);
+  EXPECT_EQ(tabulation.container.value().height, 80);
   EXPECT_EQ(tabulation.relative_accuracy, 1e-5);
   EXPECT_EQ(tabulation.geometry, "plane");
 }

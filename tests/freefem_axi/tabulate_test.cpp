@@ -108,7 +108,7 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
 TEST_F(Tabulate, JournalOfAnotherTabulationIsNotUsed) {
   const FakeFreeFem fake(scratch_.path());
   (void)tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
-  tabulation_.container_radius = 6;
+  tabulation_.container->radius = 6;
   (void)tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
   EXPECT_EQ(fake.answered().size(), 8U);
 }
@@ -141,8 +141,8 @@ TEST(TabulationHash, ChangesWithEverythingThatTheForceDependsOn) {
       changed([](Tabulation& t) {
         t.reference_velocities = {-1, 1};
       }),
-      changed([](Tabulation& t) { t.container_radius = 6; }),
-      changed([](Tabulation& t) { t.container_height = 11; }),
+      changed([](Tabulation& t) { t.container->radius = 6; }),
+      changed([](Tabulation& t) { t.container->height = 11; }),
       changed([](Tabulation& t) { t.relative_accuracy = 1e-4; }),
       changed([](Tabulation& t) { t.geometry = "free_surface"; }),
   };

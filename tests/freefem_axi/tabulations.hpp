@@ -15,8 +15,7 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
   tabulation.radius = 1;
   tabulation.gaps = std::move(gaps);
   tabulation.reference_velocities = {-1};
-  tabulation.container_radius = container_radius;
-  tabulation.container_height = 2 * container_radius;
+  tabulation.container = Container{container_radius, 2 * container_radius};
   tabulation.relative_accuracy = relative_accuracy;
   return tabulation;
 }
