@@ -71,9 +71,8 @@ std::string tabulation_hash(const Tabulation& tabulation) {
   return sha256(text);
 }
 
-ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity) {
-  const auto start = std::chrono::steady_clock::now();
+std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
+                                       double reference_velocity) {
   const auto& geometry = find_geometry(tabulation.geometry);
   std::vector<std::string> arguments = {
       "-radius",    format_number(tabulation.radius),
@@ -92,7 +91,14 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
     arguments.insert(arguments.end(), {std::string(geometry.parameters[i].flag),
                                        format_number(tabulation.geometry_parameters.at(i))});
-  const auto result = run_freefem(freefem, geometry.script, arguments);
+  return arguments;
+}
+
+ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                        double reference_velocity) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script,
+                                  row_arguments(tabulation, gap, reference_velocity));
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   std::array<std::string, 3> words;
