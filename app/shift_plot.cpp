@@ -26,16 +26,21 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
     residual.points.emplace_back(row.gap, std::abs(row.relative_residual));
     estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
-  Panel shifts{fmt::format("Smooth wall that drags like the rough one ({})", wall),
-               "gap from the crests q", "shift below the crests"};
+  Panel shifts;
+  shifts.title = fmt::format("Smooth wall that drags like the rough one ({})", wall);
+  shifts.x_label = "gap from the crests q";
+  shifts.y_label = "shift below the crests";
   shifts.x_log = true;
   shifts.settings = {"set yrange [0:*]", "set key bottom right", "set format x '1e%T'"};
   shifts.curves = {own, common};
-  Panel residuals{"How well one shift holds", "gap from the crests q",
-                  "relative difference of drag"};
+  Panel residuals;
+  residuals.title = "How well one shift holds";
+  residuals.x_label = shifts.x_label;
+  residuals.y_label = "relative difference of drag";
   residuals.x_log = true;
   residuals.y_log = true;
-  residuals.settings = {"set key bottom left", "set format x '1e%T'", "set format y '1e%T'"};
+  residuals.settings = {"set yrange [*:*]", "set key bottom left", "set format x '1e%T'",
+                        "set format y '1e%T'"};
   residuals.curves = {residual, estimate};
   return draw_svg({shifts, residuals}, 860, 720);
 }
