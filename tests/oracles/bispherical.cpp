@@ -12,10 +12,10 @@
 // -w_n continued from xi > 0 to all xi is a uniform flow, without force on the sphere. Subtracting
 // it leaves k_n G_n with a double zero at alpha: in s = alpha - xi,
 //
-//     G_n = 2 p S + 2 q H,   S = sinh(ms) sinh(s),   H = m cosh(ms) sinh(s) - sinh(ms) cosh(s),
-//     S' = K = m cosh(ms) sinh(s) + sinh(ms) cosh(s),   S'' = L,   H' = (m^2 - 1) S,
+//     G_n = 2 p S(s) + 2 q H(s)
 //
-// p and q from two conditions at s = sigma = alpha - xi2, and drag factor =
+// with the functions of bispherical_basis.hpp, p and q from two conditions at s = sigma =
+// alpha - xi2, and drag factor =
 //
 //     (2/3) sinh(alpha) sum n(n+1) exp(-m alpha) [p sinh(alpha) - q (m sinh(alpha) + cosh(alpha))].
 //
@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/oracles/sinh_minus_argument.hpp"
+#include "tests/oracles/bispherical_basis.hpp"
 
 namespace viscontact {
 namespace {
@@ -41,49 +41,22 @@ struct Surface {
   Real velocity = 0;  ///< over the sphere's
 };
 
-/// S, H, K, L at sigma times exp(-m sigma), and the determinants of the two conditions times
-/// exp(-2 m sigma): they cannot overflow.
-struct Basis {
-  Real s, h, k, l;
-  Real no_slip;     ///< (m^2-1) S^2 - H K = sinh^2(m sigma) - m^2 sinh^2(sigma)
-  Real shear_free;  ///< (m^2-1) S K - H L = m (sinh(2 m sigma) - m sinh(2 sigma))
-
-  Basis(Real m, Real sigma) {
-    const Real x = m * sigma, decay = std::exp(-x);
-    const Real sinh_x = -std::expm1(-2 * x) / 2, cosh_x = (1 + decay * decay) / 2;
-    const Real sinh_s = std::sinh(sigma), cosh_s = std::cosh(sigma);
-    s = sinh_x * sinh_s;
-    k = m * cosh_x * sinh_s + sinh_x * cosh_s;
-    l = (m * m + 1) * s + 2 * m * cosh_x * cosh_s;
-    if (x < 1) {  // Differences of equal leading terms: both without them.
-      const auto f = [](Real y) { return sinh_minus_argument(y); };
-      h = decay * ((m - 1) * f((m + 1) * sigma) - (m + 1) * f((m - 1) * sigma)) / 2;
-      no_slip = decay * (f(x) - m * f(sigma)) * (sinh_x + decay * m * sinh_s);
-      shear_free = decay * decay * m * (f(2 * x) - m * f(2 * sigma));
-    } else {
-      h = m * cosh_x * sinh_s - sinh_x * cosh_s;
-      no_slip = (sinh_x - decay * m * sinh_s) * (sinh_x + decay * m * sinh_s);
-      shear_free = m * (2 * sinh_x * cosh_x - decay * decay * 2 * m * sinh_s * cosh_s);
-    }
-  }
-};
-
 /// p and q times the determinant (times exp(-m sigma)) and 2, the latter with its sign changed.
 struct Solution {
   Real p, q;
 };
 
 /// From G and its derivative in xi at xi2.
-Solution solve(const Basis& at, Real m2, Real g, Real dg) {
+Solution solve(const BisphericalBasis& at, Real m2, Real g, Real dg) {
   return {.p = m2 * g * at.s + dg * at.h, .q = dg * at.s + g * at.k};
 }
 
 /// Two spheres that move together: G = w_n continued from xi > 0, less w_n, all times
 /// exp(-m beta)/2. That is (sinh(m beta) cosh(beta) - m cosh(m beta) sinh(beta))/m2.
-Solution solve_together(const Basis& at_sigma, Real m, Real alpha, Real beta) {
+Solution solve_together(const BisphericalBasis& at_sigma, Real m, Real alpha, Real beta) {
   const Real m2 = m * m - 1, x = m * beta;
   if (x < 1) {
-    const Basis at_beta(m, beta);
+    const BisphericalBasis at_beta(m, beta);
     return solve(at_sigma, m2, -at_beta.h / m2, at_beta.s);
   }
   // Here the two products in p, and those in q, agree to exp(-2 beta): the same numbers by the
@@ -103,7 +76,7 @@ Solution solve_together(const Basis& at_sigma, Real m, Real alpha, Real beta) {
 Real term(Real n, Real alpha, const Surface& surface) {
   const Real m = n + Real(0.5), m2 = m * m - 1;
   const Real beta = std::abs(surface.xi), sigma = alpha - surface.xi;
-  const Basis at(m, sigma);
+  const BisphericalBasis at(m, sigma);
   const auto drag = [&](Real exponent, const Solution& x) {
     const Real a = std::sinh(alpha), b = m * a + std::cosh(alpha);
     return n * (n + 1) * std::exp(-exponent) * (a * x.p + b * x.q);
