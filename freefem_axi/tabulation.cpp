@@ -72,7 +72,8 @@ std::string tabulation_hash(const Tabulation& tabulation) {
 }
 
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity) {
+                        double reference_velocity,
+                        const std::vector<std::string>& further_arguments, std::string* output) {
   const auto start = std::chrono::steady_clock::now();
   const auto& geometry = find_geometry(tabulation.geometry);
   std::vector<std::string> arguments = {
@@ -92,6 +93,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
     arguments.insert(arguments.end(), {std::string(geometry.parameters[i].flag),
                                        format_number(tabulation.geometry_parameters.at(i))});
+  arguments.insert(arguments.end(), further_arguments.begin(), further_arguments.end());
   const auto result = run_freefem(freefem, geometry.script, arguments);
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
@@ -107,6 +109,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
                             format_number(gap), format_number(reference_velocity),
                             result.exit_status, said.empty() ? last_lines(result.output) : said));
   }
+  if (output != nullptr) *output = result.output;
   ForceTableRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;
