@@ -11,12 +11,15 @@
 namespace viscontact {
 namespace {
 
-/// Text between gnuplot's double quotes.
+/// Text between gnuplot's double quotes; it may have several lines.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    result += c;
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
   }
   return result + "\"";
 }
@@ -31,6 +34,30 @@ std::string data_block(const std::string& name, const Curve& curve) {
   return text + "END_OF_CURVE\n";
 }
 
+// Stands for a transparent cell: gnuplot complains of missing values in a matrix.
+constexpr double kTransparent = 1e99;
+
+std::string data_block(const std::string& name, const ColourField& field) {
+  std::string text = fmt::format("${} << END_OF_FIELD\n", name);
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    const double value = field.values[i];
+    fmt::format_to(std::back_inserter(text), "{:.4g}{}",
+                   std::isfinite(value) ? value : kTransparent,
+                   (i + 1) % field.columns == 0 ? '\n' : ' ');
+  }
+  return text + "END_OF_FIELD\n";
+}
+
+std::string plot_of(const std::string& name, const ColourField& field) {
+  const double width = (field.right - field.left) / static_cast<double>(field.columns);
+  const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
+  return fmt::format(
+      "plot ${} matrix using ({:.17g} + $1 * {:.17g}):({:.17g} + $2 * {:.17g}):($3 < {} ? $3 : "
+      "NaN) "
+      "with image notitle",
+      name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
+}
+
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
@@ -41,6 +68,11 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   if (panel.y_log) script += "set logscale y\n";
   for (const auto& setting : panel.settings) script += setting + "\n";
   std::string plots;
+  if (panel.field) {
+    const auto name = fmt::format("panel{}field", index);
+    script += data_block(name, *panel.field);
+    plots = plot_of(name, *panel.field);
+  }
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const auto& curve = panel.curves[i];
     if (curve.points.empty()) continue;  // gnuplot refuses an empty block

@@ -1,6 +1,7 @@
 // Curves drawn by gnuplot as SVG.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,11 +14,20 @@ struct Curve {
   std::vector<std::pair<double, double>> points;  ///< a non-finite ordinate interrupts the line
 };
 
+/// Values shown as colours (settings: palette, cbrange) in equal cells of a rectangle, row by row from the bottom, each row from the left.
+/// Non-finite: transparent.
+struct ColourField {
+  std::size_t columns = 0, rows = 0;  ///< at least 2
+  double left = 0, right = 0, bottom = 0, top = 0;
+  std::vector<double> values;
+};
+
 struct Panel {
   std::string title, x_label, y_label;
   bool x_log = false, y_log = false;
   std::vector<std::string> settings;  ///< further gnuplot commands
   std::vector<Curve> curves;
+  std::optional<ColourField> field{};  ///< below the curves
 };
 
 /// The panels one below the other as one SVG element, to stand in an HTML page. Throws

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/doctor.hpp"
+#include "app/picture_stage.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
@@ -47,7 +48,7 @@ int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_c
 
 void add_tabulate(CLI::App& app) {
   struct Options {
-    std::string case_file, table;
+    std::string case_file, table, plot;
     int jobs = default_jobs();
   };
   auto* command =
@@ -58,9 +59,21 @@ void add_tabulate(CLI::App& app) {
   command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->callback([o] {
+  const auto* plot =
+      command
+          ->add_option(
+              "--plot", o->plot,
+              "gaps of the case, comma-separated (none: the smallest, the middle and the largest): "
+              "draws mesh and flow of their rows (SVG, VTK) in a folder beside the table")
+          ->expected(0, 1)
+          ->type_name("[GAP,GAP,...]");
+  command->callback([o, plot] {
     refuse_other_kind(o->table, "# viscontact: force table", "table");
-    tabulate_stage(read_case(o->case_file), o->table, o->jobs);
+    const Case c = read_case(o->case_file);
+    const auto gaps = plot->count() > 0 ? gaps_to_picture(required_tabulation(c), o->plot)
+                                        : std::vector<double>{};
+    tabulate_stage(c, o->table, o->jobs);
+    if (plot->count() > 0) picture_stage(*c.tabulation, gaps, picture_folder(o->table));
   });
 }
 

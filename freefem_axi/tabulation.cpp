@@ -90,10 +90,12 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity) {
+                        double reference_velocity,
+                        const std::vector<std::string>& further_arguments, std::string* output) {
   const auto start = std::chrono::steady_clock::now();
-  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script,
-                                  row_arguments(tabulation, gap, reference_velocity));
+  auto arguments = row_arguments(tabulation, gap, reference_velocity);
+  arguments.insert(arguments.end(), further_arguments.begin(), further_arguments.end());
+  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   std::array<std::string, 3> words;
@@ -108,6 +110,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
                             format_number(gap), format_number(reference_velocity),
                             result.exit_status, said.empty() ? last_lines(result.output) : said));
   }
+  if (output != nullptr) *output = result.output;
   ForceTableRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;

@@ -42,9 +42,11 @@ std::string tabulation_hash(const Tabulation& tabulation);
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// Solves one (q, u0) in a FreeFEM process. Throws Error(kExternalProgram) with FreeFEM's last
-/// lines if it fails.
+/// Solves one (q, u0) in a FreeFEM process, which is given `further_arguments` too; all that it wrote goes to `output`, if that is not
+/// null. Throws Error(kExternalProgram) with FreeFEM's last lines if it fails.
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity);
+                        double reference_velocity,
+                        const std::vector<std::string>& further_arguments = {},
+                        std::string* output = nullptr);
 
 }  // namespace viscontact

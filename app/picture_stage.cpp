@@ -1,0 +1,71 @@
+#include "app/picture_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "app/flow_plots.hpp"
+#include "app/progress.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/interrupt.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+
+std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
+  constexpr double kTolerance = 1e-6;
+  auto sorted = tabulation.gaps;
+  std::ranges::sort(sorted);
+  std::vector<double> gaps;
+  if (asked.empty()) {
+    gaps = {sorted.front(), sorted[sorted.size() / 2], sorted.back()};
+    gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
+    return gaps;
+  }
+  std::istringstream words(asked);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto gap = parse_number(word);
+    if (!gap)
+      throw Error(ExitCode::kWrongUsage,
+                  fmt::format("--plot: '{}' is not a number; give gaps separated by commas", word));
+    const double nearest =
+        *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
+    if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("--plot: {} is none of the case's gaps; the nearest is {}", word,
+                              format_number(nearest)));
+    gaps.push_back(nearest);
+  }
+  return gaps;
+}
+
+std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
+  auto folder = table_path;
+  return folder.replace_extension(".plots");
+}
+
+void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
+                   const std::filesystem::path& folder) {
+  const auto freefem = default_freefem();
+  for (const double gap : gaps) {
+    throw_if_interrupted();
+    show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
+    const auto picture =
+        solve_row_for_picture(freefem, tabulation, gap, tabulation.reference_velocities.front());
+    // Seven digits: enough for gaps_to_picture to find the gap by its name.
+    const auto path = [&](const char* end) {
+      return folder / (fmt::format("gap_{:.7g}", gap) + end);
+    };
+    write_file(path("_mesh.svg"), plot_mesh(picture, tabulation));
+    write_file(path("_flow.svg"), plot_flow(picture, tabulation));
+    write_file(path("_film.svg"), plot_gap_flow(picture, tabulation));
+    write_file(path(".vtu"), write_vtu(picture.flow));
+    clear_progress();
+    say(fmt::format("tabulate: {}", path("_{mesh,flow,film}.svg, .vtu").string()));
+  }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,136 @@
+#include "freefem_axi/row_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+#include "common/error.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+namespace {
+
+/// Reads the numbers that pictures.idp writes.
+class PictureReader {
+ public:
+  explicit PictureReader(const std::string& output) : stream_(output) {}
+
+  /// The next mesh, with that many columns for each node; those after (rho, z) go to `fields`.
+  CurvedMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields) {
+    std::string line;
+    while (std::getline(stream_, line) && !line.starts_with("viscontact-mesh ")) {
+    }
+    std::istringstream head(line);
+    std::string word;
+    head >> word;
+    CurvedMesh mesh;
+    mesh.nodes.resize(size_from(head));
+    mesh.triangles.resize(size_from(head));
+    mesh.boundary.resize(size_from(head));
+    fields.assign(columns - 2, std::vector<double>(mesh.nodes.size()));
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
+      for (double& coordinate : mesh.nodes[i]) coordinate = number();
+      for (auto& field : fields) field[i] = number();
+    }
+    for (auto& triangle : mesh.triangles)
+      for (auto& node : triangle) node = node_of(mesh);
+    for (auto& edge : mesh.boundary) {
+      if (!(stream_ >> edge.label)) fail();
+      for (auto& node : edge.nodes) node = node_of(mesh);
+    }
+    return mesh;
+  }
+
+ private:
+  [[noreturn]] static void fail() {
+    throw Error(ExitCode::kExternalProgram, "what FreeFEM wrote for a picture is not whole");
+  }
+  static std::size_t size_from(std::istream& stream) {
+    constexpr std::size_t kLargest = 100'000'000;
+    std::size_t size = 0;
+    if (!(stream >> size) || size > kLargest) fail();
+    return size;
+  }
+  double number() {
+    double value = 0;
+    if (!(stream_ >> value) || !std::isfinite(value)) fail();
+    return value;
+  }
+  std::size_t node_of(const CurvedMesh& mesh) {
+    std::size_t node = 0;
+    if (!(stream_ >> node) || node >= mesh.nodes.size()) fail();
+    return node;
+  }
+
+  std::istringstream stream_;
+};
+
+template <class Write>
+std::string data_array(std::string_view attributes, std::size_t count, const Write& write) {
+  std::string text = fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
+  for (std::size_t i = 0; i < count; ++i) text += write(i) + "\n";
+  return text + "</DataArray>\n";
+}
+
+}  // namespace
+
+RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                                 double reference_velocity) {
+  RowPicture picture;
+  std::string output;
+  picture.row = solve_row(freefem, tabulation, gap, reference_velocity, {"-picture", "1"}, &output);
+  PictureReader reader(output);
+  constexpr std::size_t kColumns = 6;
+  std::vector<std::vector<double>> fields;
+  picture.flow.mesh = reader.read_mesh(kColumns, fields);
+  picture.flow.velocity.resize(fields[0].size());
+  for (std::size_t i = 0; i < fields[0].size(); ++i)
+    picture.flow.velocity[i] = {fields[0][i], fields[1][i]};
+  picture.flow.pressure = std::move(fields[2]);
+  picture.flow.stream_function = std::move(fields[3]);
+  picture.coarsest = reader.read_mesh(2, fields);
+  return picture;
+}
+
+std::string write_vtu(const Flow& flow) {
+  constexpr int kQuadraticTriangle = 22;  // VTK's number of the cell type
+  constexpr std::size_t kNodes = 6;
+  const auto& mesh = flow.mesh;
+  const auto at_point = [&](const std::vector<double>& field) {
+    return [&field](std::size_t i) { return format_number(field[i]); };
+  };
+  const auto vector = [&](const std::vector<std::array<double, 2>>& field) {
+    return [&field](std::size_t i) {
+      return format_number(field[i][0]) + " " + format_number(field[i][1]) + " 0";
+    };
+  };
+  const std::size_t points = mesh.nodes.size(), cells = mesh.triangles.size();
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      points, cells);
+  text += "<PointData Scalars=\"pressure\" Vectors=\"velocity\">\n";
+  text += data_array(R"(type="Float64" Name="velocity" NumberOfComponents="3")", points,
+                     vector(flow.velocity));
+  text += data_array(R"(type="Float64" Name="pressure")", points, at_point(flow.pressure));
+  text += data_array(R"(type="Float64" Name="stream_function")", points,
+                     at_point(flow.stream_function));
+  text += "</PointData>\n<Points>\n";
+  text += data_array(R"(type="Float64" NumberOfComponents="3")", points, vector(mesh.nodes));
+  text += "</Points>\n<Cells>\n";
+  text += data_array(R"(type="Int64" Name="connectivity")", cells, [&](std::size_t i) {
+    // VTK's middles follow the sides, ours the opposite vertices.
+    const auto& [v0, v1, v2, m0, m1, m2] = mesh.triangles[i];
+    return fmt::format("{} {} {} {} {} {}", v0, v1, v2, m2, m0, m1);
+  });
+  text += data_array(R"(type="Int64" Name="offsets")", cells,
+                     [](std::size_t i) { return std::to_string((i + 1) * kNodes); });
+  text += data_array(R"(type="UInt8" Name="types")", cells,
+                     [](std::size_t) { return std::to_string(kQuadraticTriangle); });
+  return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace viscontact
