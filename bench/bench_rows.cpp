@@ -23,11 +23,27 @@ double number_in(const std::string& line, int word) {
 
 void measure_row(const FreeFem& freefem, double gap) {
   const auto start = std::chrono::steady_clock::now();
-  const auto result =
-      run_freefem(freefem, "plane.edp",
-                  {"-radius", "1", "-gap", fmt::format("{}", gap), "-viscosity", "1", "-velocity",
-                   "-1", "-containerRadius", "80", "-containerHeight", "160", "-accuracy", "1e-5",
-                   "-cells", "8", "-levels", "4"});
+  const auto result = run_freefem(freefem, "plane.edp",
+                                  {"-radius",
+                                   "1",
+                                   "-gap",
+                                   fmt::format("{}", gap),
+                                   "-viscosity",
+                                   "1",
+                                   "-velocity",
+                                   "-1",
+                                   "-containerRadius",
+                                   "80",
+                                   "-containerHeight",
+                                   "160",
+                                   "-accuracy",
+                                   "1e-5",
+                                   "-cells",
+                                   "2",
+                                   "-levels",
+                                   "3",
+                                   "-attempts",
+                                   "3"});
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double exact = 6 * std::numbers::pi * brenner_drag_factor(gap);
