@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "app/doctor.hpp"
@@ -14,6 +15,8 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
+#include "app/slurm.hpp"
+#include "app/tabulate_stage.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -47,20 +50,64 @@ int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_c
 
 void add_tabulate(CLI::App& app) {
   struct Options {
-    std::string case_file, table;
+    std::vector<std::string> case_files;
+    std::string output, launcher = "local", slurm_options, task;
     int jobs = default_jobs();
+    std::size_t tasks = 0;
+    bool gather = false;
   };
   auto* command =
-      app.add_subcommand("tabulate", "FreeFEM over the case's grid of gaps and velocities");
+      app.add_subcommand("tabulate", "FreeFEM over the cases' grids of gaps and velocities");
   auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required();
-  command->add_option("-o,--output", o->table, "table to write (CSV)")->required();
-  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->callback([o] {
-    refuse_other_kind(o->table, "# viscontact: force table", "table");
-    tabulate_stage(read_case(o->case_file), o->table, o->jobs);
+  command->add_option("CASE", o->case_files, "case files (TOML)")->required();
+  command
+      ->add_option("-o,--output", o->output,
+                   "table to write (CSV); for several cases: folder, gets CASE.csv for each")
+      ->required();
+  const auto* jobs = command
+                         ->add_option("-j,--jobs", o->jobs,
+                                      "FreeFEM processes at once; in each Slurm task: 1 unless "
+                                      "given")
+                         ->check(CLI::Range(1, 1024))
+                         ->capture_default_str();
+  auto* launcher =
+      command
+          ->add_option("--launcher", o->launcher, "local: compute here; slurm: submit an array job")
+          ->check(CLI::IsMember({"local", "slurm"}))
+          ->capture_default_str();
+  const auto* tasks =
+      command
+          ->add_option("--tasks", o->tasks,
+                       "tasks of the array job; default: one for each row, at most 1000")
+          ->check(CLI::Range(1, 4000000));
+  const auto* slurm_options = command->add_option("--slurm-options", o->slurm_options,
+                                                  "more options for sbatch, in one argument");
+  auto* gather = command->add_flag(
+      "--gather", o->gather, "write the tables from the rows of an array job, computing none");
+  auto* task = command->add_option("--task", o->task,
+                                   "K/T: compute rows K, K+T, ... only, and write no table (what "
+                                   "the array job's tasks do)");
+  gather->excludes(launcher);
+  task->excludes(launcher)->excludes(gather);
+  command->callback([o, jobs, tasks, slurm_options] {
+    const bool slurm = o->launcher == "slurm";
+    if (!slurm && (tasks->count() > 0 || slurm_options->count() > 0))
+      throw Error(ExitCode::kWrongUsage,
+                  "--tasks and --slurm-options are for --launcher slurm only");
+    const auto share = o->task.empty() ? Share() : parse_share(o->task);
+    const auto tables = read_case_tables(o->case_files, o->output);
+    for (const auto& one : tables)
+      refuse_other_kind(one.table.string(), "# viscontact: force table", "table");
+    if (slurm)
+      submit_to_slurm(
+          tables, {o->output, tasks->count() > 0 ? std::optional(o->tasks) : std::nullopt,
+                   jobs->count() > 0 ? std::optional(o->jobs) : std::nullopt, o->slurm_options});
+    else if (o->gather)
+      gather_stage(tables, slurm_folder(o->output));
+    else if (!o->task.empty())
+      share_stage(tables, share, o->jobs);
+    else
+      tabulate_stage(tables, o->jobs);
   });
 }
 
