@@ -7,17 +7,16 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <thread>
 
+#include "app/command_options.hpp"
 #include "app/doctor.hpp"
-#include "app/picture_stage.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
+#include "app/tabulate_command.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
-#include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
 #include "fitting/terms.hpp"
@@ -26,55 +25,12 @@
 namespace viscontact {
 namespace {
 
-/// An output that is there already is replaced only if it is of the same kind: its text has the marker. Throws Error(kBadInput) otherwise.
-void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind) {
-  if (!std::filesystem::is_regular_file(path))
-    return;  // nothing there, or write_file's own refusals
-  const std::string text = read_file(path);
-  if (!text.empty() && text.find(marker) == std::string::npos)
-    throw_bad_input(
-        {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
-}
-
 std::string version_text() {
   std::string text;
   for (const auto& [program, version] : library_versions())
     if (program != "Viscontact") text += fmt::format("{} {}\n", program, version);
   return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION,
                      freefem_version_or_not_found(), text);
-}
-
-int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-void add_tabulate(CLI::App& app) {
-  struct Options {
-    std::string case_file, table, plot;
-    int jobs = default_jobs();
-  };
-  auto* command =
-      app.add_subcommand("tabulate", "FreeFEM over the case's grid of gaps and velocities");
-  auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required();
-  command->add_option("-o,--output", o->table, "table to write (CSV)")->required();
-  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  const auto* plot =
-      command
-          ->add_option(
-              "--plot", o->plot,
-              "gaps of the case, comma-separated (none: the smallest, the middle and the largest): "
-              "draws mesh and flow of their rows (SVG, VTK) in a folder beside the table")
-          ->expected(0, 1)
-          ->type_name("[GAP,GAP,...]");
-  command->callback([o, plot] {
-    refuse_other_kind(o->table, "# viscontact: force table", "table");
-    const Case c = read_case(o->case_file);
-    const auto gaps = plot->count() > 0 ? gaps_to_picture(required_tabulation(c), o->plot)
-                                        : std::vector<double>{};
-    tabulate_stage(c, o->table, o->jobs);
-    if (plot->count() > 0) picture_stage(*c.tabulation, gaps, picture_folder(o->table));
-  });
 }
 
 void add_fit(CLI::App& app) {

@@ -9,13 +9,13 @@
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
 #include "app/shift_plot.hpp"
+#include "app/tabulate_stage.hpp"
 #include "app/versions.hpp"
 #include "common/csv.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
-#include "freefem_axi/tabulate.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/models.hpp"
 
@@ -34,15 +34,6 @@ bool up_to_date(const fs::path& path, const Test& test) {
   } catch (const Error&) {
     return false;
   }
-}
-
-void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
-  for (const auto& row : table.rows)
-    if (row.relative_error_estimate > asked)
-      say(
-          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
-                      "{:.2g}, {:.2g} was asked",
-                      row.gap, row.reference_velocity, row.relative_error_estimate, asked));
 }
 
 /// What identifies the inputs of a trajectory, in its "# key: value" lines.
@@ -101,32 +92,6 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 }
 
 }  // namespace
-
-void tabulate_stage(const Case& c, const fs::path& table_path, int jobs) {
-  const auto& tabulation = required_tabulation(c);
-  if (up_to_date(table_path, [&] {
-        return read_force_table(table_path).case_hash == tabulation_hash(tabulation);
-      })) {
-    say(fmt::format("tabulate: {} is up to date", table_path.string()));
-    warn_of_unmet_accuracy(read_force_table(table_path), tabulation.relative_accuracy);
-    return;
-  }
-  check_output_file(table_path);
-  fs::path journal = table_path;
-  journal += ".rows";
-  say(fmt::format("tabulate: {} rows on {} processes",
-                  tabulation.gaps.size() * tabulation.reference_velocities.size(), jobs));
-  auto table =
-      tabulate(default_freefem(), tabulation, jobs, journal, [](const TabulateProgress& progress) {
-        show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
-                                  progress.rows, progress.seconds_left));
-      });
-  clear_progress();
-  table.versions["Viscontact"] = VISCONTACT_VERSION;
-  write_file(table_path, write_force_table(table));
-  fs::remove(journal);
-  warn_of_unmet_accuracy(table, tabulation.relative_accuracy);
-}
 
 void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::string& basis,
                Weights weights) {
@@ -244,7 +209,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     fit = *request.file;
   } else {
     (void)required_tabulation(c);
-    tabulate_stage(c, run.table(), jobs);
+    tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.basis, request.weights);
   }

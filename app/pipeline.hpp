@@ -1,4 +1,4 @@
-// The stages behind the commands: each reads files, calls its part, and writes files.
+// The stages behind the commands, but for tabulate (tabulate_stage.hpp): each reads files, calls its part, and writes files.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,6 @@
 #include "fitting/lubrication_force.hpp"
 
 namespace viscontact {
-
-/// Tabulates the case into `table_path`, unless a table of the same inputs is there already.
-void tabulate_stage(const Case& c, const std::filesystem::path& table_path, int jobs);
 
 /// Fits a table file into `fit_path`.
 void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "common/descriptor.hpp"
 #include "common/error.hpp"
@@ -40,8 +41,21 @@ std::string read_file(const std::filesystem::path& path) {
 
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
+  std::vector<std::filesystem::path> missing;
+  for (auto folder = path; !folder.empty() && !std::filesystem::exists(folder, error);
+       folder = folder.parent_path())
+    missing.push_back(folder);
   std::filesystem::create_directories(path, error);
   if (error) throw_system_error(path, "made", error.value());
+  for (const auto& folder : missing) sync_folder_of(folder);
+}
+
+void sync_folder_of(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : ".";
+  const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // EINVAL: a file system that has no such thing.
+  if (file.get() >= 0 && ::fsync(file.get()) != 0 && errno != EINVAL)
+    throw_system_error(path, "written", errno);
 }
 
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
@@ -77,6 +91,7 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     }
     if (::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
     if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
+    sync_folder_of(place);
   } catch (...) {
     ::unlink(beside.c_str());
     throw;

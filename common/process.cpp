@@ -1,7 +1,8 @@
 #include "common/process.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -80,42 +81,70 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   }
 }
 
+/// In the child, between fork and exec, where only calls that a signal handler may make are allowed:
+/// becomes the program, or writes the error number to `failure` and ends.
+[[noreturn]] void become(char* const* arguments, char* const* variables, int input, int output,
+                         int failure, pid_t parent) {
+  // A group of its own: Ctrl-C reaches us alone, and we end the child in order.
+  ::setpgid(0, 0);
+  // kill -9 gives us no time to end it: then the kernel does.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);
+  if (::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
+      ::dup2(output, STDERR_FILENO) >= 0)
+    ::execvpe(arguments[0], arguments, variables);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
+  ::_exit(127);
+}
+
 }  // namespace
 
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input) {
   Pipe in = make_pipe();
   Pipe out = make_pipe();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in.read_end.get(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out.write_end.get(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out.write_end.get(), STDERR_FILENO);
-  // A group of its own: Ctrl-C reaches us alone, and we end the child in order.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  Pipe failure = make_pipe();
   const auto variables = merged_environment(environment);
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, arguments.front().c_str(), &actions, &attributes,
-                                   pointers(arguments).data(), pointers(variables).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return {false, 127, std::strerror(error), 0};
-
+  const auto argument_pointers = pointers(arguments);
+  const auto variable_pointers = pointers(variables);
+  const pid_t self = ::getpid();
+  // fork and no posix_spawn, which cannot ask that the child die with us.
+  const pid_t child = ::fork();
+  if (child == 0)
+    become(argument_pointers.data(), variable_pointers.data(), in.read_end.get(),
+           out.write_end.get(), failure.write_end.get(), self);
+  if (child < 0) return {false, 127, std::strerror(errno), 0};
+  failure.write_end.close();
   in.read_end.close();
   out.write_end.close();
+  int error = 0;
+  ssize_t count = 0;
+  while ((count = ::read(failure.read_end.get(), &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  if (count > 0) {
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    return {false, 127, std::strerror(error), 0};
+  }
   ProcessResult result;
   result.started = true;
   result.output = converse(in.write_end, out.read_end.get(), input);
-  if (interrupted()) ::kill(-child, SIGKILL);
+  const bool cut_short = interrupted();
+  if (cut_short) ::kill(-child, SIGKILL);
   int status = 0;
   rusage usage = {};
   while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
     if (interrupted()) ::kill(-child, SIGKILL);
   }
-  throw_if_interrupted();
+  // A child that had said all is listened to all the same.
+  if (cut_short || WIFSIGNALED(status)) throw_if_interrupted();
   result.exit_status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) {
+    if (!result.output.empty() && result.output.back() != '\n') result.output += '\n';
+    result.output +=
+        fmt::format("ended by signal {} ({})\n", WTERMSIG(status), sigdescr_np(WTERMSIG(status)));
+  }
   result.peak_memory_kb = usage.ru_maxrss;
   return result;
 }

@@ -9,13 +9,14 @@ namespace viscontact {
 struct ProcessResult {
   bool started = false;     ///< false: no such program, or it may not be run; `output` says why
   int exit_status = 0;      ///< 128 + signal if a signal ended it
-  std::string output;       ///< standard output and error, as they came
+  std::string output;       ///< standard output and error, as they came; after a signal, its name
   long peak_memory_kb = 0;  ///< largest resident set
 };
 
 /// Runs arguments[0], looked up on PATH, with the other arguments, no standard input, and
 /// `environment` ("NAME=value") added to ours. `input`, if not empty, is its standard input. Ends
-/// it and throws Error(kInterrupted) when the user interrupts.
+/// it and throws Error(kInterrupted) when the user interrupts; the child ends when this thread or
+/// process does, even by SIGKILL.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {},
                           const std::string& input = {});

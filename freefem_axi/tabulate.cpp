@@ -9,42 +9,49 @@
 
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
-#include "common/number.hpp"
 #include "freefem_axi/row_journal.hpp"
 
 namespace viscontact {
 namespace {
 
-struct GridPoint {
-  double gap, velocity;
-};
+/// Asked before the rows: if FreeFEM is missing, that is said once. A worker with a name has nobody who reads
+/// what it says: it leaves the reason in its journal too.
+std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& points,
+                        const std::filesystem::path& journal_file, const std::string& hash) {
+  try {
+    return freefem_version(worker.freefem);
+  } catch (const Error& error) {
+    if (!worker.name.empty() && error.exit_code() == ExitCode::kExternalProgram) {
+      RowJournal journal(journal_file, hash);
+      for (const auto& point : points) journal.append(FailedRow{point, error.what()});
+    }
+    throw;
+  }
+}
 
-std::vector<GridPoint> grid_of(const Tabulation& tabulation) {
-  std::vector<GridPoint> grid;
-  for (const double velocity : tabulation.reference_velocities)
-    for (const double gap : tabulation.gaps) grid.push_back({gap, velocity});
-  return grid;
+/// The row, or why FreeFEM failed at it.
+JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tabulation& tabulation,
+                   const GridPoint& point) {
+  try {
+    return FinishedRow{solve_row(freefem, tabulation, point.gap, point.reference_velocity),
+                       version};
+  } catch (const Error& error) {
+    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    return FailedRow{point, error.what()};
+  }
 }
 
 }  // namespace
 
-ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
-                    const std::filesystem::path& journal_path,
-                    const std::function<void(const TabulateProgress&)>& report) {
-  ForceTable table;
-  table.versions["FreeFEM"] =
-      freefem_version(freefem);  // first: if FreeFEM is missing, say so once
-  table.viscosity = tabulation.viscosity;
-  table.radius = tabulation.radius;
-  table.geometry = geometry_in_words(tabulation);
-  table.container = container_in_words(tabulation);
-  table.case_hash = tabulation_hash(tabulation);
-
-  RowJournal journal(journal_path, table.case_hash);
-  const auto grid = grid_of(tabulation);
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    if (!journal.find(grid[i].gap, grid[i].velocity)) missing.push_back(i);
+void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
+                  const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
+                  const TabulateReport& report) {
+  const std::string hash = tabulation_hash(tabulation);
+  const auto missing = missing_points(read_row_record(table_path, hash), points);
+  if (missing.empty()) return;
+  const auto journal_file = journal_path(table_path, worker.name);
+  const std::string version = version_for(worker, missing, journal_file, hash);
+  RowJournal journal(journal_file, hash);
 
   std::mutex mutex;  // of the journal, the failures and the report
   std::vector<std::string> failures;
@@ -54,22 +61,16 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
   const auto start = std::chrono::steady_clock::now();
   const auto work = [&] {
     for (std::size_t i = 0; !interrupted() && (i = next++) < missing.size();) {
-      const auto [gap, velocity] = grid[missing[i]];
       try {
-        const auto row = solve_row(freefem, tabulation, gap, velocity);
-        const std::scoped_lock lock(mutex);
-        journal.append(row);
-      } catch (const Error& error) {
-        const std::scoped_lock lock(mutex);
-        if (error.exit_code() == ExitCode::kInterrupted) return;
-        if (error.exit_code() != ExitCode::kExternalProgram) {
-          // Not the row's fault (a full disk): no other row would do better.
-          if (!fatal) fatal = std::current_exception();
-          next = missing.size();
-          return;
+        if (!read_row_record(table_path, hash).finished.contains(missing[i])) {
+          const auto entry = solve(worker.freefem, version, tabulation, missing[i]);
+          const std::scoped_lock lock(mutex);
+          journal.append(entry);
+          if (const auto* failed = std::get_if<FailedRow>(&entry))
+            failures.push_back(failed->reason);
         }
-        failures.emplace_back(error.what());
       } catch (...) {
+        // Not the row's fault (Ctrl-C, a full disk): no other row would do better.
         const std::scoped_lock lock(mutex);
         if (!fatal) fatal = std::current_exception();
         next = missing.size();
@@ -80,23 +81,26 @@ ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jo
       const double elapsed =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const std::size_t left = missing.size() - finished;
-      report({grid.size() - left, grid.size(),
+      report({points.size() - left, points.size(),
               elapsed / static_cast<double>(finished) * static_cast<double>(left)});
     }
   };
   {
     std::vector<std::jthread> workers;
-    for (int i = 0; i < jobs; ++i) workers.emplace_back(work);
+    for (int i = 0; i < worker.jobs; ++i) workers.emplace_back(work);
   }
   if (fatal) std::rethrow_exception(fatal);
   throw_if_interrupted();
   if (!failures.empty())
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
-                            grid.size(), fmt::join(failures, "; ")));
-  for (const auto& [gap, velocity] : grid)
-    table.rows.push_back(journal.find(gap, velocity).value());
-  return table;
+                            points.size(), fmt::join(failures, "; ")));
+}
+
+ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
+                    const std::filesystem::path& table_path, const TabulateReport& report) {
+  compute_rows({freefem, jobs, ""}, tabulation, grid_of(tabulation), table_path, report);
+  return assemble_table(tabulation, read_row_record(table_path, tabulation_hash(tabulation)));
 }
 
 }  // namespace viscontact

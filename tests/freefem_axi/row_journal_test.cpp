@@ -2,94 +2,141 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
 
 #include "common/file.hpp"
+#include "freefem_axi/row_record.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 
 namespace viscontact {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kHash = "hash-of-this-tabulation";
 
 // Numbers with no short decimal form: they must come back bit by bit.
-const ForceTableRow kFirst = {1.0 / 3, -1, 56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1};
-const ForceTableRow kSecond = {2.0 / 3, -1, 28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2};
+const FinishedRow kFirst = {{1.0 / 3, -1, 56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1}, "4.9"};
+const FinishedRow kSecond = {{2.0 / 3, -1, 28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2},
+                             "4.9 (of 2021)"};
 
-void expect_equal(const ForceTableRow& a, const ForceTableRow& b) {
-  EXPECT_EQ(a.gap, b.gap);
-  EXPECT_EQ(a.reference_velocity, b.reference_velocity);
-  EXPECT_EQ(a.force, b.force);
-  EXPECT_EQ(a.drag_factor, b.drag_factor);
-  EXPECT_EQ(a.relative_error_estimate, b.relative_error_estimate);
-  EXPECT_EQ(a.degrees_of_freedom, b.degrees_of_freedom);
-  EXPECT_EQ(a.seconds, b.seconds);
+GridPoint point_of(const FinishedRow& finished) {
+  return {finished.row.gap, finished.row.reference_velocity};
+}
+
+void expect_equal(const FinishedRow& a, const FinishedRow& b) {
+  EXPECT_EQ(a.row.gap, b.row.gap);
+  EXPECT_EQ(a.row.reference_velocity, b.row.reference_velocity);
+  EXPECT_EQ(a.row.force, b.row.force);
+  EXPECT_EQ(a.row.drag_factor, b.row.drag_factor);
+  EXPECT_EQ(a.row.relative_error_estimate, b.row.relative_error_estimate);
+  EXPECT_EQ(a.row.degrees_of_freedom, b.row.degrees_of_freedom);
+  EXPECT_EQ(a.row.seconds, b.row.seconds);
+  EXPECT_EQ(a.freefem_version, b.freefem_version);
 }
 
 class RowJournalFile : public ::testing::Test {
  protected:
-  /// A journal that holds both rows, closed.
-  void write_both() const {
-    RowJournal journal(path(), kHash);
-    journal.append(kFirst);
-    journal.append(kSecond);
+  void write(const std::vector<JournalEntry>& entries, const std::string& writer = "") const {
+    RowJournal journal(journal_path(table(), writer), kHash);
+    for (const auto& entry : entries) journal.append(entry);
   }
-  std::filesystem::path path() const { return scratch_.path() / "sub" / "table.csv.rows"; }
+  RowRecord record(const std::string& hash = kHash) const { return read_row_record(table(), hash); }
+  std::filesystem::path table() const { return scratch_.path() / "sub" / "table.csv"; }
+  std::filesystem::path path() const { return journal_path(table()); }
 
   TemporaryFolder scratch_;
 };
 
-TEST_F(RowJournalFile, FindsAppendedRowsAtOnceAndWhenOpenedAgain) {
+TEST_F(RowJournalFile, AppendedRowsAreFoundAtOnceAndLater) {
   {
     RowJournal journal(path(), kHash);
-    EXPECT_FALSE(journal.find(kFirst.gap, -1));
+    EXPECT_TRUE(record().finished.empty());
     journal.append(kFirst);
-    ASSERT_TRUE(journal.find(kFirst.gap, -1));
+    EXPECT_TRUE(record().finished.contains(point_of(kFirst)));
     journal.append(kSecond);
   }
-  const RowJournal journal(path(), kHash);
-  ASSERT_TRUE(journal.find(kFirst.gap, -1));
-  ASSERT_TRUE(journal.find(kSecond.gap, -1));
-  expect_equal(*journal.find(kFirst.gap, -1), kFirst);
-  expect_equal(*journal.find(kSecond.gap, -1), kSecond);
+  ASSERT_EQ(record().finished.size(), 2U);
+  expect_equal(record().finished.at(point_of(kFirst)), kFirst);
+  expect_equal(record().finished.at(point_of(kSecond)), kSecond);
 }
 
-TEST_F(RowJournalFile, RowOfAnotherVelocityOrGapIsNotFound) {
-  write_both();
-  const RowJournal journal(path(), kHash);
-  EXPECT_FALSE(journal.find(kFirst.gap, 1));
-  EXPECT_FALSE(journal.find(0.33333, -1));
+TEST_F(RowJournalFile, RowOfAnotherVelocityGapOrTabulationIsNotFound) {
+  write({kFirst});
+  EXPECT_FALSE(record().finished.contains({kFirst.row.gap, 1}));
+  EXPECT_FALSE(record().finished.contains({0.33333, -1}));
+  EXPECT_TRUE(record("another-hash").finished.empty());
 }
 
-TEST_F(RowJournalFile, LineTornByACrashIsDroppedWhereverItBroke) {
-  write_both();
+TEST_F(RowJournalFile, RowsOfAllWritersAreFoundTogether) {
+  write({kFirst});
+  write({kSecond}, "3-of-40.node.17");
+  EXPECT_EQ(record().finished.size(), 2U);
+}
+
+TEST_F(RowJournalFile, JournalsOfATableOfSimilarNameAreNotTaken) {
+  RowJournal(journal_path(table().parent_path() / "other_table.csv"), kHash).append(kFirst);
+  RowJournal(journal_path(table().parent_path() / "table.csv2"), kHash).append(kFirst);
+  EXPECT_TRUE(record().finished.empty());
+}
+
+TEST_F(RowJournalFile, FailureIsKeptUntilTheRowIsFinishedWhoeverDoesIt) {
+  const FailedRow failed = {point_of(kFirst), "FreeFEM failed at gap 1/3:\nno solution"};
+  write({failed}, "0-of-2.node.1");
+  EXPECT_EQ(record().failed.at(point_of(kFirst)), "FreeFEM failed at gap 1/3: no solution");
+  write({kFirst}, "0-of-2.node.2");
+  EXPECT_TRUE(record().failed.empty());
+}
+
+TEST_F(RowJournalFile, LineTornByACrashIsIgnoredWhereverItBrokeAndTheNextRowIsWhole) {
+  write({kFirst, kSecond});
   const std::string whole = read_file(path());
   const auto second_line = whole.find('\n') + 1;
   for (std::size_t length = second_line; length < whole.size(); ++length) {
     put_text(path(), whole.substr(0, length));
-    RowJournal journal(path(), kHash);
-    EXPECT_TRUE(journal.find(kFirst.gap, -1)) << "cut after " << length << " bytes";
-    EXPECT_FALSE(journal.find(kSecond.gap, -1)) << "cut after " << length << " bytes";
+    EXPECT_TRUE(record().finished.contains(point_of(kFirst))) << "cut after " << length;
+    EXPECT_FALSE(record().finished.contains(point_of(kSecond))) << "cut after " << length;
+    write({kSecond});
+    ASSERT_TRUE(record().finished.contains(point_of(kSecond))) << "cut after " << length;
+    expect_equal(record().finished.at(point_of(kSecond)), kSecond);
   }
 }
 
-TEST_F(RowJournalFile, RowAppendedAfterATornLineIsWhole) {
-  write_both();
-  const std::string whole = read_file(path());
-  put_text(path(), whole.substr(0, whole.size() - 5));
-  RowJournal(path(), kHash).append(kSecond);
-  EXPECT_EQ(read_file(path()), whole);
+TEST_F(RowJournalFile, LineWithAByteLostOrChangedIsIgnored) {
+  write({kFirst});
+  const std::string line = read_file(path());
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    put_text(path(), line.substr(0, i) + line.substr(i + 1));
+    EXPECT_TRUE(record().finished.empty()) << "without byte " << i;
+    std::string changed = line;
+    changed[i] = changed[i] == '\0' ? ' ' : '\0';  // what a power cut leaves of a block
+    put_text(path(), changed);
+    EXPECT_TRUE(record().finished.empty()) << "byte " << i << " changed";
+  }
 }
 
-TEST_F(RowJournalFile, RowsOfAnotherTabulationAreDroppedFromTheFileToo) {
-  write_both();
-  {
-    const RowJournal journal(path(), "another-hash");
-    EXPECT_FALSE(journal.find(kFirst.gap, -1));
-  }
-  EXPECT_EQ(read_file(path()), "");
+TEST_F(RowJournalFile, RowAppendedAfterTheDiskWasFullForAWhileIsWhole) {
+  // The first row fits, the second does not, and the same process goes on when there is room again.
+  write({kFirst});
+  const auto room = std::filesystem::file_size(path()) + 10;
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit full = before;
+  full.rlim_cur = room;
+  RowJournal journal(path(), kHash);
+  ::setrlimit(RLIMIT_FSIZE, &full);
+  expect_error([&] { journal.append(kSecond); }, ExitCode::kBadInput,
+               AllOf(HasSubstr(path().string()), HasSubstr("File too large"),
+                     HasSubstr("the same command goes on")));
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(record().finished.size(), 1U);
+  journal.append(kSecond);
+  EXPECT_EQ(record().finished.size(), 2U);
 }
 
 TEST_F(RowJournalFile, SecondHolderIsRefusedUntilTheFirstLetsGo) {
@@ -100,9 +147,37 @@ TEST_F(RowJournalFile, SecondHolderIsRefusedUntilTheFirstLetsGo) {
                  HasSubstr("another tabulation"));
     journal.append(kSecond);
   }
-  const RowJournal later(path(), kHash);
-  EXPECT_TRUE(later.find(kFirst.gap, -1));
-  EXPECT_TRUE(later.find(kSecond.gap, -1));
+  write({});
+  EXPECT_EQ(record().finished.size(), 2U);
+}
+
+TEST_F(RowJournalFile, JournalsOfAWrittenTableAreRemoved) {
+  write({kFirst});
+  write({kSecond}, "1-of-2.node.1");
+  remove_journals(table(), kHash);
+  EXPECT_TRUE(std::filesystem::is_empty(table().parent_path()));
+}
+
+TEST_F(RowJournalFile, JournalThatIsHeldOrHoldsRowsOfAnotherTabulationStays) {
+  RowJournal(journal_path(table(), "1-of-2.node.1"), "another-hash").append(kFirst);
+  const RowJournal held(journal_path(table(), "1-of-2.node.2"), "another-hash");
+  remove_journals(table(), kHash);
+  EXPECT_EQ(record("another-hash").finished.size(), 1U);
+  EXPECT_TRUE(std::filesystem::exists(journal_path(table(), "1-of-2.node.2")));
+}
+
+TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
+  ForceTable table_of_first;
+  table_of_first.viscosity = table_of_first.radius = 1;
+  table_of_first.case_hash = kHash;
+  table_of_first.versions["FreeFEM"] = "4.9";
+  table_of_first.rows = {kFirst.row};
+  write_file(table(), write_force_table(table_of_first));
+  EXPECT_TRUE(find_table(table(), kHash));
+  EXPECT_FALSE(find_table(table(), "another-hash"));
+  ASSERT_TRUE(record().finished.contains(point_of(kFirst)));
+  expect_equal(record().finished.at(point_of(kFirst)), kFirst);
+  EXPECT_TRUE(record("another-hash").finished.empty());
 }
 
 TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {

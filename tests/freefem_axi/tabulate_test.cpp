@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "common/file.hpp"
+#include "freefem_axi/row_journal.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
@@ -33,7 +36,7 @@ std::vector<std::array<double, 6>> values_of(const ForceTable& table) {
 
 class Tabulate : public ::testing::Test {
  protected:
-  std::filesystem::path journal() const { return scratch_.path() / "table.csv.rows"; }
+  std::filesystem::path table_path() const { return scratch_.path() / "table.csv"; }
 
   TemporaryFolder scratch_;
   Tabulation tabulation_ = unit_tabulation({0.125, 0.25, 0.5, 1}, 5, 1e-3);
@@ -43,7 +46,7 @@ TEST_F(Tabulate, RowsAreGapsInTheirOrderForEachVelocityWhicheverIsFinishedFirst)
   tabulation_.reference_velocities = {-1, 2};
   const FakeFreeFem fake(scratch_.path(),
                          "[ $gap = 0.125 ] && sleep 0.3\n");  // the first comes last
-  const auto table = tabulate(fake.freefem(), tabulation_, 4, journal(), no_report);
+  const auto table = tabulate(fake.freefem(), tabulation_, 4, table_path(), no_report);
   std::vector<std::pair<double, double>> order;
   for (const auto& row : table.rows) order.emplace_back(row.reference_velocity, row.gap);
   EXPECT_THAT(order, ElementsAre(std::pair(-1, 0.125), std::pair(-1, 0.25), std::pair(-1, 0.5),
@@ -56,9 +59,9 @@ TEST_F(Tabulate, RowsAreGapsInTheirOrderForEachVelocityWhicheverIsFinishedFirst)
 
 TEST_F(Tabulate, NumberOfProcessesDoesNotChangeTheRows) {
   const FakeFreeFem fake(scratch_.path());
-  const auto one = tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
+  const auto one = tabulate(fake.freefem(), tabulation_, 1, table_path(), no_report);
   const auto four =
-      tabulate(fake.freefem(), tabulation_, 4, scratch_.path() / "other.rows", no_report);
+      tabulate(fake.freefem(), tabulation_, 4, scratch_.path() / "other.csv", no_report);
   EXPECT_EQ(values_of(one), values_of(four));
   EXPECT_EQ(fake.answered().size(), 8U);
 }
@@ -66,7 +69,7 @@ TEST_F(Tabulate, NumberOfProcessesDoesNotChangeTheRows) {
 TEST_F(Tabulate, TableSaysWhatItIsOf) {
   const FakeFreeFem fake(scratch_.path());
   tabulation_.viscosity = 3;
-  const auto table = tabulate(fake.freefem(), tabulation_, 2, journal(), no_report);
+  const auto table = tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report);
   EXPECT_EQ(table.viscosity, 3);
   EXPECT_EQ(table.radius, 1);
   EXPECT_THAT(table.container, AllOf(HasSubstr("radius 5"), HasSubstr("height 10")));
@@ -77,11 +80,12 @@ TEST_F(Tabulate, TableSaysWhatItIsOf) {
 TEST_F(Tabulate, ProgressCountsUpToAllRows) {
   const FakeFreeFem fake(scratch_.path());
   std::vector<std::size_t> done;
-  (void)tabulate(fake.freefem(), tabulation_, 4, journal(), [&](const TabulateProgress& progress) {
-    EXPECT_EQ(progress.rows, 4U);
-    EXPECT_GE(progress.seconds_left, 0);
-    done.push_back(progress.rows_done);
-  });
+  (void)tabulate(fake.freefem(), tabulation_, 4, table_path(),
+                 [&](const TabulateProgress& progress) {
+                   EXPECT_EQ(progress.rows, 4U);
+                   EXPECT_GE(progress.seconds_left, 0);
+                   done.push_back(progress.rows_done);
+                 });
   EXPECT_THAT(done, ElementsAre(1U, 2U, 3U, 4U));
 }
 
@@ -90,7 +94,7 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
       scratch_.path(),
       "[ $gap = 0.25 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
   expect_error(
-      [&] { (void)tabulate(fake.freefem(), tabulation_, 2, journal(), no_report); },
+      [&] { (void)tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report); },
       ExitCode::kExternalProgram,
       AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck"), Not(HasSubstr("gap 0.5"))));
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1"));
@@ -98,29 +102,60 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
   put_text(scratch_.path() / "mended", "");
   std::vector<std::size_t> done;
   const auto table =
-      tabulate(fake.freefem(), tabulation_, 2, journal(),
+      tabulate(fake.freefem(), tabulation_, 2, table_path(),
                [&](const TabulateProgress& progress) { done.push_back(progress.rows_done); });
   EXPECT_EQ(table.rows.size(), 4U);
   EXPECT_THAT(done, ElementsAre(4U));  // three were there
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1", "0.25 -1"));
 }
 
+TEST_F(Tabulate, RowThatAnotherProcessFinishesMeanwhileIsNotComputed) {
+  // While the first row is computed, a process of a cluster finishes the third.
+  const FakeFreeFem fake(scratch_.path(), "[ $gap = 0.125 ] && sleep 0.5\n");
+  const FinishedRow elsewhere = {{0.5, -1, 42, 1, 1e-6, 1000, 1}, "0-fake"};
+  std::jthread other([&] {
+    RowJournal(journal_path(table_path(), "2-of-4.node.1"), tabulation_hash(tabulation_))
+        .append(elsewhere);
+  });
+  const auto made = tabulate(fake.freefem(), tabulation_, 1, table_path(), no_report);
+  EXPECT_EQ(made.rows[2].force, 42);
+  EXPECT_THAT(fake.answered(), ElementsAre("0.125 -1", "0.25 -1", "1 -1"));
+}
+
+TEST_F(Tabulate, WithAllRowsFinishedNeedsNoFreeFem) {
+  const FakeFreeFem fake(scratch_.path());
+  const auto made = tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report);
+  const auto again = tabulate({"no-such-freefem", "."}, tabulation_, 2, table_path(), no_report);
+  EXPECT_EQ(values_of(made), values_of(again));
+  EXPECT_EQ(made.versions, again.versions);
+}
+
+TEST_F(Tabulate, WorkerOfAClusterLeavesInItsJournalThatFreeFemIsMissing) {
+  const RowWorker worker = {{"no-such-freefem", "."}, 1, "0-of-1.node.1"};
+  expect_error(
+      [&] { compute_rows(worker, tabulation_, grid_of(tabulation_), table_path(), no_report); },
+      ExitCode::kExternalProgram, HasSubstr("no-such-freefem"));
+  const auto record = read_row_record(table_path(), tabulation_hash(tabulation_));
+  EXPECT_EQ(record.failed.size(), 4U);
+  EXPECT_THAT(record.failed.at({0.5, -1}), HasSubstr("no-such-freefem"));
+}
+
 TEST_F(Tabulate, JournalOfAnotherTabulationIsNotUsed) {
   const FakeFreeFem fake(scratch_.path());
-  (void)tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
+  (void)tabulate(fake.freefem(), tabulation_, 1, table_path(), no_report);
   tabulation_.container->radius = 6;
-  (void)tabulate(fake.freefem(), tabulation_, 1, journal(), no_report);
+  (void)tabulate(fake.freefem(), tabulation_, 1, table_path(), no_report);
   EXPECT_EQ(fake.answered().size(), 8U);
 }
 
 TEST_F(Tabulate, MissingFreeFemIsSaidOnceBeforeAnythingIsWritten) {
   expect_error(
       [&] {
-        (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, journal(), no_report);
+        (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, table_path(), no_report);
       },
       ExitCode::kExternalProgram,
       AllOf(HasSubstr("no-such-freefem"), Not(HasSubstr("rows failed"))));
-  EXPECT_FALSE(std::filesystem::exists(journal()));
+  EXPECT_FALSE(std::filesystem::exists(journal_path(table_path())));
 }
 
 TEST(TabulationHash, ChangesWithEverythingThatTheForceDependsOn) {
@@ -156,7 +191,7 @@ TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
   constexpr double kAccuracy = 1e-3;
   const auto tabulation = unit_tabulation({0.05, 0.5}, 40, kAccuracy);
   const auto table =
-      tabulate(default_freefem(), tabulation, 2, scratch.path() / "table.csv.rows", no_report);
+      tabulate(default_freefem(), tabulation, 2, scratch.path() / "table.csv", no_report);
   ASSERT_EQ(table.rows.size(), 2U);
   for (const auto& row : table.rows) {
     EXPECT_LE(row.relative_error_estimate, kAccuracy);

@@ -1,0 +1,16 @@
+// What several commands do with their options.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace viscontact {
+
+/// An output that is there already is replaced only if it is of the same kind: its text has the
+/// marker. Throws Error(kBadInput) otherwise.
+void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind);
+
+/// One FreeFEM process for each core.
+int default_jobs();
+
+}  // namespace viscontact

@@ -1,0 +1,93 @@
+#include "freefem_axi/journal_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <sstream>
+
+#include "common/file.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr std::string_view kFinished = "row";
+constexpr std::string_view kFailed = "failed";
+
+std::string checksum(std::string_view text) {
+  constexpr std::size_t kDigits = 16;
+  return sha256(text).substr(0, kDigits);
+}
+
+/// The text on one line.
+std::string on_one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
+/// Reads as many numbers as there are places for them; false if there are not so many.
+bool read_numbers(std::istream& words, std::initializer_list<double*> places) {
+  for (double* place : places) {
+    std::string word;
+    words >> word;
+    const auto number = parse_number(word);
+    if (!number) return false;
+    *place = *number;
+  }
+  return true;
+}
+
+std::string rest_of(std::istream& words) {
+  std::string rest;
+  std::getline(words >> std::ws, rest);
+  return rest;
+}
+
+std::string text_of(const FinishedRow& finished) {
+  const auto& row = finished.row;
+  return fmt::format("{} {} {} {} {} {} {} {} {}", kFinished, format_number(row.gap),
+                     format_number(row.reference_velocity), format_number(row.force),
+                     format_number(row.drag_factor), format_number(row.relative_error_estimate),
+                     format_number(row.degrees_of_freedom), format_number(row.seconds),
+                     on_one_line(finished.freefem_version));
+}
+
+std::string text_of(const FailedRow& failed) {
+  return fmt::format("{} {} {} {}", kFailed, format_number(failed.point.gap),
+                     format_number(failed.point.reference_velocity), on_one_line(failed.reason));
+}
+
+}  // namespace
+
+std::string write_journal_line(const JournalLine& line) {
+  const std::string text = line.tabulation_hash + " " +
+                           std::visit([](const auto& entry) { return text_of(entry); }, line.entry);
+  return fmt::format("{} {}\n", text, checksum(text));
+}
+
+std::optional<JournalLine> read_journal_line(std::string_view line) {
+  const auto end = line.rfind(' ');
+  if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
+    return {};
+  std::istringstream words{std::string(line.substr(0, end))};
+  std::string hash, kind;
+  words >> hash >> kind;
+  if (kind == kFinished) {
+    FinishedRow finished;
+    auto& row = finished.row;
+    if (!read_numbers(words, {&row.gap, &row.reference_velocity, &row.force, &row.drag_factor,
+                              &row.relative_error_estimate, &row.degrees_of_freedom, &row.seconds}))
+      return {};
+    finished.freefem_version = rest_of(words);
+    return JournalLine{hash, finished};
+  }
+  FailedRow failed;
+  if (kind != kFailed ||
+      !read_numbers(words, {&failed.point.gap, &failed.point.reference_velocity}))
+    return {};
+  failed.reason = rest_of(words);
+  return JournalLine{hash, failed};
+}
+
+}  // namespace viscontact
