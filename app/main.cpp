@@ -95,6 +95,24 @@ void add_fit(CLI::App& app) {
   });
 }
 
+void add_shift(CLI::App& app) {
+  struct Options {
+    std::string table, fit, shift, plot;
+  };
+  auto* command = app.add_subcommand(
+      "shift", "the depth at which a smooth wall drags like a rough one, from its table");
+  auto o = std::make_shared<Options>();
+  command->add_option("TABLE", o->table, "the rough wall's table (CSV)")->required();
+  command->add_option("--fit", o->fit, "fit of the smooth wall's force (JSON)")->required();
+  command->add_option("-o,--output", o->shift, "shifts to write, row by row (CSV)")->required();
+  command->add_option("--plot", o->plot, "picture to write (SVG)");
+  command->callback([o] {
+    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of shifts");
+    if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
+    shift_stage(o->table, o->fit, o->shift, o->plot);
+  });
+}
+
 void add_simulate(CLI::App& app) {
   struct Options {
     std::string case_file, fit, folder;
@@ -188,6 +206,7 @@ int run(int argc, char** argv) {
   add_run(app);
   add_tabulate(app);
   add_fit(app);
+  add_shift(app);
   add_simulate(app);
   add_compare(app);
   add_report(app);

@@ -8,6 +8,7 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
+#include "app/shift_plot.hpp"
 #include "app/versions.hpp"
 #include "common/csv.hpp"
 #include "common/error.hpp"
@@ -151,6 +152,39 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::
   write_file(fit_path, write_fit(fit));
   say(fmt::format("fit: basis {}, largest relative residual {:.2g}, condition number {:.2g}",
                   fit.basis, fit.largest_relative_residual, fit.condition_number));
+}
+
+void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
+                 const fs::path& plot_path) {
+  const auto rough = read_force_table(table_path);
+  WallShift shift;
+  try {
+    shift = fit_wall_shift(rough, LubricationForce(read_fit(fit_path)));
+  } catch (const Error& error) {
+    throw Error(error.exit_code(),
+                fmt::format("{}, {}: {}", table_path.string(), fit_path.string(), error.what()));
+  }
+  std::string text = write_csv_comments(
+      {{"viscontact", "wall shift"},
+       {"geometry", rough.geometry},
+       {"table", sha256(read_file(table_path))},
+       {"fit", sha256(read_file(fit_path))},
+       {"shift", format_number(shift.shift)},
+       {"largest_relative_residual", format_number(shift.largest_relative_residual)},
+       {"rms_relative_residual", format_number(shift.rms_relative_residual)},
+       {"rows", std::to_string(shift.rows.size())}});
+  text += "gap,shift,relative_residual,relative_error_estimate\n";
+  for (const auto& row : shift.rows)
+    text += fmt::format("{},{},{},{}\n", format_number(row.gap), format_number(row.shift),
+                        format_number(row.relative_residual),
+                        format_number(row.relative_error_estimate));
+  const std::string picture =
+      plot_path.empty() ? ""
+                        : plot_wall_shift(shift, rough.geometry);  // before anything is written
+  write_file(shift_path, text);
+  if (!plot_path.empty()) write_file(plot_path, picture);
+  fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
+             shift.largest_relative_residual, shift.rms_relative_residual);
 }
 
 void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,

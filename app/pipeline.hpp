@@ -17,6 +17,11 @@ void tabulate_stage(const Case& c, const std::filesystem::path& table_path, int 
 void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                const std::string& basis, Weights weights);
 
+/// Fits the shift of a rough wall's table against a smooth wall's fit (fitting/wall_shift.hpp), prints it, and writes each row's (CSV), and a
+/// picture (SVG) unless `plot_path` is empty.
+void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
+                 const std::filesystem::path& shift_path, const std::filesystem::path& plot_path);
+
 /// Runs models (names; none: those that the case names, or all) with a fit file into the run
 /// folder's trajectories; copies case and fit beside them. All files are written, or none. Throws
 /// Error(kBadInput) if the fit is of another viscosity or radius than the case.

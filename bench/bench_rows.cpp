@@ -1,45 +1,136 @@
-// Error, cost and memory of single rows of the tabulation, against Brenner's exact series. Run by bench/run.
+// Rows of the tabulation: true error, error estimate, cost and memory, and the same beside a textbook script. Run by bench/run.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
-#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
 
 #include "common/error.hpp"
-#include "freefem_axi/freefem.hpp"
-#include "tests/oracles/brenner.hpp"
+#include "freefem_axi/tabulation.hpp"
+#include "tests/oracles/bispherical.hpp"
 
 namespace viscontact {
 namespace {
 
-double number_in(const std::string& line, int word) {
-  std::istringstream words(line);
-  double value = 0;
-  for (int i = 0; i <= word; ++i) words >> value;
-  return value;
+double child_cpu_seconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-void measure_row(const FreeFem& freefem, double gap) {
-  const auto start = std::chrono::steady_clock::now();
-  const auto result =
-      run_freefem(freefem, "plane.edp",
-                  {"-radius", "1", "-gap", fmt::format("{}", gap), "-viscosity", "1", "-velocity",
-                   "-1", "-containerRadius", "80", "-containerHeight", "160", "-accuracy", "1e-5",
-                   "-cells", "8", "-levels", "4"});
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double exact = 6 * std::numbers::pi * brenner_drag_factor(gap);
-  const auto error = [&](const std::string& line, int word) {
-    return number_in(line, word) / exact - 1;
-  };
-  const auto reported = line_after(result.output, "viscontact-result");
-  fmt::print("{:<8} {:>12.1e} {:>12.1e} {:>12.1e} {:>10.1e} {:>9.0f} {:>8.2f} {:>8.0f}\n", gap,
-             error(line_after(result.output, "viscontact-level 0"), 0),
-             error(line_after(result.output, "viscontact-level 1"), 0), error(reported, 0),
-             number_in(reported, 1), number_in(reported, 2), seconds,
-             static_cast<double>(result.peak_memory_kb) / 1024);
+struct Row {
+  double drag_factor = 0, estimate = 0, unknowns = 0, cpu_seconds = 0, peak_megabytes = 0;
+};
+
+Row solve(const FreeFem& freefem, const Tabulation& tabulation, double gap) {
+  const double before = child_cpu_seconds();
+  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script,
+                                  row_arguments(tabulation, gap, -1));
+  Row row;
+  row.cpu_seconds = child_cpu_seconds() - before;
+  row.peak_megabytes = static_cast<double>(result.peak_memory_kb) / 1024;
+  std::istringstream words(line_after(result.output, "viscontact-result"));
+  words >> row.drag_factor >> row.estimate >> row.unknowns;
+  row.drag_factor /= 6 * std::numbers::pi;
+  return row;
+}
+
+Tabulation unit(std::string geometry, std::vector<double> parameters,
+                std::optional<Container> container, double accuracy) {
+  Tabulation tabulation;
+  tabulation.viscosity = 1;
+  tabulation.radius = 1;
+  tabulation.container = container;
+  tabulation.relative_accuracy = accuracy;
+  tabulation.geometry = std::move(geometry);
+  tabulation.geometry_parameters = std::move(parameters);
+  return tabulation;
+}
+
+/// `exact` 0: not known.
+void print_row(const FreeFem& freefem, const std::string& what, const Tabulation& tabulation,
+               double gap, double exact) {
+  const auto row = solve(freefem, tabulation, gap);
+  const std::string error =
+      exact == 0 ? "-" : fmt::format("{:.1e}", std::abs(row.drag_factor / exact - 1));
+  fmt::print("{:<24} {:>8} {:>8} {:>9} {:>9.1e} {:>9.0f} {:>7.2f} {:>8.0f}\n", what, gap,
+             tabulation.relative_accuracy, error, row.estimate, row.unknowns, row.cpu_seconds,
+             row.peak_megabytes);
+}
+
+void print_header() {
+  fmt::print("{:<24} {:>8} {:>8} {:>9} {:>9} {:>9} {:>7} {:>8}\n", "", "gap/r", "asked", "error",
+             "estimate", "unknowns", "CPU s", "peak MB");
+}
+
+void measure_geometries(const FreeFem& freefem) {
+  print_header();
+  for (const double accuracy : {1e-5, 1e-6}) {
+    for (const double gap : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0}) {
+      print_row(freefem, "plane, unbounded", unit("plane", {}, {}, accuracy), gap,
+                plane_drag_factor(gap));
+      print_row(freefem, "free surface, unbounded", unit("free_surface", {}, {}, accuracy), gap,
+                free_surface_drag_factor(gap));
+      print_row(freefem, "equal spheres", unit("sphere", {1, 0}, {}, accuracy), gap,
+                two_sphere_drag_factor(gap, 1, 0));
+      if (gap < 4)
+        print_row(freefem, "cavity of radius 5", unit("cavity", {5}, {}, accuracy), gap,
+                  cavity_drag_factor(gap, 5));
+    }
+    // data/reference/sphere_in_cylinder.csv
+    print_row(freefem, "plane, 5 x 10", unit("plane", {}, Container{5, 10}, accuracy), 0.01,
+              101.933626);
+    print_row(freefem, "plane, 5 x 10", unit("plane", {}, Container{5, 10}, accuracy), 1,
+              2.24503189);
+    for (const auto& [radius, gap] : {std::pair{3.0, 1e-4}, {3.0, 1.0}, {80.0, 1e-4}, {80.0, 10.0}})
+      print_row(freefem, fmt::format("plane, {} x {}", radius, 2 * radius),
+                unit("plane", {}, Container{radius, 2 * radius}, accuracy), gap, 0);
+  }
+  fmt::print("\nAt accuracy 1e-7, as the shipped tables\n");
+  print_header();
+  for (const double gap : {1e-4, 1e-2, 1.0, 10.0})
+    print_row(freefem, "plane, unbounded", unit("plane", {}, {}, 1e-7), gap,
+              plane_drag_factor(gap));
+}
+
+void measure_growth(const FreeFem& freefem) {
+  fmt::print("\nCost against the gap, at 1e-5\n");
+  print_header();
+  for (int i = -6; i <= 0; ++i) {
+    const double gap = std::pow(10.0, i);
+    print_row(freefem, "plane, unbounded", unit("plane", {}, {}, 1e-5), gap,
+              plane_drag_factor(gap));
+  }
+}
+
+/// The textbook's best error in the CPU time that the row took, the round that crosses it included.
+void measure_textbook(const FreeFem& freefem) {
+  const FreeFem here{freefem.executable, std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
+  fmt::print("\nBeside bench/textbook.edp, at equal CPU time\n{:<8} {:>12} {:>7} {:>14} {:>7} {:>8}\n",
+             "gap/r", "error", "CPU s", "textbook error", "CPU s", "ratio");
+  for (const double gap : {1.0, 0.1, 0.01, 0.001}) {
+    const double exact = plane_drag_factor(gap);
+    const auto row = solve(freefem, unit("plane", {}, {}, 1e-5), gap);
+    const double error = std::abs(row.drag_factor / exact - 1);
+    const auto result =
+        run_freefem(here, "textbook.edp", {"-gap", fmt::format("{}", gap), "-rounds", "6"});
+    double best = std::numeric_limits<double>::infinity(), seconds = 0;
+    for (int round = 0; seconds < row.cpu_seconds; ++round) {
+      std::istringstream words(line_after(result.output, fmt::format("textbook {}", round)));
+      double force = 0, unknowns = 0;
+      if (!(words >> force >> unknowns >> seconds)) break;
+      best = std::min(best, std::abs(force / (6 * std::numbers::pi * exact) - 1));
+    }
+    fmt::print("{:<8} {:>12.1e} {:>7.2f} {:>14.1e} {:>7.2f} {:>8.0f}\n", gap, error,
+               row.cpu_seconds, best, seconds, best / error);
+  }
 }
 
 }  // namespace
@@ -48,10 +139,9 @@ void measure_row(const FreeFem& freefem, double gap) {
 int main() {
   try {
     const auto freefem = viscontact::default_freefem();
-    fmt::print("{:<8} {:>12} {:>12} {:>12} {:>10} {:>9} {:>8} {:>8}\n", "gap/r", "err mesh 1",
-               "err mesh 2", "err result", "estimate", "unknowns", "seconds", "peak MB");
-    for (const double gap : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5, 1.0, 2.0})
-      viscontact::measure_row(freefem, gap);
+    viscontact::measure_geometries(freefem);
+    viscontact::measure_growth(freefem);
+    viscontact::measure_textbook(freefem);
   } catch (const viscontact::Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return EXIT_FAILURE;

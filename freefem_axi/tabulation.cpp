@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <sstream>
 
 #include "common/error.hpp"
@@ -16,14 +14,12 @@
 namespace viscontact {
 namespace {
 
-// Cells across the film on the coarsest of three meshes, each twice as fine as the one before (drag.idp). The error estimate falls
-// like their -4th to -5th power; at 1e-5, 2 suffice over gaps of 1e-6 to 10 radii (bench/README.md). Coarser than 2 the film's block would have
-// one layer.
-double coarsest_cells(double relative_accuracy) {
-  return std::max(2.0, 2.0 * std::pow(1e-5 / relative_accuracy, 0.22));
-}
+// Each row is solved on three meshes, the coarsest with that many cells across the film, each twice as fine as the one before; where the
+// accuracy is not met, again from finer ones (drag.idp). These reach 1e-5 over gaps of 1e-6 to 10 radii, in about a second (bench/README.md);
+// with fewer cells the film would have one layer.
+constexpr int kCoarsestCells = 2;
 constexpr int kLevels = 3;
-constexpr int kAttempts = 3;  // with 1.4 times the cells each, where the accuracy is not met
+constexpr int kAttempts = 3;
 
 // Raised whenever a change of the scripts changes what they compute, so that tables made before are
 // made again.
@@ -71,20 +67,17 @@ std::string tabulation_hash(const Tabulation& tabulation) {
   return sha256(text);
 }
 
-ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity,
-                        const std::vector<std::string>& further_arguments, std::string* output) {
-  const auto start = std::chrono::steady_clock::now();
+std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
+                                       double reference_velocity) {
   const auto& geometry = find_geometry(tabulation.geometry);
-  std::vector<std::string> arguments = {
-      "-radius",    format_number(tabulation.radius),
-      "-gap",       format_number(gap),
-      "-viscosity", format_number(tabulation.viscosity),
-      "-velocity",  format_number(reference_velocity),
-      "-accuracy",  format_number(tabulation.relative_accuracy),
-      "-cells",     format_number(coarsest_cells(tabulation.relative_accuracy)),
-      "-levels",    std::to_string(kLevels),
-      "-attempts",  std::to_string(kAttempts)};
+  std::vector<std::string> arguments = {"-radius",    format_number(tabulation.radius),
+                                        "-gap",       format_number(gap),
+                                        "-viscosity", format_number(tabulation.viscosity),
+                                        "-velocity",  format_number(reference_velocity),
+                                        "-accuracy",  format_number(tabulation.relative_accuracy),
+                                        "-cells",     std::to_string(kCoarsestCells),
+                                        "-levels",    std::to_string(kLevels),
+                                        "-attempts",  std::to_string(kAttempts)};
   if (geometry.takes_container) {
     const auto container = tabulation.container.value_or(Container{});  // 0: unbounded
     arguments.insert(arguments.end(), {"-containerRadius", format_number(container.radius),
@@ -93,8 +86,16 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
     arguments.insert(arguments.end(), {std::string(geometry.parameters[i].flag),
                                        format_number(tabulation.geometry_parameters.at(i))});
+  return arguments;
+}
+
+ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
+                        double reference_velocity,
+                        const std::vector<std::string>& further_arguments, std::string* output) {
+  const auto start = std::chrono::steady_clock::now();
+  auto arguments = row_arguments(tabulation, gap, reference_velocity);
   arguments.insert(arguments.end(), further_arguments.begin(), further_arguments.end());
-  const auto result = run_freefem(freefem, geometry.script, arguments);
+  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   std::array<std::string, 3> words;

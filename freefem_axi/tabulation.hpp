@@ -38,6 +38,10 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
 std::string tabulation_hash(const Tabulation& tabulation);
 
+/// The flags that the geometry's script is given for one (q, u0).
+std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
+                                       double reference_velocity);
+
 /// Solves one (q, u0) in a FreeFEM process, which is given `further_arguments` too; all that it wrote goes to `output`, if that is not
 /// null. Throws Error(kExternalProgram) with FreeFEM's last lines if it fails.
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,

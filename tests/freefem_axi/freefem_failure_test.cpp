@@ -111,10 +111,5 @@ TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
   EXPECT_EQ(line_after("keys 1\n", "key"), "");
 }
 
-TEST(Geometry, UnknownOneIsBadInputThatListsThoseThereAre) {
-  expect_error([] { (void)find_geometry("torus"); }, ExitCode::kBadInput,
-               AllOf(HasSubstr("torus"), HasSubstr("plane")));
-}
-
 }  // namespace
 }  // namespace viscontact

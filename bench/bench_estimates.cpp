@@ -1,0 +1,103 @@
+// How often the error estimate of a row is true: random rows of every geometry that has an exact solution, with random gaps, sizes, velocity
+// ratios and asked accuracies (log-uniform from FINEST_ACCURACY to 1e-5). Not part of bench/run: with the defaults, hours on one core.
+//
+//   bench_estimates [ROWS_PER_GEOMETRY=100 [FINEST_ACCURACY=1e-7 [SEED=1 [GEOMETRY]]]]
+//
+// Lists every row whose error is above its estimate or whose estimate is above what was asked; then for each geometry the share of rows
+// whose error is at most the estimate, median and largest of error/estimate, and the share of rows that did not reach what was
+// asked and said so (est > asked) or did not say so (err > asked).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/error.hpp"
+#include "tests/freefem_axi/exact_rows.hpp"
+
+namespace viscontact {
+namespace {
+
+std::vector<SolvedRow> solve_all(const FreeFem& freefem, const std::vector<ExactRow>& rows) {
+  std::vector<SolvedRow> solved;
+  std::mutex mutex;  // of `solved` and the output
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = 0; (i = next++) < rows.size();) try {
+        auto row = solve(freefem, rows[i]);
+        const std::scoped_lock lock(mutex);
+        if (row.ratio() > 1 || !row.says_reached())
+          fmt::print("  {}, ratio {:.2f}\n", row.in_words(), row.ratio());
+        solved.push_back(std::move(row));
+      } catch (const Error& error) {
+        const std::scoped_lock lock(mutex);
+        fmt::print("  {}, gap {}: {}\n", geometry_in_words(rows[i].tabulation), rows[i].gap(),
+                   error.what());
+      }
+  };
+  std::vector<std::jthread> workers;
+  for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
+    workers.emplace_back(work);
+  workers.clear();  // wait
+  return solved;
+}
+
+void print_coverage(const char* name, std::size_t asked, std::vector<SolvedRow> rows) {
+  if (rows.empty()) return;
+  const auto share = [&](auto&& test) {
+    return 100 * static_cast<double>(std::ranges::count_if(rows, test)) /
+           static_cast<double>(rows.size());
+  };
+  std::ranges::sort(rows, {}, &SolvedRow::ratio);
+  double seconds = 0;
+  for (const auto& row : rows) seconds += row.answer.seconds;
+  fmt::print("{:<14} {:>5} {:>7} {:>10.1f}% {:>8.2f} {:>8.2f} {:>11.1f}% {:>11.1f}% {:>8.2f}\n",
+             name, rows.size(), asked - rows.size(),
+             share([](const SolvedRow& row) { return row.ratio() <= 1; }),
+             rows[rows.size() / 2].ratio(), rows.back().ratio(),
+             share([](const SolvedRow& row) { return !row.says_reached(); }),
+             share([](const SolvedRow& row) {
+               return row.says_reached() &&
+                      row.error() - row.row.rounding > row.row.tabulation.relative_accuracy;
+             }),
+             seconds / static_cast<double>(rows.size()));
+  std::fflush(stdout);
+}
+
+void measure(std::size_t rows_per_geometry, double finest_accuracy, unsigned seed,
+             const std::string& only) {
+  const auto freefem = default_freefem();
+  fmt::print("{:<14} {:>5} {:>7} {:>11} {:>8} {:>8} {:>12} {:>12} {:>8}\n", "geometry", "rows",
+             "failed", "err <= est", "median", "largest", "est > asked", "err > asked", "seconds");
+  for (const auto& rows : exact_rows()) {
+    if (!only.empty() && only != rows.name) continue;
+    Random random(seed);
+    std::vector<ExactRow> drawn;
+    for (std::size_t i = 0; i < rows_per_geometry; ++i) {
+      const double accuracy = log_uniform(random, finest_accuracy, 1e-5);
+      drawn.push_back(rows.draw(random, accuracy));
+    }
+    print_coverage(rows.name, drawn.size(), solve_all(freefem, drawn));
+  }
+}
+
+}  // namespace
+}  // namespace viscontact
+
+int main(int argc, char** argv) {
+  try {
+    const std::vector<std::string> words(argv, argv + argc);
+    const auto word = [&](std::size_t i, const char* otherwise) {
+      return i < words.size() ? words[i] : otherwise;
+    };
+    viscontact::measure(std::stoul(word(1, "100")), std::stod(word(2, "1e-7")),
+                        static_cast<unsigned>(std::stoul(word(3, "1"))), word(4, ""));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return EXIT_FAILURE;
+  }
+}

@@ -1,0 +1,83 @@
+#include "fitting/wall_shift.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+double resistance_of(const ForceTableRow& row) { return -row.force / row.reference_velocity; }
+
+/// The gap at which the smooth wall has that resistance, which decreases with the gap. By bisection in ln q.
+double smooth_gap_of(const LubricationForce& smooth, double resistance, const ForceTableRow& row) {
+  auto [low, high] = smooth.interval();
+  if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
+    throw Error(
+        ExitCode::kBadInput,
+        fmt::format("the drag at gap {} is that of no smooth gap in [{}, {}], the fit's interval",
+                    row.gap, low, high));
+  while (true) {
+    const double middle = std::sqrt(low * high);
+    if (!(middle > low && middle < high)) return middle;
+    (smooth.resistance(middle) > resistance ? low : high) = middle;
+  }
+}
+
+}  // namespace
+
+WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth) {
+  if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the table is of viscosity {} and radius {}, the fit of {} and {}",
+                            rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
+  WallShift result;
+  double least = 0;  // the shift may not leave the smooth force's interval at any row
+  double most = smooth.interval()[1];
+  for (const auto& row : rough.rows) {
+    const double shift = smooth_gap_of(smooth, resistance_of(row), row) - row.gap;
+    result.rows.push_back({row.gap, shift, 0, row.relative_error_estimate});
+    least = std::max(least, smooth.interval()[0] - row.gap);
+    most = std::min(most, smooth.interval()[1] - row.gap);
+  }
+
+  // Gauss-Newton in one unknown, from the median of the rows' own shifts: every row is monotone in it.
+  auto shifts = result.rows;
+  std::ranges::sort(shifts, {}, &ShiftedRow::shift);
+  double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
+  constexpr int kMostSteps = 100;
+  constexpr double kTolerance = 1e-14;  // of the smallest shifted gap: round-off
+  for (int step = 0;; ++step) {
+    if (step == kMostSteps)
+      throw Error(ExitCode::kNotConverged, "no common shift of the wall fits the table");
+    double slope2 = 0, slope_residual = 0;
+    for (const auto& row : rough.rows) {
+      const double gap = row.gap + shift;
+      const double ratio = smooth.resistance(gap) / resistance_of(row);
+      const double slope = smooth.resistance_log_slope(gap) / gap / resistance_of(row);
+      slope2 += slope * slope;
+      slope_residual += slope * (ratio - 1);
+    }
+    const double next = std::clamp(shift - slope_residual / slope2, least, most);
+    const double change = std::abs(next - shift);
+    shift = next;
+    if (change <= kTolerance * (result.rows.front().gap + std::abs(shift))) break;
+  }
+
+  result.shift = shift;
+  double sum2 = 0;
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    auto& row = result.rows[i];
+    row.relative_residual = smooth.resistance(row.gap + shift) / resistance_of(rough.rows[i]) - 1;
+    sum2 += row.relative_residual * row.relative_residual;
+    result.largest_relative_residual =
+        std::max(result.largest_relative_residual, std::abs(row.relative_residual));
+  }
+  result.rms_relative_residual = std::sqrt(sum2 / static_cast<double>(result.rows.size()));
+  return result;
+}
+
+}  // namespace viscontact

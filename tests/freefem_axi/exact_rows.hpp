@@ -1,0 +1,76 @@
+// Rows of tabulations whose drag is known exactly, drawn at random, for the tests of the error estimate and for bench_estimates.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "freefem_axi/tabulation.hpp"
+
+namespace viscontact {
+
+using Random = std::mt19937_64;
+
+/// From one generator's bits alone: the distributions of the standard library differ between libraries.
+inline double uniform(Random& random, double from, double to) {
+  return std::lerp(from, to, static_cast<double>(random() >> 11U) * 0x1p-53);
+}
+
+inline double log_uniform(Random& random, double from, double to) {
+  return std::exp(uniform(random, std::log(from), std::log(to)));
+}
+
+struct ExactRow {
+  Tabulation tabulation;  ///< of this row alone, radius, viscosity and -velocity 1
+  double drag_factor = 0;
+  double rounding = 0;  ///< relative, of drag_factor: half a unit of its last digit
+
+  double gap() const { return tabulation.gaps.front(); }
+};
+
+/// An unbounded one, or a cavity.
+ExactRow exact_row(const std::string& geometry, double gap, std::vector<double> parameters,
+                   double accuracy, double drag_factor);
+
+ExactRow draw_plane(Random& random, double accuracy);
+ExactRow draw_free_surface(Random& random, double accuracy);
+/// Equal spheres, one at rest, both together, or against each other.
+ExactRow draw_equal_spheres(Random& random, double accuracy);
+/// Radius ratios from 0.01 to 100, velocity ratios from -2 to 2.
+ExactRow draw_spheres(Random& random, double accuracy);
+/// Cavities from 1.05 to 50 radii.
+ExactRow draw_cavity(Random& random, double accuracy);
+/// A gap of data/reference/sphere_in_cylinder.csv: closed cylinder of 5 x 10 radii.
+ExactRow draw_cylinder(Random& random, double accuracy);
+
+struct ExactRows {
+  const char* name;
+  ExactRow (*draw)(Random& random, double accuracy);
+};
+
+/// All of them.
+std::span<const ExactRows> exact_rows();
+
+/// A solved row.
+struct SolvedRow {
+  ExactRow row;
+  ForceTableRow answer;
+
+  double error() const { return std::abs(answer.drag_factor / row.drag_factor - 1); }
+  /// Error over its estimate; what is not known of the error is left out.
+  double ratio() const {
+    return std::max(0.0, error() - row.rounding) / answer.relative_error_estimate;
+  }
+  bool says_reached() const {
+    return answer.relative_error_estimate <= row.tabulation.relative_accuracy;
+  }
+  std::string in_words() const;
+};
+
+SolvedRow solve(const FreeFem& freefem, const ExactRow& row);
+
+}  // namespace viscontact
