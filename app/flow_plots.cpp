@@ -22,9 +22,12 @@ namespace {
 constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
-constexpr double kLeft = 110, kAbove = 66, kBelow = 112;
+constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
 constexpr double kColourBar = 165;  // and its numbers, to the right
 constexpr double kNoColourBar = 30;
+
+constexpr double kGapReach =
+    2.5;  // of a gap's view: there the film of a plane is 7 times as thick as in its middle
 
 struct View {
   Window window;
@@ -44,30 +47,36 @@ double sphere_bottom(double radius, double gap, double rho) {
 }
 
 View surroundings(const CurvedMesh& mesh, double radius, double gap) {
-  constexpr double kReach = 3, kWhole = 6, kMargin = 0.15;  // in radii
+  constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   Window fluid;
   for (const auto& [rho, z] : mesh.nodes)
     fluid = {0, std::max(fluid.right, rho), std::min(fluid.bottom, z), std::max(fluid.top, z)};
-  const double reach = (fluid.right > kWhole * radius ? kReach : kWhole) * radius;
-  const double margin = kMargin * radius;
-  const double half = std::min(reach, fluid.right + margin);
-  const double centre = gap + radius;
-  return unstretched({-half, half, std::max(centre - reach, fluid.bottom - margin),
-                      std::min(centre + reach, fluid.top + margin)});
+  const double margin = kMargin * radius, centre = gap + radius;
+  const bool whole = fluid.right <= kWhole * radius && fluid.height() <= 2 * kWhole * radius;
+  const double reach = kReach * radius;
+  return whole ? unstretched({-fluid.right - margin, fluid.right + margin, fluid.bottom - margin,
+                              fluid.top + margin})
+               : unstretched({-std::min(reach, fluid.right + margin),
+                              std::min(reach, fluid.right + margin),
+                              std::max(centre - reach, fluid.bottom - margin),
+                              std::min(centre + reach, fluid.top + margin)});
 }
 
-View gap_view(const CurvedMesh& mesh, double radius, double gap) {
-  constexpr double kReach = 2.5;     // in the width of the film's middle
+/// `reach` in the width of the film's middle, sqrt(2 gap radius).
+View gap_view(const CurvedMesh& mesh, double radius, double gap, double reach = kGapReach) {
   constexpr double kOfSphere = 0.9;  // of the radius, at most
   constexpr double kMargin = 0.08;   // of the height
   constexpr double kFlattest = 0.4;  // of a view drawn at equal scales
-  const double half = std::min(kReach * std::sqrt(2 * gap * radius), kOfSphere * radius);
+  const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
   const double top = sphere_bottom(radius, gap, half);
   double bottom = 0;
   for (const auto& [rho, z] : mesh.nodes)
     if (rho < half && z > -top) bottom = std::min(bottom, z);
   const double margin = kMargin * (top - bottom);
-  const Window window{-half, half, bottom - margin, top + margin};
+  Window window{-half, half, bottom - margin, top + margin};
+  const double widest = std::max(half, window.height() / 2);  // not higher than wide
+  window.left = -widest;
+  window.right = widest;
   if (window.height() > kFlattest * window.width()) return unstretched(window);
   return {window, kPlotWidth, kStretchedPlot};
 }
@@ -79,6 +88,23 @@ void mirror(std::vector<Polyline>& lines) {
     for (auto& [rho, z] : line) rho = -rho;
     lines.push_back(std::move(line));
   }
+}
+
+/// Without points that are less than a pixel from the one before.
+std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const View& view) {
+  const double x_scale = view.plot_width / view.window.width();
+  const double y_scale = view.plot_height / view.window.height();
+  std::vector<Polyline> result;
+  for (const auto& line : lines) {
+    Polyline kept;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (i == 0 || i + 1 == line.size() ||
+          std::hypot((line[i].first - kept.back().first) * x_scale,
+                     (line[i].second - kept.back().second) * y_scale) >= 1)
+        kept.push_back(line[i]);
+    result.push_back(std::move(kept));
+  }
+  return result;
 }
 
 /// Both halves of curves of rho >= 0, as one curve with interruptions.
@@ -124,8 +150,8 @@ std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pi
 }
 
 /// The sphere as a surface, the walls and the neighbour as lines.
-std::vector<Curve> outlines(const CurvedMesh& mesh, const Window& window, double radius,
-                            double gap) {
+std::vector<Curve> outlines(const CurvedMesh& mesh, const View& view, double radius, double gap) {
+  const auto& window = view.window;
   namespace label = boundary_label;
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
@@ -150,11 +176,12 @@ std::vector<Curve> outlines(const CurvedMesh& mesh, const Window& window, double
   }
   std::vector<Curve> curves = {sphere};
   if (!walls.empty())
-    curves.push_back(mirrored("", "lines linewidth 2 linecolor rgb '#000000'", walls));
+    curves.push_back(
+        mirrored("", "lines linewidth 2 linecolor rgb '#000000'", thinned(walls, view)));
   if (!shear_free.empty())
     curves.push_back(mirrored("shear-free surface",
                               "lines linewidth 2.5 linecolor rgb '#009E73' dashtype (12,5)",
-                              shear_free));
+                              thinned(shear_free, view)));
   return curves;
 }
 
@@ -189,10 +216,15 @@ std::string velocity_arrow(const ForceTableRow& row, double radius, const Window
       middle - half, middle + half);
 }
 
-Curve streamlines(const Flow& flow, const Window& window) {
+Curve streamlines(const Flow& flow, const View& view) {
   constexpr int kLines = 14;  // about, on each side
-  const auto field = straightened(flow.mesh, flow.stream_function, window);
-  const auto [low, high] = extremes(field, window);
+  std::vector<std::array<double, 2>> gradient;
+  for (std::size_t i = 0; i < flow.velocity.size(); ++i)
+    gradient.push_back({flow.mesh.nodes[i][0] * flow.velocity[i][1],
+                        -flow.mesh.nodes[i][0] * flow.velocity[i][0]});
+  const auto field = straightened(flow.mesh, flow.stream_function, view.window, gradient);
+  const auto [low, high] = extremes(field, view.window);
+  if (!(high > low)) return {};
   const double step = rounded((high - low) / kLines);
   std::vector<Polyline> lines;
   for (double n = std::ceil(low / step); n <= high / step; ++n) {
@@ -200,18 +232,19 @@ Curve streamlines(const Flow& flow, const Window& window) {
     auto more = level_lines(field, n * step);
     std::ranges::move(more, std::back_inserter(lines));
   }
-  return mirrored(
-      fmt::format("streamlines; between neighbours flows a volume of {:.3g} per unit of time",
-                  2 * std::numbers::pi * step),
-      "lines linewidth 1 linecolor rgb '#202020'", lines);
+  return mirrored(fmt::format("streamlines; flow rate between one and the next: {:.3g} (unit: "
+                              "length^3 / time)",
+                              2 * std::numbers::pi * step),
+                  "lines linewidth 1 linecolor rgb '#202020'", thinned(lines, view));
 }
 
-std::vector<std::string> layout(const View& view, double right, double width, double height) {
+std::vector<std::string> layout(const View& view, double right, double below, double width,
+                                double height) {
   return {"unset grid", "set border linewidth 1 back", "set tics out nomirror",
           fmt::format("set lmargin at screen {:.6f}", kLeft / width),
           fmt::format("set rmargin at screen {:.6f}", 1 - right / width),
           fmt::format("set tmargin at screen {:.6f}", 1 - kAbove / height),
-          fmt::format("set bmargin at screen {:.6f}", kBelow / height),
+          fmt::format("set bmargin at screen {:.6f}", below / height),
           fmt::format("set xrange [{:.9g}:{:.9g}]", view.window.left, view.window.right),
           fmt::format("set yrange [{:.9g}:{:.9g}]", view.window.bottom, view.window.top),
           "set key at screen 0.5, screen 0.005 bottom center horizontal Left reverse samplen 3",
@@ -238,20 +271,25 @@ Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabu
 }
 
 std::string draw(Panel panel, const View& view, double right) {
+  constexpr double kLegendRow = 20;
+  const auto legends =
+      std::ranges::count_if(panel.curves, [](const Curve& curve) { return !curve.legend.empty(); });
+  const double below = kBelow + kLegendRow * static_cast<double>(legends / 2);
   const double width = kLeft + view.plot_width + right;
-  const double height = kAbove + view.plot_height + kBelow;
-  auto settings = layout(view, right, width, height);
+  const double height = kAbove + view.plot_height + below;
+  auto settings = layout(view, right, below, width, height);
   settings.insert(settings.end(), panel.settings.begin(), panel.settings.end());
   panel.settings = std::move(settings);
   return draw_svg({panel}, static_cast<int>(std::lround(width)),
                   static_cast<int>(std::lround(height)));
 }
 
-/// A value for each pixel of the plot.
+/// A value for each place of the plot that an eye tells apart.
 ColourField colour_field(const LinearField& values, const View& view) {
   const auto& window = view.window;
-  ColourField field{static_cast<std::size_t>(view.plot_width),
-                    static_cast<std::size_t>(view.plot_height),
+  constexpr double kCell = 1.5;  // pixels: gnuplot's time goes with their number
+  ColourField field{static_cast<std::size_t>(view.plot_width / kCell),
+                    static_cast<std::size_t>(view.plot_height / kCell),
                     window.left,
                     window.right,
                     window.bottom,
@@ -269,8 +307,8 @@ std::string plot_pressure_and_streamlines(const std::string& what, const RowPict
   panel.field = pressure;
   for (double& value : panel.field->values) value = colours.at(value);
   panel.settings = colours.settings();
-  panel.curves.push_back(streamlines(picture.flow, view.window));
-  std::ranges::move(outlines(picture.flow.mesh, view.window, tabulation.radius, picture.row.gap),
+  panel.curves.push_back(streamlines(picture.flow, view));
+  std::ranges::move(outlines(picture.flow.mesh, view, tabulation.radius, picture.row.gap),
                     std::back_inserter(panel.curves));
   panel.settings.push_back(velocity_arrow(picture.row, tabulation.radius, view.window));
   return draw(panel, view, kColourBar);
@@ -280,18 +318,26 @@ std::string plot_pressure_and_streamlines(const std::string& what, const RowPict
 
 std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation) {
   constexpr int kPieces = 8;  // of a side of the coarsest mesh; its children have fewer
-  const auto view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap);
+  constexpr std::size_t kMostSides = 3500;
+  double reach = kGapReach;
+  auto view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap);
+  auto fine = sides(picture.flow.mesh, view.window, kPieces / 4);
+  while (fine.size() > kMostSides) {
+    reach /= 2;
+    view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap, reach);
+    fine = sides(picture.flow.mesh, view.window, kPieces / 4);
+  }
   Panel panel = empty_panel("Mesh in the gap", picture, tabulation, view);
   // Only to tell fluid from solid.
   const std::vector<double> white(picture.flow.mesh.nodes.size(), 0.0);
   panel.field = colour_field(straightened(picture.flow.mesh, white, view.window), view);
   panel.settings = {"set palette defined (0 'white', 1 'white')", "set cbrange [0:1]",
                     "unset colorbox"};
-  panel.curves.push_back(mirrored("finest mesh", "lines linewidth 0.5 linecolor rgb '#56B4E9'",
-                                  sides(picture.flow.mesh, view.window, kPieces / 4)));
+  panel.curves.push_back(
+      mirrored("finest mesh", "lines linewidth 0.5 linecolor rgb '#56B4E9'", std::move(fine)));
   panel.curves.push_back(mirrored("coarsest mesh", "lines linewidth 1.4 linecolor rgb '#0072B2'",
                                   sides(picture.coarsest, view.window, kPieces)));
-  std::ranges::move(outlines(picture.flow.mesh, view.window, tabulation.radius, picture.row.gap),
+  std::ranges::move(outlines(picture.flow.mesh, view, tabulation.radius, picture.row.gap),
                     std::back_inserter(panel.curves));
   return draw(panel, view, kNoColourBar);
 }

@@ -58,6 +58,12 @@ std::string plot_of(const std::string& name, const ColourField& field) {
       name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
 }
 
+/// What a program said last.
+std::string last_part(const std::string& output) {
+  constexpr std::size_t kLength = 300;
+  return output.size() <= kLength ? output : output.substr(output.size() - kLength);
+}
+
 std::string panel_script(const Panel& panel, std::size_t index) {
   std::string script;
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
@@ -94,8 +100,13 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
-  const auto result = run_process({"gnuplot"}, {"LC_ALL=C"}, script);
-  if (!result.started)
+  // Its warnings come after the picture, not within.
+  const auto result = run_process(
+      {"/bin/sh", "-c",
+       "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
+      {"LC_ALL=C"}, script);
+  constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
+  if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
                             result.output));
@@ -104,7 +115,7 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
-                            result.output.substr(0, 300)));
+                            last_part(result.output)));
   return result.output.substr(start, end + 6 - start) + "\n";
 }
 

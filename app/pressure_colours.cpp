@@ -115,7 +115,7 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
 }
 
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
-  constexpr double kBeyond = 0.01;     // of the pixels
+  constexpr double kBeyond = 0.005;    // of the pixels
   constexpr double kMuchFarther = 3;   // times
   constexpr double kLogarithmic = 10;  // times the usual pressure
   const auto sorted = sorted_finite(pixels);
@@ -124,7 +124,8 @@ PressureColours robust_colours(const std::vector<double>& pixels, double usual) 
   const double low = sorted[few], high = sorted[sorted.size() - 1 - few];
   if (high > 0 && colours.high > kMuchFarther * high) colours.high = rounded_up(high);
   if (low < 0 && colours.low < kMuchFarther * low) colours.low = -rounded_up(-low);
-  if (std::max(std::abs(colours.low), std::abs(colours.high)) > kLogarithmic * usual)
+  const bool cut = colours.high < sorted.back() || colours.low > sorted.front();
+  if (cut || std::max(std::abs(colours.low), std::abs(colours.high)) > kLogarithmic * usual)
     colours.linear_below = std::pow(10, std::round(std::log10(usual)));
   return widened(colours);
 }

@@ -23,7 +23,7 @@ struct PressureColours {
 /// For pressures that are all worth a colour of their own: proportional.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
-/// For pixels of which few may outshine all others: the bar ends where 1 % of them is beyond, if that 1 % reaches much farther; and where
+/// For pixels of which few may outshine all others: the bar ends where 0.5 % of them are beyond, if those reach much farther; then, or where
 /// it still spans more than `usual` (> 0) by far, it is logarithmic beyond about that.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 

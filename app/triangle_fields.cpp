@@ -68,7 +68,7 @@ constexpr std::array<std::array<int, 3>, 16> kSixteen = {{
 }  // namespace
 
 LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
-                         const Window& window) {
+                         const Window& window, const std::vector<std::array<double, 2>>& gradient) {
   LinearField field;
   std::unordered_map<std::size_t, Index> numbers;        // of nodes
   std::unordered_map<std::uint64_t, Index> new_numbers;  // of middles between two points
@@ -76,6 +76,18 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
     field.points.push_back({rho, z});
     field.values.push_back(value);
     return static_cast<Index>(field.points.size() - 1);
+  };
+  // Hermite's cubic between two nodes at its middle, and from there on to a point near by.
+  const auto between = [&](std::size_t a, std::size_t b, double rho, double z) {
+    double value = (values[a] + values[b]) / 2;
+    const std::array<double, 2> to = {rho, z};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double side = mesh.nodes[b][i] - mesh.nodes[a][i];
+      const double off = to[i] - (mesh.nodes[a][i] + mesh.nodes[b][i]) / 2;
+      value += (gradient[a][i] - gradient[b][i]) * side / 8 +
+               (gradient[a][i] + gradient[b][i]) / 2 * off;
+    }
+    return value;
   };
   for (const auto& triangle : mesh.triangles) {
     if (!touches(window, mesh, triangle)) continue;
@@ -97,6 +109,9 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
           z += point.weights[j] * mesh.nodes[triangle[j]][1];
           value += point.weights[j] * values[triangle[j]];
         }
+        if (!gradient.empty())
+          value = between(triangle[static_cast<std::size_t>(point.first)],
+                          triangle[static_cast<std::size_t>(point.second)], rho, z);
         place->second = add(rho, z, value);
       }
       all[6 + i] = place->second;

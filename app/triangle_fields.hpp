@@ -24,9 +24,12 @@ struct LinearField {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The curved triangles that touch the window, each as 16 straight ones, with the quadratic field that `values` are the nodes of.
+/// The curved triangles that touch the window, each as 16 straight ones, with the quadratic field that `values` are the nodes of. If its
+/// `gradient` at the nodes is known better than that (not empty), the field is cubic along the lines between neighbouring nodes, and
+/// its level lines have no corners where its gradient is small.
 LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
-                         const Window& window);
+                         const Window& window,
+                         const std::vector<std::array<double, 2>>& gradient = {});
 
 /// The field at the pixels of a picture of the window, row by row from the bottom, each row from the left. The field is symmetric about
 /// the axis: a window may reach to negative rho. A pixel outside the triangles is NaN, unless it is next to one inside.
