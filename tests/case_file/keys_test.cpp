@@ -84,8 +84,8 @@ std::vector<KeyRules> all_keys() {
        false},
       {{"tabulation.geometry.kind", "[tabulation]", "kind", "\"plane\""},
        Kind::kText,
-       {"\"sphere\"", "\"free_surface\"", "\"cavity\"", "\"rough_plane\"", "\"\""},
-       ""},
+       {"\"torus\"", "\"Plane\"", "\"free surface\"", "\"\""},
+       "there are: plane, free_surface, sphere, cavity, rough_plane"},
       {{"fit.basis", "[fit]", "basis", "\"lecture\""},
        Kind::kText,
        {"\"Lecture\"", "\"\"", "\"cubic\""},
@@ -160,7 +160,7 @@ std::vector<const char*> wrong_types(Kind kind) {
               "[true, true]", "[[1.0], [1.0]]", "[nan, 0.1]", "[inf, 0.1]",
               "[0.1, -inf]"};
     case Kind::kTable:
-      return {"1.0", "\"unbounded\"", "true"};
+      return {"1.0", "\"bounded\"", "true"};
     case Kind::kTables:
       return {"1.0", "\"-200\"", "{ until = 4.0, value = 1.0 }", "[1.0, 2.0]",
               "[ { until = 4.0, value = 1.0 }, 3 ]"};

@@ -14,9 +14,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr LectureKey kContainer = {"tabulation.container", "[tabulation]", "container",
-                                   "{ radius = 40.0, height = 80.0 }"};
-constexpr LectureKey kGeometry = {"tabulation.geometry.kind", "[tabulation]", "kind", "\"plane\""};
 constexpr LectureKey kForce = {
     "motion.external_force", "[motion]", "external_force",
     "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"};
@@ -44,28 +41,6 @@ TEST(CaseValues, MayBeNegativeWhereThatHasAMeaning) {
                 read_text(with_value({"", "[motion]", "initial_velocity", "0.0"}, "-2.5").text))
                 .initial_velocity,
             -2.5);
-}
-
-TEST(Container, SaysThatAFluidWithoutWallsIsNotAvailable) {
-  expect_refused(with_value(kContainer, "\"unbounded\""), kContainer.path,
-                 "a fluid without walls is not available");
-}
-
-TEST(Container, MustBeWiderThanTheSphere) {
-  expect_refused(with_value(kContainer, "{ radius = 1.0, height = 80.0 }"),
-                 "tabulation.container.radius",
-                 "is 1; must be greater than the sphere's radius, 1");
-}
-
-TEST(Geometry, IsThePlaneByDefault) {
-  EXPECT_EQ(required_tabulation(read_text(with_text("geometry = { kind = \"plane\" }", "").text))
-                .geometry,
-            "plane");
-}
-
-TEST(Geometry, ListsWhatThereIsToOneWhoAsksForAnother) {
-  expect_refused(with_value(kGeometry, "\"free_surface\""), kGeometry.path,
-                 "no geometry is named 'free_surface'; there are: plane");
 }
 
 TEST(ExternalForceOfACase, MayLastLongerThanTheMotion) {

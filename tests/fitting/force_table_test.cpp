@@ -19,6 +19,7 @@
 namespace viscontact {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -35,6 +36,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
   ForceTable table;
   table.viscosity = random_positive(random);
   table.radius = random_positive(random);
+  table.geometry = "sphere, radius 2, velocity_ratio: 0";
   table.container = "cylinder, radius 40, height: 80";
   table.case_hash = sha256("case");
   table.versions = {{"FreeFEM", "4.11"}, {"viscontact", "0.1.0"}};
@@ -56,6 +58,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
   const auto back = read_force_table(path);
   EXPECT_EQ(back.viscosity, table.viscosity);
   EXPECT_EQ(back.radius, table.radius);
+  EXPECT_EQ(back.geometry, table.geometry);
   EXPECT_EQ(back.container, table.container);
   EXPECT_EQ(back.case_hash, table.case_hash);
   EXPECT_EQ(back.versions, table.versions);
@@ -78,6 +81,15 @@ TEST(ForceTable, HasTheColumnsOfTheInterface) {
                         "degrees_of_freedom,seconds\n0.5,-1,"));
 }
 
+TEST(ForceTable, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {
+  auto table = exact_drag_table({0.5}, {-1}, 3, 1);
+  table.geometry = "cavity, radius 5";
+  table.container = "none";
+  const auto text = write_force_table(table);
+  EXPECT_THAT(text, HasSubstr("# geometry: cavity, radius 5\n"));
+  EXPECT_THAT(text, HasSubstr("# container: none\n"));
+}
+
 constexpr const char* kHead = "# viscosity: 3\n# radius: 2\n";
 
 TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
@@ -90,6 +102,23 @@ TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
   EXPECT_EQ(table.rows[0].force, 1000);
   EXPECT_DOUBLE_EQ(table.rows[0].drag_factor, 1000 / (6 * std::numbers::pi * 3 * 2));
   EXPECT_EQ(table.rows[0].relative_error_estimate, 0);
+}
+
+TEST(ForceTable, MayHaveAForceAlongTheVelocityFromASecondSphereOnly) {
+  const TemporaryFolder folder;
+  const std::string rows = "gap,reference_velocity,force\n0.5,-1,-1000\n";
+  const auto with_geometry = [&](const std::string& geometry) {
+    return folder.file("table.csv", kHead + ("# geometry: " + geometry + "\n") + rows);
+  };
+  EXPECT_EQ(read_force_table(with_geometry("sphere, radius 1, velocity_ratio 2")).rows[0].force,
+            -1000);
+  for (const auto* geometry : {"plane", "free_surface", "cavity, radius 5",
+                               "rough_plane, amplitude 0.1, wavelength 0.5"}) {
+    const auto path = with_geometry(geometry);
+    EXPECT_THAT(bad_input([&] { read_force_table(path); }),
+                AllOf(StartsWith(path.string() + ":5: "), HasSubstr("opposed to the velocity")))
+        << geometry;
+  }
 }
 
 struct WrongTable {

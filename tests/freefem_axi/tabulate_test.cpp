@@ -72,9 +72,20 @@ TEST_F(Tabulate, TableSaysWhatItIsOf) {
   const auto table = tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report);
   EXPECT_EQ(table.viscosity, 3);
   EXPECT_EQ(table.radius, 1);
+  EXPECT_EQ(table.geometry, "plane");
   EXPECT_THAT(table.container, AllOf(HasSubstr("radius 5"), HasSubstr("height 10")));
   EXPECT_EQ(table.case_hash, tabulation_hash(tabulation_));
   EXPECT_EQ(table.versions.at("FreeFEM"), "0-fake");
+}
+
+TEST_F(Tabulate, TableSaysItsGeometrysParameters) {
+  const FakeFreeFem fake(scratch_.path());
+  tabulation_.geometry = "cavity";
+  tabulation_.geometry_parameters = {5};
+  tabulation_.container.reset();
+  const auto table = tabulate(fake.freefem(), tabulation_, 2, journal(), no_report);
+  EXPECT_EQ(table.geometry, "cavity, radius 5");
+  EXPECT_EQ(table.container, "none");
 }
 
 TEST_F(Tabulate, ProgressCountsUpToAllRows) {
