@@ -190,7 +190,9 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const viscontact::Error& error) {
     viscontact::clear_progress();
-    viscontact::say(fmt::format("viscontact: {}", error.what()));
+    const bool wrong_usage = error.exit_code() == ExitCode::kWrongUsage;
+    viscontact::say(fmt::format("viscontact: {}{}", error.what(),
+                                wrong_usage ? "; see viscontact --help" : ""));
     return static_cast<int>(error.exit_code());
   } catch (const std::bad_alloc&) {
     viscontact::say("viscontact: there is not enough memory for this");

@@ -141,18 +141,21 @@ void for_each_table(const std::vector<CaseTable>& tables, const Work& work) {
 
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const fs::path& output) {
-  std::vector<CaseTable> tables;
   std::map<fs::path, std::string> case_of;
+  std::vector<fs::path> names;
   for (const auto& file : case_files) {
-    const fs::path table =
-        case_files.size() == 1 ? output : output / (fs::path(file).stem().string() + ".csv");
-    const auto [other, is_new] = case_of.insert({table, file});
+    names.push_back(case_files.size() == 1 ? output
+                                           : output / (fs::path(file).stem().string() + ".csv"));
+    const auto [other, is_new] = case_of.insert({names.back(), file});
     if (!is_new)
-      throw Error(ExitCode::kWrongUsage, fmt::format("{} and {} would both be tabulated to {}; "
-                                                     "rename one",
-                                                     other->second, file, table.string()));
-    tables.push_back({read_case(file), table});
-    (void)tables.back().tabulation();
+      throw Error(ExitCode::kWrongUsage,
+                  fmt::format("{} and {} would both be tabulated to {}; rename one", other->second,
+                              file, names.back().string()));
+  }
+  std::vector<CaseTable> tables;
+  for (std::size_t i = 0; i < case_files.size(); ++i) {
+    tables.push_back({read_case(case_files[i]), names[i]});
+    (void)tables.back().tabulation();  // each case has one, or nothing is begun
   }
   return tables;
 }

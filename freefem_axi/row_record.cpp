@@ -124,11 +124,18 @@ void remove_journals(const fs::path& table_path, const std::string& tabulation_h
     const Descriptor file(::open(journal.c_str(), O_RDWR | O_CLOEXEC));
     if (file.get() < 0) continue;
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) continue;
-    bool all_in_table = true;
+    std::string others;
+    bool has_ours = false;
     for_each_line(journal, [&](const JournalLine& line) {
-      all_in_table = all_in_table && line.tabulation_hash == tabulation_hash;
+      if (line.tabulation_hash == tabulation_hash)
+        has_ours = true;
+      else
+        others += write_journal_line(line);
     });
-    if (all_in_table) fs::remove(journal);
+    if (others.empty())
+      fs::remove(journal);
+    else if (has_ours)
+      write_file(journal, others);
   }
 }
 

@@ -36,8 +36,9 @@ std::vector<GridPoint> missing_points(const RowRecord& record,
 /// The table, once no point is missing.
 ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
 
-/// Removes the journals of a table that is written. One stays if another process holds it or if it holds
-/// rows of another tabulation, which are in no table yet.
+/// Takes the rows of a table that is written out of its journals, and removes those that then hold none: rows of
+/// another tabulation, which are in no table yet, stay. A journal that another process holds is left as it is.
+/// Throws Error(kBadInput) where a journal cannot be replaced.
 void remove_journals(const std::filesystem::path& table_path, const std::string& tabulation_hash);
 
 }  // namespace viscontact

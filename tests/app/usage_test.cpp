@@ -57,7 +57,24 @@ INSTANTIATE_TEST_SUITE_P(
                    "--jobs"},
         WrongUsage{"JobsAFraction",
                    {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "1.5"},
-                   "--jobs"}),
+                   "--jobs"},
+        WrongUsage{"CasesOfEqualNames",
+                   {"tabulate", "a/case.toml", "b/case.toml", "-o", "out"},
+                   "a/case.toml and b/case.toml would both be tabulated to out/case.csv"},
+        WrongUsage{"TaskBeyondTheLast",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--task", "4/4"},
+                   "--task is '4/4'"},
+        WrongUsage{"TaskWithoutCount",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--task", "4"},
+                   "--task is '4'"},
+        WrongUsage{"UnknownLauncher",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--launcher", "pbs"},
+                   "--launcher"},
+        WrongUsage{"GatherAndSubmit",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--gather", "--launcher", "slurm"},
+                   "--gather"},
+        WrongUsage{
+            "TasksHere", {"tabulate", "case.toml", "-o", "table.csv", "--tasks", "4"}, "--tasks"}),
     [](const auto& test) { return test.param.name; });
 
 struct Help {

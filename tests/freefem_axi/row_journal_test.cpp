@@ -158,12 +158,21 @@ TEST_F(RowJournalFile, JournalsOfAWrittenTableAreRemoved) {
   EXPECT_TRUE(std::filesystem::is_empty(table().parent_path()));
 }
 
-TEST_F(RowJournalFile, JournalThatIsHeldOrHoldsRowsOfAnotherTabulationStays) {
-  RowJournal(journal_path(table(), "1-of-2.node.1"), "another-hash").append(kFirst);
-  const RowJournal held(journal_path(table(), "1-of-2.node.2"), "another-hash");
+TEST_F(RowJournalFile, RowsOfAnotherTabulationStayInTheJournal) {
+  write({kFirst});
+  RowJournal(path(), "another-hash").append(kSecond);
   remove_journals(table(), kHash);
+  EXPECT_TRUE(record().finished.empty());
   EXPECT_EQ(record("another-hash").finished.size(), 1U);
-  EXPECT_TRUE(std::filesystem::exists(journal_path(table(), "1-of-2.node.2")));
+  remove_journals(table(), "another-hash");
+  EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
+TEST_F(RowJournalFile, JournalThatIsHeldIsLeftAsItIs) {
+  RowJournal held(journal_path(table(), "1-of-2.node.2"), kHash);
+  remove_journals(table(), kHash);
+  held.append(kFirst);
+  EXPECT_EQ(record().finished.size(), 1U);
 }
 
 TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {

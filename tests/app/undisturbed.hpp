@@ -1,0 +1,12 @@
+// A table to compare with: that of a run that nothing disturbed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace viscontact {
+
+/// The text of a table file but for its last column, the seconds, which differ from run to run.
+std::string without_seconds(const std::filesystem::path& table);
+
+}  // namespace viscontact
