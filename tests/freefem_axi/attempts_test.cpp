@@ -1,0 +1,90 @@
+// What a script answers when no mesh is good enough, or the solver fails.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "freefem_axi/freefem.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/oracles/bispherical.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kGap = 0.5;
+
+/// A sphere above a plane in unbounded fluid, with an accuracy that no mesh has.
+ProcessResult solve_unreachable(const FreeFem& freefem, const std::string& cells,
+                                const std::string& attempts) {
+  return run_freefem(freefem, "plane.edp",
+                     {"-radius",
+                      "1",
+                      "-gap",
+                      "0.5",
+                      "-viscosity",
+                      "1",
+                      "-velocity",
+                      "-1",
+                      "-containerRadius",
+                      "0",
+                      "-containerHeight",
+                      "0",
+                      "-accuracy",
+                      "1e-15",
+                      "-levels",
+                      "3",
+                      "-cells",
+                      cells,
+                      "-attempts",
+                      attempts});
+}
+
+struct Answer {
+  double force = 0, estimate = 0, unknowns = 0;
+};
+
+Answer answer_of(const ProcessResult& result) {
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  std::istringstream words(line_after(result.output, "viscontact-result"));
+  Answer answer;
+  words >> answer.force >> answer.estimate >> answer.unknowns;
+  EXPECT_TRUE(words) << result.output;
+  return answer;
+}
+
+TEST(Attempts, AnswerWithTheBestOneAndItsOwnEstimateWhenNoneIsGoodEnough) {
+  const auto one = answer_of(solve_unreachable(default_freefem(), "2", "1"));
+  const auto three = answer_of(solve_unreachable(default_freefem(), "2", "3"));
+  const double exact = 6 * std::numbers::pi * plane_drag_factor(kGap);
+  for (const auto& answer : {one, three}) {
+    EXPECT_GT(answer.estimate, 1e-15);
+    EXPECT_LE(std::abs(answer.force / exact - 1), answer.estimate);
+  }
+  // The estimate falls like the 4th to 5th power of the cells, 1.96 times as many in the third attempt: by 15 at least.
+  EXPECT_LT(three.estimate, one.estimate / 5);
+  EXPECT_GT(three.unknowns, 3 * one.unknowns);
+}
+
+TEST(Attempts, OutOfMemoryIsAFailureNotAForce) {
+  // 0.6 GB: enough to begin with (0.4 GB of addresses are FreeFEM's own), but not for the finest mesh of 107 000 unknowns. UMFPACK then
+  // leaves zeros, and FreeFEM goes on.
+  const TemporaryFolder scratch;
+  const auto limited = scratch.path() / "limited_freefem";
+  const auto freefem = default_freefem();
+  put_text(limited, "#!/bin/sh\nulimit -v 600000\nexec '" + freefem.executable + "' \"$@\"\n");
+  make_executable(limited);
+  const auto result = solve_unreachable({limited.string(), freefem.script_folder}, "5", "1");
+  EXPECT_THAT(result.output, HasSubstr("viscontact-level 0"));
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_THAT(result.output, HasSubstr("viscontact-error the linear solve failed"));
+  EXPECT_THAT(result.output, Not(HasSubstr("viscontact-result")));
+}
+
+}  // namespace
+}  // namespace viscontact
