@@ -63,6 +63,7 @@ void refuse_second_job(const fs::path& output) {
 /// The numbers of the tasks that have rows to compute.
 std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
   std::vector<RowRecord> records;
+  records.reserve(tables.size());
   for (const auto& one : tables) records.push_back(read_row_record(one.table, one.hash()));
   std::vector<std::size_t> tasks;
   for (std::size_t task = 0; task < count; ++task) {

@@ -71,7 +71,8 @@ std::optional<JournalLine> read_journal_line(std::string_view line) {
   if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
     return {};
   std::istringstream words{std::string(line.substr(0, end))};
-  std::string hash, kind;
+  std::string hash;
+  std::string kind;
   words >> hash >> kind;
   if (kind == kFinished) {
     FinishedRow finished;

@@ -15,6 +15,7 @@ namespace viscontact {
 struct GridPoint {
   double gap = 0;                 ///< q [L]
   double reference_velocity = 0;  ///< u0 [L/T]
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy takes the 0 that <=> is compared with for a pointer
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 

@@ -25,7 +25,8 @@ namespace {
 /// True if the descriptor is what stands at `path`: the process that held the journal may have removed it
 /// while we waited for it to be opened.
 bool is_still_at(int file, const std::filesystem::path& path) {
-  struct stat opened = {}, there = {};
+  struct stat opened = {};
+  struct stat there = {};
   return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &there) == 0 &&
          opened.st_dev == there.st_dev && opened.st_ino == there.st_ino;
 }

@@ -87,6 +87,7 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
   };
   {
     std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(worker.jobs));
     for (int i = 0; i < worker.jobs; ++i) workers.emplace_back(work);
   }
   if (fatal) std::rethrow_exception(fatal);
