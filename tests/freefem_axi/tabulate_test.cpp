@@ -83,7 +83,7 @@ TEST_F(Tabulate, TableSaysItsGeometrysParameters) {
   tabulation_.geometry = "cavity";
   tabulation_.geometry_parameters = {5};
   tabulation_.container.reset();
-  const auto table = tabulate(fake.freefem(), tabulation_, 2, journal(), no_report);
+  const auto table = tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report);
   EXPECT_EQ(table.geometry, "cavity, radius 5");
   EXPECT_EQ(table.container, "none");
 }
