@@ -112,7 +112,7 @@ const Cases kFit = {
     {"FolderAsTable", {"fit", "@folder", "-o", "@f.json"}, "folder: cannot be read"},
     {"EmptyTable", {"fit", "@empty", "-o", "@f.json"}, "empty: "},
     {"TruncatedTable", {"fit", "@half.csv", "-o", "@f.json"}, "half.csv"},
-    {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:36: reference_velocity"},
+    {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:37: reference_velocity"},
     {"NoForceInTable", {"fit", "@no_force.csv", "-o", "@f.json"}, "'force'"},
     {"UnknownBasis", {"fit", "@table.csv", "-o", "@f.json", "--basis", "cubic"}, "'cubic'"},
     {"UnknownWeights", {"fit", "@table.csv", "-o", "@f.json", "--weights", "heavy"}, "heavy"},
