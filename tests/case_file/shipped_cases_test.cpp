@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "case_file/case_file.hpp"
+#include "fitting/force_table.hpp"
 #include "fitting/lubrication_force.hpp"
 
 namespace viscontact {
@@ -43,6 +44,18 @@ TEST(LecturesCase, TabulatesFortyGapsInTheLargeContainer) {
   EXPECT_EQ(tabulation.container.value().height, 80);
   EXPECT_EQ(tabulation.relative_accuracy, 1e-5);
   EXPECT_EQ(tabulation.geometry, "plane");
+}
+
+TEST(ShippedTables, AreThoseOfTheirCases) {
+  for (const std::string name : {"lecture", "plane", "free_surface", "equal_spheres"}) {
+    const Case c = shipped((name + ".toml").c_str());
+    const auto table = read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" +
+                                        name + ".csv");
+    EXPECT_EQ(table.case_hash, tabulation_hash(required_tabulation(c))) << name;
+    for (const auto& row : table.rows)
+      EXPECT_LE(row.relative_error_estimate, required_tabulation(c).relative_accuracy)
+          << name << ", gap " << row.gap;
+  }
 }
 
 TEST(LecturesCase, FitsTheLecturesBasis) {
