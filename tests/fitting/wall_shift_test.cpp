@@ -1,0 +1,75 @@
+// A table that is a smooth wall's, shifted, gives its shift back.
+#include "fitting/wall_shift.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/error.hpp"
+#include "fitting/fit.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kShift = 0.005;
+
+LubricationForce smooth() {
+  return LubricationForce(
+      read_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/lecture.json"));
+}
+
+ForceTable shifted_table() {
+  const auto force = smooth();
+  ForceTable table;
+  table.viscosity = force.viscosity();
+  table.radius = force.radius();
+  for (const double gap : {0.001, 0.01, 0.1, 1.0}) {
+    ForceTableRow row;
+    row.gap = gap;
+    row.reference_velocity = -2;
+    row.force = 2 * force.resistance(gap + kShift);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+TEST(WallShift, OfAShiftedSmoothWallIsFoundRowByRowAndInCommon) {
+  const auto found = fit_wall_shift(shifted_table(), smooth());
+  // Round-off of the force, 1e-16, over its slope: a relative 1e-16 of the gap of 1.
+  EXPECT_NEAR(found.shift, kShift, 1e-14);
+  for (const auto& row : found.rows) EXPECT_NEAR(row.shift, kShift, 1e-14);
+  EXPECT_LT(found.largest_relative_residual, 1e-12);
+}
+
+TEST(WallShift, OneRowThatIsAnotherShowsInItsResidual) {
+  auto table = shifted_table();
+  table.rows[2].force *= 1.01;
+  const auto found = fit_wall_shift(table, smooth());
+  EXPECT_LT(found.rows[2].shift, kShift);
+  EXPECT_GT(found.largest_relative_residual, 5e-3);
+  EXPECT_LT(found.largest_relative_residual, 1.01e-2);
+}
+
+TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
+  const auto fails_with = [](const ForceTable& table, const char* words) {
+    try {
+      (void)fit_wall_shift(table, smooth());
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), ExitCode::kBadInput);
+      EXPECT_THAT(error.what(), HasSubstr(words));
+    }
+  };
+  auto table = shifted_table();
+  table.viscosity *= 2;
+  fails_with(table, "viscosity");
+  table = shifted_table();
+  table.rows[0].force *= 100;
+  fails_with(table, "interval");
+}
+
+}  // namespace
+}  // namespace viscontact
