@@ -2,22 +2,9 @@
 
 #include <cmath>
 
+#include "tests/oracles/sinh_minus_argument.hpp"
+
 namespace viscontact {
-namespace {
-
-/// (sinh(x) - x) without cancellation, x >= 0.
-long double sinh_minus_argument(long double x) {
-  if (x > 1) return std::sinh(x) - x;
-  long double term = x, sum = 0;
-  for (int k = 1; k < 15; ++k) {  // x^29/29! < 1e-30: all the digits of a long double
-    term *= x * x / static_cast<long double>((2 * k) * (2 * k + 1));
-    sum += term;
-  }
-  return sum;
-}
-
-}  // namespace
-
 double brenner_drag_factor(double epsilon) {
   // cosh(alpha) - 1 = epsilon = 2 sinh^2(alpha/2): no digit is lost for small gaps.
   const long double alpha = 2 * std::asinh(std::sqrt(static_cast<long double>(epsilon) / 2));
