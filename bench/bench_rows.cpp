@@ -113,8 +113,9 @@ void measure_growth(const FreeFem& freefem) {
 /// The textbook's best error in the CPU time that the row took, the round that crosses it included.
 void measure_textbook(const FreeFem& freefem) {
   const FreeFem here{freefem.executable, std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
-  fmt::print("\nBeside bench/textbook.edp, at equal CPU time\n{:<8} {:>12} {:>7} {:>14} {:>7} {:>8}\n",
-             "gap/r", "error", "CPU s", "textbook error", "CPU s", "ratio");
+  fmt::print(
+      "\nBeside bench/textbook.edp, at equal CPU time\n{:<8} {:>12} {:>7} {:>14} {:>7} {:>8}\n",
+      "gap/r", "error", "CPU s", "textbook error", "CPU s", "ratio");
   for (const double gap : {1.0, 0.1, 0.01, 0.001}) {
     const double exact = plane_drag_factor(gap);
     const auto row = solve(freefem, unit("plane", {}, {}, 1e-5), gap);

@@ -49,8 +49,8 @@ TEST(LecturesCase, TabulatesFortyGapsInTheLargeContainer) {
 TEST(ShippedTables, AreThoseOfTheirCases) {
   for (const std::string name : {"lecture", "plane", "free_surface", "equal_spheres"}) {
     const Case c = shipped((name + ".toml").c_str());
-    const auto table = read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" +
-                                        name + ".csv");
+    const auto table =
+        read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" + name + ".csv");
     EXPECT_EQ(table.case_hash, tabulation_hash(required_tabulation(c))) << name;
     for (const auto& row : table.rows)
       EXPECT_LE(row.relative_error_estimate, required_tabulation(c).relative_accuracy)

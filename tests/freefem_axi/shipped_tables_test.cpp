@@ -58,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
     Of, ShippedTable,
     testing::Values(Shipped{"plane", "plane", {}, plane_drag_factor},
                     Shipped{"free_surface", "free_surface", {}, free_surface_drag_factor},
-                    Shipped{"equal_spheres", "sphere", {1, 0},
+                    Shipped{"equal_spheres",
+                            "sphere",
+                            {1, 0},
                             [](double gap) { return two_sphere_drag_factor(gap, 1, 0); }}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 
