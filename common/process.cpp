@@ -83,15 +83,15 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 
 /// In the child, between fork and exec, where only calls that a signal handler may make are allowed:
 /// becomes the program, or writes the error number to `failure` and ends.
-[[noreturn]] void become(char* const* arguments, char* const* variables, int input, int output,
-                         int failure, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
+                         int input, int output, int failure, pid_t parent) {
   // A group of its own: Ctrl-C reaches us alone, and we end the child in order.
   ::setpgid(0, 0);
   // kill -9 gives us no time to end it: then the kernel does.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
   if (::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
-      ::dup2(output, STDERR_FILENO) >= 0)
+      ::dup2(output, STDERR_FILENO) >= 0 && (*folder == '\0' || ::chdir(folder) == 0))
     ::execvpe(arguments[0], arguments, variables);
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
@@ -101,7 +101,8 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 }  // namespace
 
 ProcessResult run_process(const std::vector<std::string>& arguments,
-                          const std::vector<std::string>& environment, const std::string& input) {
+                          const std::vector<std::string>& environment, const std::string& input,
+                          const std::string& folder) {
   Pipe in = make_pipe();
   Pipe out = make_pipe();
   Pipe failure = make_pipe();
@@ -112,7 +113,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   // fork and no posix_spawn, which cannot ask that the child die with us.
   const pid_t child = ::fork();
   if (child == 0)
-    become(argument_pointers.data(), variable_pointers.data(), in.read_end.get(),
+    become(argument_pointers.data(), variable_pointers.data(), folder.c_str(), in.read_end.get(),
            out.write_end.get(), failure.write_end.get(), self);
   if (child < 0) return {false, 127, std::strerror(errno), 0};
   failure.write_end.close();

@@ -14,11 +14,11 @@ struct ProcessResult {
 };
 
 /// Runs arguments[0], looked up on PATH, with the other arguments, no standard input, and
-/// `environment` ("NAME=value") added to ours. `input`, if not empty, is its standard input. Ends
-/// it and throws Error(kInterrupted) when the user interrupts; the child ends when this thread or
+/// `environment` ("NAME=value") added to ours. `input`, if not empty, is its standard input;
+/// `folder`, if not empty, its working folder. Ends it and throws Error(kInterrupted) when the user interrupts; the child ends when this thread or
 /// process does, even by SIGKILL.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {},
-                          const std::string& input = {});
+                          const std::string& input = {}, const std::string& folder = {});
 
 }  // namespace viscontact

@@ -36,14 +36,21 @@ FreeFem default_freefem() {
 
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments) {
-  std::vector<std::string> command = {freefem.executable, "-nw", "-v", "0",
-                                      (freefem.script_folder / script).string()};
+  const auto scripts = std::filesystem::absolute(freefem.script_folder);
+  // A path, not a name to look for, is one from our own working folder.
+  const bool is_path = freefem.executable.find('/') != std::string::npos;
+  const std::string executable =
+      is_path ? std::filesystem::absolute(freefem.executable).string() : freefem.executable;
+  std::vector<std::string> command = {executable, "-nw", "-v", "0", (scripts / script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   // One process per row fills the cores; threads inside one would only get in each other's way.
-  const auto result = run_process(
-      command, {fmt::format("FF_INCLUDEPATH={};{}", freefem.script_folder.string(), kIncludeFolder),
-                fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
-                "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"});
+  // In the scripts' folder: FreeFEM looks for includes in the working folder first, and a user's may hold files of those names.
+  const auto result =
+      run_process(command,
+                  {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),
+                   fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
+                   "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"},
+                  {}, scripts.string());
   if (!result.started || result.exit_status == 127)
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or "

@@ -83,6 +83,15 @@ TEST(Process, ReplacesAVariableThatIsSetAlready) {
   EXPECT_EQ(count, 1U);
 }
 
+TEST(Process, RunsInTheFolderThatItIsGiven) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_process({"pwd", "-P"}, {}, {}, folder.path().string()).output,
+            std::filesystem::canonical(folder.path()).string() + "\n");
+  const auto nowhere = run_process({"pwd"}, {}, {}, (folder.path() / "none").string());
+  EXPECT_FALSE(nowhere.started);
+  EXPECT_THAT(nowhere.output, HasSubstr("No such file"));
+}
+
 TEST(Process, HasNoInputUnlessGiven) { EXPECT_EQ(shell("cat; echo end").output, "end\n"); }
 
 TEST(Process, TalksBothWaysWithoutDeadlock) {

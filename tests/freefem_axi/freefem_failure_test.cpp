@@ -111,5 +111,16 @@ TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
   EXPECT_EQ(line_after("keys 1\n", "key"), "");
 }
 
+TEST(WorkingFolder, WithFilesNamedLikeTheScriptsIncludesIsNotLookedInto) {
+  const TemporaryFolder folder;
+  put_text(folder.path() / "arguments.idp", "this is no script;\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const auto result = run_freefem(default_freefem(), "plane.edp", {});
+  std::filesystem::current_path(before);
+  // plane.edp itself speaks: it was compiled with its own includes.
+  EXPECT_THAT(result.output, HasSubstr("viscontact-error -radius is missing"));
+}
+
 }  // namespace
 }  // namespace viscontact
