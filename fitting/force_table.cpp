@@ -14,6 +14,7 @@ const std::array<std::string, 7> kColumns = {
     "seconds"};
 constexpr std::size_t kRequiredColumns = 3;
 constexpr std::string_view kVersionPrefix = "version of ";
+const std::string kNeighbourMoves = "neighbour_moves";
 
 std::string comment_or(const CsvComments& comments, const std::string& key) {
   const auto found = comments.find(key);
@@ -36,6 +37,7 @@ ForceTable read_force_table(const std::filesystem::path& path) {
   table.viscosity = positive_comment(csv.comments, "viscosity", file);
   table.radius = positive_comment(csv.comments, "radius", file);
   table.geometry = comment_or(csv.comments, "geometry");
+  table.neighbour_moves = comment_or(csv.comments, kNeighbourMoves) == "yes";
   table.container = comment_or(csv.comments, "container");
   table.case_hash = comment_or(csv.comments, "case");
   for (const auto& [key, value] : csv.comments)
@@ -48,8 +50,7 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     row.force = required_field(fields, kColumns, 2, file);
     if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; must be > 0", row.gap));
     if (row.reference_velocity == 0) throw_bad_input(here, "reference_velocity is 0; must not be");
-    // A second sphere may move, and pull this one along.
-    if (!(row.force * row.reference_velocity < 0) && !table.geometry.starts_with("sphere"))
+    if (!(row.force * row.reference_velocity < 0) && !table.neighbour_moves)
       throw_bad_input(here,
                       fmt::format("force is {} at velocity {}; a drag is opposed to the velocity",
                                   row.force, row.reference_velocity));
@@ -72,6 +73,7 @@ std::string write_force_table(const ForceTable& table) {
       {"viscontact", "force table"},           {"viscosity", format_number(table.viscosity)},
       {"radius", format_number(table.radius)}, {"geometry", table.geometry},
       {"container", table.container},          {"rows", std::to_string(table.rows.size())}};
+  if (table.neighbour_moves) comments[kNeighbourMoves] = "yes";
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
   for (const auto& [program, version] : table.versions)
     comments[std::string(kVersionPrefix) + program] = version;

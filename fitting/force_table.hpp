@@ -28,6 +28,7 @@ struct ForceTable {
   double radius = 0;      ///< r [L], > 0
   std::string geometry;   ///< what the sphere approaches, in words; empty in a user's own table
   std::string container;  ///< in words
+  bool neighbour_moves = false;  ///< it may pull: the force may then be along the velocity
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
   std::vector<ForceTableRow> rows;

@@ -32,17 +32,20 @@ RoomNeeded room_of_pair(double radius, double gap, Parameters parameters) {
   return {larger, gap + 4 * larger};
 }
 
+bool has_velocity(Parameters parameters) { return parameters[1] != 0; }
+
 /// The gap is that to the nearest wall: up to concentric.
 RoomNeeded room_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
 constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp", {}, true, room_above_floor},
-    Geometry{"free_surface", "free_surface.edp", {}, true, room_above_floor},
-    Geometry{"sphere", "sphere.edp", kSphereParameters, true, room_of_pair},
-    Geometry{"cavity", "cavity.edp", kCavityParameters, false, room_in_cavity},
-    Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, room_above_floor},
+    Geometry{"plane", "plane.edp", {}, true, nullptr, room_above_floor},
+    Geometry{"free_surface", "free_surface.edp", {}, true, nullptr, room_above_floor},
+    Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, room_of_pair},
+    Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, room_in_cavity},
+    Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr,
+             room_above_floor},
 };
 
 }  // namespace

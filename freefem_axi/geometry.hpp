@@ -32,6 +32,8 @@ struct Geometry {
   std::string_view script;  ///< in this folder; docs/extending.md says what it is given and answers
   std::span<const GeometryParameter> parameters;
   bool takes_container;  ///< false: it is its own
+  /// True if the neighbour itself moves, so that it may pull the sphere along; null: it never does.
+  bool (*moves)(std::span<const double> parameters);
   /// For a sphere of radius r [L], a gap [L] and the parameters in the order above.
   RoomNeeded (*room)(double radius, double gap, std::span<const double> parameters);
 };

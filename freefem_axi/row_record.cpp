@@ -106,6 +106,7 @@ ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record)
   table.viscosity = tabulation.viscosity;
   table.radius = tabulation.radius;
   table.geometry = geometry_in_words(tabulation);
+  table.neighbour_moves = neighbour_moves(tabulation);
   table.container = container_in_words(tabulation);
   table.case_hash = tabulation_hash(tabulation);
   std::set<std::string> freefem_versions;

@@ -55,6 +55,11 @@ std::string geometry_in_words(const Tabulation& tabulation) {
   return words;
 }
 
+bool neighbour_moves(const Tabulation& tabulation) {
+  const auto& geometry = find_geometry(tabulation.geometry);
+  return geometry.moves != nullptr && geometry.moves(tabulation.geometry_parameters);
+}
+
 std::string tabulation_hash(const Tabulation& tabulation) {
   std::string text = fmt::format(
       "{}; {}; {} {} {} {};", geometry_in_words(tabulation), container_in_words(tabulation),

@@ -35,6 +35,9 @@ std::string container_in_words(const Tabulation& tabulation);
 /// In words, for a table's header: "sphere, radius 2, velocity_ratio 0".
 std::string geometry_in_words(const Tabulation& tabulation);
 
+/// True if the geometry's parameters say that what the sphere approaches moves itself.
+bool neighbour_moves(const Tabulation& tabulation);
+
 /// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
 std::string tabulation_hash(const Tabulation& tabulation);
 

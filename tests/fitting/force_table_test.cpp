@@ -104,20 +104,20 @@ TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
   EXPECT_EQ(table.rows[0].relative_error_estimate, 0);
 }
 
-TEST(ForceTable, MayHaveAForceAlongTheVelocityFromASecondSphereOnly) {
+TEST(ForceTable, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly) {
   const TemporaryFolder folder;
   const std::string rows = "gap,reference_velocity,force\n0.5,-1,-1000\n";
-  const auto with_geometry = [&](const std::string& geometry) {
-    return folder.file("table.csv", kHead + ("# geometry: " + geometry + "\n") + rows);
-  };
-  EXPECT_EQ(read_force_table(with_geometry("sphere, radius 1, velocity_ratio 2")).rows[0].force,
-            -1000);
-  for (const auto* geometry : {"plane", "free_surface", "cavity, radius 5",
-                               "rough_plane, amplitude 0.1, wavelength 0.5"}) {
-    const auto path = with_geometry(geometry);
+  const auto moving =
+      read_force_table(folder.file("moving.csv", kHead + ("# neighbour_moves: yes\n" + rows)));
+  EXPECT_EQ(moving.rows[0].force, -1000);
+  EXPECT_TRUE(moving.neighbour_moves);
+  EXPECT_THAT(write_force_table(moving), HasSubstr("# neighbour_moves: yes\n"));
+  for (const auto* line :
+       {"# geometry: sphere, radius 1, velocity_ratio 0\n", "# geometry: plane\n"}) {
+    const auto path = folder.file("resting.csv", kHead + (line + rows));
     EXPECT_THAT(bad_input([&] { read_force_table(path); }),
                 AllOf(StartsWith(path.string() + ":5: "), HasSubstr("opposed to the velocity")))
-        << geometry;
+        << line;
   }
 }
 

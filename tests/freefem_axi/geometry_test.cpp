@@ -159,5 +159,15 @@ TEST(TabulationHash, OfACavityDoesNotDependOnAContainerThatItHasNot) {
   EXPECT_EQ(tabulation_hash(without), tabulation_hash(tabulation_of("cavity", {5})));
 }
 
+TEST(Neighbour, MovesOnlyIfItIsASphereWithAVelocity) {
+  auto tabulation = unit_tabulation({0.1}, 5, 1e-3);
+  EXPECT_FALSE(neighbour_moves(tabulation));
+  tabulation.geometry = "sphere";
+  tabulation.geometry_parameters = {1, 0};
+  EXPECT_FALSE(neighbour_moves(tabulation));
+  tabulation.geometry_parameters = {1, -0.5};
+  EXPECT_TRUE(neighbour_moves(tabulation));
+}
+
 }  // namespace
 }  // namespace viscontact
