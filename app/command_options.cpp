@@ -22,4 +22,10 @@ void refuse_other_kind(const std::string& path, std::string_view marker, std::st
 
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
+CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
+  return command.add_option("-j,--jobs", jobs, help)
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
 }  // namespace viscontact

@@ -1,6 +1,7 @@
 // What several commands do with their options.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,8 @@ void refuse_other_kind(const std::string& path, std::string_view marker, std::st
 
 /// One FreeFEM process for each core.
 int default_jobs();
+
+/// The option -j, --jobs into `jobs`.
+CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 
 }  // namespace viscontact

@@ -141,9 +141,7 @@ void add_run(CLI::App& app) {
       ->add_option("-o,--output", o->folder,
                    "folder for the results; what is up to date there is not made again")
       ->required();
-  command->add_option("-j,--jobs", o->jobs, "FreeFEM processes at once")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(*command, o->jobs, "FreeFEM processes at once");
   command->callback([o] { run_stages(read_case(o->case_file), o->folder, o->jobs); });
 }
 

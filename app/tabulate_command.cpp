@@ -29,12 +29,8 @@ void add_tabulate(CLI::App& app) {
       ->add_option("-o,--output", o->output,
                    "table to write (CSV); for several cases: folder, gets CASE.csv for each")
       ->required();
-  const auto* jobs = command
-                         ->add_option("-j,--jobs", o->jobs,
-                                      "FreeFEM processes at once; in each Slurm task: 1 unless "
-                                      "given")
-                         ->check(CLI::Range(1, 1024))
-                         ->capture_default_str();
+  const auto* jobs =
+      add_jobs(*command, o->jobs, "FreeFEM processes at once; in each Slurm task: 1 unless given");
   auto* launcher =
       command
           ->add_option("--launcher", o->launcher, "local: compute here; slurm: submit an array job")
