@@ -20,6 +20,16 @@ void refuse_other_kind(const std::string& path, std::string_view marker, std::st
         {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
 }
 
+void check_outputs(const std::vector<std::string>& paths) {
+  namespace fs = std::filesystem;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].empty()) throw Error(ExitCode::kWrongUsage, "an output has no name");
+    for (std::size_t j = 0; j < i; ++j)
+      if (fs::weakly_canonical(paths[i]) == fs::weakly_canonical(paths[j]))
+        throw Error(ExitCode::kWrongUsage, fmt::format("{} would be written twice", paths[i]));
+  }
+}
+
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {

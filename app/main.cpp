@@ -46,6 +46,7 @@ void add_fit(CLI::App& app) {
   command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
       ->capture_default_str();
   command->callback([o] {
+    check_outputs({o->fit});
     refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
     fit_stage(o->table, o->fit, o->basis, parse_weights(o->weights));
   });
@@ -63,6 +64,9 @@ void add_shift(CLI::App& app) {
   command->add_option("-o,--output", o->shift, "shifts to write, row by row (CSV)")->required();
   command->add_option("--plot", o->plot, "picture to write (SVG)");
   command->callback([o] {
+    auto outputs = std::vector{o->shift};
+    if (!o->plot.empty()) outputs.push_back(o->plot);
+    check_outputs(outputs);
     refuse_other_kind(o->shift, "# viscontact: wall shift", "file of shifts");
     if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
     shift_stage(o->table, o->fit, o->shift, o->plot);
@@ -91,6 +95,7 @@ void add_simulate(CLI::App& app) {
                     "below the fit's smallest gap use the leading term and what the fit adds to it "
                     "there, instead of stopping");
   command->callback([o] {
+    check_outputs({o->folder});
     simulate_stage(read_case(o->case_file), o->fit, o->folder, o->models,
                    o->lubrication_limit ? BelowInterval::kLubricationLimit : BelowInterval::kError);
   });
@@ -142,7 +147,10 @@ void add_run(CLI::App& app) {
                    "folder for the results; what is up to date there is not made again")
       ->required();
   add_jobs(*command, o->jobs, "FreeFEM processes at once");
-  command->callback([o] { run_stages(read_case(o->case_file), o->folder, o->jobs); });
+  command->callback([o] {
+    check_outputs({o->folder});
+    run_stages(read_case(o->case_file), o->folder, o->jobs);
+  });
 }
 
 void add_doctor(CLI::App& app, bool& healthy) {

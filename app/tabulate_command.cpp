@@ -64,6 +64,7 @@ void add_tabulate(CLI::App& app) {
     if (!slurm && (tasks->count() > 0 || slurm_options->count() > 0))
       throw Error(ExitCode::kWrongUsage,
                   "--tasks and --slurm-options are for --launcher slurm only");
+    check_outputs({o->output});
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);
     for (const auto& one : tables)

@@ -12,6 +12,7 @@
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/number.hpp"
+#include "common/on_one_line.hpp"
 #include "freefem_axi/tabulate.hpp"
 
 namespace viscontact {
@@ -85,7 +86,7 @@ std::string words_for(const GridPoint& point) {
       reasons.push_back(failed->second);
   std::string text = fmt::format(
       "{} of {} rows are missing ({}); the finished ones are kept, the same command "
-      "with --launcher slurm in place of --gather computes the rest",
+      "without --gather computes the rest here, with --launcher slurm or --task elsewhere",
       missing.size(), grid_of(one.tabulation()).size(), named);
   if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
   if (const auto submitted = slurm_folder / one.c.path.filename();
@@ -103,13 +104,6 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
   write_table(one, assemble_table(one.tabulation(), record));
   say(fmt::format("tabulate: {} is gathered", one.table.string()));
-}
-
-/// The message on one line.
-std::string on_one_line(std::string text) {
-  for (auto& character : text)
-    if (character == '\n') character = ' ';
-  return text;
 }
 
 /// Does the work of each table. What is wrong with the rows of one does not stop the others.

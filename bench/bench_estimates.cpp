@@ -61,8 +61,7 @@ void print_coverage(const char* name, std::size_t asked, std::vector<SolvedRow> 
              rows[rows.size() / 2].ratio(), rows.back().ratio(),
              share([](const SolvedRow& row) { return !row.says_reached(); }),
              share([](const SolvedRow& row) {
-               return row.says_reached() &&
-                      row.error() - row.row.rounding > row.row.tabulation.relative_accuracy;
+               return row.says_reached() && row.error() > row.row.tabulation.relative_accuracy;
              }),
              seconds / static_cast<double>(rows.size()));
   std::fflush(stdout);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "case_file/toml_section.hpp"
 #include "common/error.hpp"
@@ -53,6 +54,9 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
     gaps.push_back(spacing == "log" ? from * std::pow(to / from, w) : std::lerp(from, to, w));
   }
   gaps.back() = to;
+  if (std::ranges::adjacent_find(gaps, std::greater_equal()) != gaps.end())
+    grid.fail("count", fmt::format("is {}: more gaps than there are numbers from {} to {}", count,
+                                   from, to));
   return gaps;
 }
 
@@ -112,6 +116,11 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
     section.fail("reference_velocities", "has the same velocity twice");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   read_geometry(section, tabulation);
+  // Below, the matrices are beyond double precision.
+  constexpr double kSmallestGap = 1e-8;
+  if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)
+    section.fail("gaps", fmt::format("goes down to {}; a gap is at least {} sphere radii, {}",
+                                     narrowest, kSmallestGap, kSmallestGap * radius));
   const double widest = tabulation.gaps.back();
   const auto room =
       find_geometry(tabulation.geometry).room(radius, widest, tabulation.geometry_parameters);

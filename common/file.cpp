@@ -65,6 +65,9 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
   fs::path place = path;
   if (fs::is_symlink(fs::symlink_status(path, error))) {
     place = fs::weakly_canonical(path, error);
+    // What does not exist yet is not followed by that.
+    if (!error && fs::is_symlink(fs::symlink_status(place, error)))
+      place = place.parent_path() / fs::read_symlink(place, error);
     if (error) throw_system_error(path, "written", error.value());
   }
   const auto status = fs::status(place, error);

@@ -8,13 +8,14 @@
 namespace viscontact {
 namespace {
 
-const std::array<std::string, 7> kColumns = {
+const std::array<std::string, 8> kColumns = {
     "gap",         "reference_velocity",      "force",
     "drag_factor", "relative_error_estimate", "degrees_of_freedom",
-    "seconds"};
+    "seconds",     "observed_order"};
 constexpr std::size_t kRequiredColumns = 3;
 constexpr std::string_view kVersionPrefix = "version of ";
 const std::string kNeighbourMoves = "neighbour_moves";
+const std::string kLeadingCoefficient = "leading_coefficient";
 
 std::string comment_or(const CsvComments& comments, const std::string& key) {
   const auto found = comments.find(key);
@@ -38,6 +39,8 @@ ForceTable read_force_table(const std::filesystem::path& path) {
   table.radius = positive_comment(csv.comments, "radius", file);
   table.geometry = comment_or(csv.comments, "geometry");
   table.neighbour_moves = comment_or(csv.comments, kNeighbourMoves) == "yes";
+  if (csv.comments.contains(kLeadingCoefficient))
+    table.leading_coefficient = csv_comment_number(csv.comments, kLeadingCoefficient, file);
   table.container = comment_or(csv.comments, "container");
   table.case_hash = comment_or(csv.comments, "case");
   for (const auto& [key, value] : csv.comments)
@@ -59,6 +62,7 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     row.relative_error_estimate = fields.fields[4].value_or(0);
     row.degrees_of_freedom = fields.fields[5].value_or(0);
     row.seconds = fields.fields[6].value_or(0);
+    row.observed_order = fields.fields[7].value_or(0);
     if (row.relative_error_estimate < 0)
       throw_bad_input(here, fmt::format("relative_error_estimate is {}; must be >= 0",
                                         row.relative_error_estimate));
@@ -74,16 +78,19 @@ std::string write_force_table(const ForceTable& table) {
       {"radius", format_number(table.radius)}, {"geometry", table.geometry},
       {"container", table.container},          {"rows", std::to_string(table.rows.size())}};
   if (table.neighbour_moves) comments[kNeighbourMoves] = "yes";
+  if (table.leading_coefficient)
+    comments[kLeadingCoefficient] = format_number(*table.leading_coefficient);
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
   for (const auto& [program, version] : table.versions)
     comments[std::string(kVersionPrefix) + program] = version;
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& row : table.rows)
-    text += fmt::format("{},{},{},{},{},{},{}\n", format_number(row.gap),
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", format_number(row.gap),
                         format_number(row.reference_velocity), format_number(row.force),
                         format_number(row.drag_factor), format_number(row.relative_error_estimate),
-                        format_number(row.degrees_of_freedom), format_number(row.seconds));
+                        format_number(row.degrees_of_freedom), format_number(row.seconds),
+                        format_number(row.observed_order));
   return text;
 }
 

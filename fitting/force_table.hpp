@@ -4,12 +4,13 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace viscontact {
 
-/// One solved (gap, velocity). Dimensions: [L], [L/T], [M L/T^2], 1, 1, count, s.
+/// One solved (gap, velocity). Dimensions: [L], [L/T], [M L/T^2], 1, 1, count, s, 1.
 struct ForceTableRow {
   double gap = 0;                 ///< q > 0
   double reference_velocity = 0;  ///< u0, not 0; negative: approaching
@@ -19,6 +20,7 @@ struct ForceTableRow {
   double relative_error_estimate = 0;  ///< of force, >= 0
   double degrees_of_freedom = 0;       ///< unknowns on the finest mesh
   double seconds = 0;                  ///< wall time of the row
+  double observed_order = 0;  ///< of convergence in the mesh size; 4 in theory, 0: not observed
 };
 
 /// A table with what it was computed for. Rows are in the order of computation: gaps within
@@ -29,7 +31,9 @@ struct ForceTable {
   std::string geometry;   ///< what the sphere approaches, in words; empty in a user's own table
   std::string container;  ///< in words
   bool neighbour_moves = false;  ///< it may pull: the force may then be along the velocity
-  std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
+  std::optional<double>
+      leading_coefficient{};  ///< theory's k of R ~ k/q near contact [M L/T], if it is known
+  std::string case_hash;      ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
   std::vector<ForceTableRow> rows;
 };

@@ -26,6 +26,11 @@ RoomNeeded room_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
 
+/// Two radii of ripples lie around the axis.
+RoomNeeded room_above_ripples(double radius, double gap, Parameters) {
+  return {2 * radius, gap + 2 * radius};
+}
+
 /// The middle of the gap is at mid-height.
 RoomNeeded room_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
@@ -39,13 +44,35 @@ RoomNeeded room_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
+// Lubrication theory (Cox & Brenner 1967; Jeffrey & Onishi 1984): k = 6 pi mu r_eff^2, 1/r_eff = 1/r + 1/r_neighbour (a cavity's radius is negative), times
+// the velocity of approach over the sphere's; a quarter of it where the neighbour does not hold the fluid.
+double leading_of_plane(double, Parameters) { return 1; }
+double leading_of_free_surface(double, Parameters) { return 0.25; }
+double leading_of_pair(double radius, Parameters parameters) {
+  const double share = parameters[0] / (radius + parameters[0]);
+  return share * share * (1 - parameters[1]);
+}
+double leading_in_cavity(double radius, Parameters parameters) {
+  const double share = parameters[0] / (parameters[0] - radius);
+  return share * share;
+}
+
 constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp", {}, true, nullptr, room_above_floor},
-    Geometry{"free_surface", "free_surface.edp", {}, true, nullptr, room_above_floor},
-    Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, room_of_pair},
-    Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, room_in_cavity},
-    Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr,
+    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, room_above_floor},
+    Geometry{"free_surface",
+             "free_surface.edp",
+             {},
+             true,
+             nullptr,
+             leading_of_free_surface,
              room_above_floor},
+    Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
+             room_of_pair},
+    Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
+             room_in_cavity},
+    // Ripples under the film's middle change it as the gap goes to 0.
+    Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
+             room_above_ripples},
 };
 
 }  // namespace

@@ -34,6 +34,8 @@ struct Geometry {
   bool takes_container;  ///< false: it is its own
   /// True if the neighbour itself moves, so that it may pull the sphere along; null: it never does.
   bool (*moves)(std::span<const double> parameters);
+  /// Theory's coefficient k of R ~ k/q near contact over that of a plane, 6 pi mu r^2: the relative curvature and velocity; null: not known.
+  double (*leading_factor)(double radius, std::span<const double> parameters);
   /// For a sphere of radius r [L], a gap [L] and the parameters in the order above.
   RoomNeeded (*room)(double radius, double gap, std::span<const double> parameters);
 };

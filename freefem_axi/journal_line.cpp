@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <initializer_list>
 #include <sstream>
 
 #include "common/file.hpp"
 #include "common/number.hpp"
+#include "common/on_one_line.hpp"
 
 namespace viscontact {
 namespace {
@@ -18,12 +18,6 @@ constexpr std::string_view kFailed = "failed";
 std::string checksum(std::string_view text) {
   constexpr std::size_t kDigits = 16;
   return sha256(text).substr(0, kDigits);
-}
-
-/// The text on one line.
-std::string on_one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
 }
 
 /// Reads as many numbers as there are places for them; false if there are not so many.
@@ -46,11 +40,11 @@ std::string rest_of(std::istream& words) {
 
 std::string text_of(const FinishedRow& finished) {
   const auto& row = finished.row;
-  return fmt::format("{} {} {} {} {} {} {} {} {}", kFinished, format_number(row.gap),
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}", kFinished, format_number(row.gap),
                      format_number(row.reference_velocity), format_number(row.force),
                      format_number(row.drag_factor), format_number(row.relative_error_estimate),
                      format_number(row.degrees_of_freedom), format_number(row.seconds),
-                     on_one_line(finished.freefem_version));
+                     format_number(row.observed_order), on_one_line(finished.freefem_version));
 }
 
 std::string text_of(const FailedRow& failed) {
@@ -78,7 +72,8 @@ std::optional<JournalLine> read_journal_line(std::string_view line) {
     FinishedRow finished;
     auto& row = finished.row;
     if (!read_numbers(words, {&row.gap, &row.reference_velocity, &row.force, &row.drag_factor,
-                              &row.relative_error_estimate, &row.degrees_of_freedom, &row.seconds}))
+                              &row.relative_error_estimate, &row.degrees_of_freedom, &row.seconds,
+                              &row.observed_order}))
       return {};
     finished.freefem_version = rest_of(words);
     return JournalLine{hash, finished};

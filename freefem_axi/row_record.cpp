@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <regex>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -21,6 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// True for "K-of-T.HOST.PROCESS" (Share's writers in app/tabulate_stage.cpp): what else begins like a journal's name is the user's.
+bool is_writer_name(const std::string& name) {
+  static const std::regex kWriter(R"(\d+-of-\d+\..+\.\d+)");
+  return std::regex_match(name, kWriter);
+}
+
 /// The journals of a table, by name.
 std::vector<fs::path> journals_of(const fs::path& table_path) {
   const fs::path own = journal_path(table_path);
@@ -29,7 +36,9 @@ std::vector<fs::path> journals_of(const fs::path& table_path) {
   for (const auto& entry :
        fs::directory_iterator(own.has_parent_path() ? own.parent_path() : ".", no_folder)) {
     const std::string name = entry.path().filename().string();
-    if (name == own.filename() || name.starts_with(own.filename().string() + "."))
+    const std::string stem = own.filename().string() + ".";
+    if (name == own.filename() ||
+        (name.starts_with(stem) && is_writer_name(name.substr(stem.size()))))
       journals.push_back(entry.path());
   }
   std::ranges::sort(journals);
@@ -107,6 +116,7 @@ ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record)
   table.radius = tabulation.radius;
   table.geometry = geometry_in_words(tabulation);
   table.neighbour_moves = neighbour_moves(tabulation);
+  table.leading_coefficient = leading_coefficient(tabulation);
   table.container = container_in_words(tabulation);
   table.case_hash = tabulation_hash(tabulation);
   std::set<std::string> freefem_versions;

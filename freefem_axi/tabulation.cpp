@@ -23,7 +23,7 @@ constexpr int kAttempts = 3;
 
 // Raised whenever a change of the scripts changes what they compute, so that tables made before are
 // made again.
-constexpr int kMethod = 2;
+constexpr int kMethod = 3;
 
 /// The end of a program's output, on one line.
 std::string last_lines(const std::string& output) {
@@ -58,6 +58,13 @@ std::string geometry_in_words(const Tabulation& tabulation) {
 bool neighbour_moves(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   return geometry.moves != nullptr && geometry.moves(tabulation.geometry_parameters);
+}
+
+std::optional<double> leading_coefficient(const Tabulation& tabulation) {
+  const auto& geometry = find_geometry(tabulation.geometry);
+  if (geometry.leading_factor == nullptr) return std::nullopt;
+  return stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
+         geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
 }
 
 std::string tabulation_hash(const Tabulation& tabulation) {
@@ -103,12 +110,13 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
 
   std::istringstream answer(line_after(result.output, "viscontact-result"));
-  std::array<std::string, 3> words;
+  std::array<std::string, 4> words;
   for (auto& word : words) answer >> word;
   const auto force = parse_number(words[0]);
   const auto estimate = parse_number(words[1]);
   const auto unknowns = parse_number(words[2]);
-  if (result.exit_status != 0 || !force || !estimate || !unknowns) {
+  const auto order = parse_number(words[3]);
+  if (result.exit_status != 0 || !force || !estimate || !unknowns || !order) {
     const std::string said = line_after(result.output, "viscontact-error");
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
@@ -124,6 +132,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
       -*force / (stokes_resistance(tabulation.viscosity, tabulation.radius) * reference_velocity);
   row.relative_error_estimate = *estimate;
   row.degrees_of_freedom = *unknowns;
+  row.observed_order = *order;
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return row;
 }

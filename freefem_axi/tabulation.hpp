@@ -38,6 +38,9 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// True if the geometry's parameters say that what the sphere approaches moves itself.
 bool neighbour_moves(const Tabulation& tabulation);
 
+/// Theory's coefficient k of R ~ k/q near contact [M L/T]; nothing where it is not known.
+std::optional<double> leading_coefficient(const Tabulation& tabulation);
+
 /// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
 std::string tabulation_hash(const Tabulation& tabulation);
 

@@ -70,7 +70,7 @@ TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
   const auto fit = read_fit(path("fit.json"));
   EXPECT_EQ(fit.basis, "lecture");
   EXPECT_EQ(fit.weights, Weights::kRelative);
-  // physics.md, section 3: 2.5e-3 over [1e-3, 1]; to 2 it is less than twice as far from a cubic.
+  // docs/theory.md, section 2: 2.5e-3 over [1e-3, 1]; to 2 it is less than twice as far from a cubic.
   EXPECT_LT(fit.largest_relative_residual, 5e-3);
 }
 
@@ -137,7 +137,7 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
   expect_done(run_viscontact(with_limit));
   expect_done(run_viscontact({"compare", path("run")}));
   // What k/q plus a constant leaves out below 0.01 is (1/5) ln(q/0.01) of 1/q: 0.1 % at 3e-3, and as much of the drag's whole
-  // impulse near the minimum. The exact minimum is 2.97846e-3 (physics.md, section 4).
+  // impulse near the minimum. The exact minimum is 2.97846e-3 (docs/theory.md, section 3).
   EXPECT_NEAR(comparison_of("inertial").minimal_gap, 2.97845928e-3, 0.02 * 2.97845928e-3);
 }
 
@@ -147,7 +147,7 @@ TEST_F(Stages, MinimalGapsAreTheLecturesNumbers) {
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
   EXPECT_EQ(read_comparison(path("run/comparison.json")).reference_model, "inertial");
-  // physics.md, section 4, with the exact drag; the fit (6e-6 relative) changes them in the fifth digit, and Euler at
+  // docs/theory.md, section 3, with the exact drag; the fit (6e-6 relative) changes them in the fifth digit, and Euler at
   // h = 1e-3 is 8.9e-3 below. A quarter of that as tolerance.
   EXPECT_NEAR(comparison_of("reference_exact").minimal_gap / 2.97084661e-3, 1, 1e-3);
   EXPECT_NEAR(comparison_of("inertial").minimal_gap / 2.97845928e-3, 1, 1e-3);

@@ -1,16 +1,37 @@
 #include "tests/app/undisturbed.hpp"
 
+#include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include "common/file.hpp"
 
 namespace viscontact {
+namespace {
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+}  // namespace
 
 std::string without_seconds(const std::filesystem::path& table) {
   std::istringstream lines(read_file(table));
   std::string text;
-  for (std::string line; std::getline(lines, line);)
-    text += (line.starts_with('#') ? line : line.substr(0, line.rfind(','))) + "\n";
+  std::ptrdiff_t seconds = -1;  // its place in the header, the first line that is no comment
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('#')) {
+      auto fields = fields_of(line);
+      if (seconds < 0) seconds = std::ranges::find(fields, "seconds") - fields.begin();
+      fields.erase(fields.begin() + seconds);
+      line.clear();
+      for (const auto& field : fields) line += field + ",";
+    }
+    text += line + "\n";
+  }
   return text;
 }
 

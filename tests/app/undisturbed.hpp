@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// The text of a table file but for its last column, the seconds, which differ from run to run.
+/// The text of a table file but for the column of seconds, which differ from run to run.
 std::string without_seconds(const std::filesystem::path& table);
 
 }  // namespace viscontact

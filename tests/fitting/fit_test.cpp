@@ -24,7 +24,7 @@ double fitted_force(const Fit& fit, double gap) {
   return force;
 }
 
-/// A figure of physics.md, section 3, and half a unit of its last printed digit.
+/// A figure of docs/theory.md, section 2, and half a unit of its last printed digit.
 struct Printed {
   const char* basis;
   Weights weights;

@@ -51,6 +51,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
     row.relative_error_estimate = random_positive(random);
     row.degrees_of_freedom = i * 12345;
     row.seconds = random_positive(random);
+    row.observed_order = 4 - random_positive(random);
     table.rows.push_back(row);
   }
   const TemporaryFolder folder;
@@ -71,6 +72,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
     EXPECT_EQ(back.rows[i].relative_error_estimate, table.rows[i].relative_error_estimate);
     EXPECT_EQ(back.rows[i].degrees_of_freedom, table.rows[i].degrees_of_freedom);
     EXPECT_EQ(back.rows[i].seconds, table.rows[i].seconds);
+    EXPECT_EQ(back.rows[i].observed_order, table.rows[i].observed_order);
   }
   EXPECT_EQ(write_force_table(back), read_file(path));
 }
@@ -78,7 +80,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
 TEST(ForceTable, HasTheColumnsOfTheInterface) {
   EXPECT_THAT(write_force_table(exact_drag_table({0.5}, {-1}, 3, 1)),
               HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,"
-                        "degrees_of_freedom,seconds\n0.5,-1,"));
+                        "degrees_of_freedom,seconds,observed_order\n0.5,-1,"));
 }
 
 TEST(ForceTable, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {

@@ -166,7 +166,7 @@ TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
 }
 
 TEST(ImpulseInverse, GivesTheLecturesMinimalGap) {
-  // Without inertia Gamma(q_min) = Gamma(q0) + impulse of the push, -200 for 2 units of time (physics.md, section 4), on the exact
+  // Without inertia Gamma(q_min) = Gamma(q0) + impulse of the push, -200 for 2 units of time (docs/theory.md, section 3), on the exact
   // drag. The fit is within 6e-6 of the drag everywhere, hence Gamma too, and dq/q = dGamma/k = 6e-6 * 400/56.5 at worst;
   // the residual changes sign, so 1e-5 holds.
   const LubricationForce force(fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1),

@@ -42,7 +42,7 @@ inline ForceTable exact_drag_table(const std::vector<double>& gaps,
   return table;
 }
 
-/// The 50 gaps of physics.md's table of what the exact half-space drag allows (section 3).
+/// The 50 gaps of docs/theory.md's table of what the exact half-space drag allows (section 2).
 inline std::vector<double> fifty_gaps() { return log_spaced(1e-3, 1, 50); }
 
 struct NamedCoefficient {

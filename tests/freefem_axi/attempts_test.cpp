@@ -63,7 +63,6 @@ TEST(Attempts, GoOnUntilTheAccuracyIsMetAndAnswerWithTheirOwnEstimateWhereItIsNo
   const auto three = answer_of(solve(default_freefem(), "3e-7", "2", "3"));
   const double exact = 6 * std::numbers::pi * plane_drag_factor(kGap);
   for (const auto& answer : {one, three}) {
-    EXPECT_GT(answer.estimate, 1e-15);
     EXPECT_LE(std::abs(answer.force / exact - 1), answer.estimate);
   }
   // At gap 0.5 the first attempt's estimate is about 4e-6.

@@ -1,41 +1,18 @@
 // Real FreeFEM through solve_row() against exact drags.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "common/csv.hpp"
 #include "freefem_axi/tabulate.hpp"
 #include "freefem_axi/tabulation.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/sphere_in_cylinder.hpp"
 
 namespace viscontact {
 namespace {
-
-struct ExactDrag {
-  double drag_factor = 0;
-  double rounding = 0;  ///< relative: half a unit of the last certified digit
-};
-
-/// The exact drag in a closed cylinder of 5 x 10 sphere radii.
-ExactDrag exact_drag_in_cylinder(double gap) {
-  const std::array<std::string, 5> columns = {"R_over_r", "H_over_r", "gap_over_r", "lambda",
-                                              "n_digits"};
-  const auto file = read_csv(VISCONTACT_SOURCE_FOLDER "/data/reference/sphere_in_cylinder.csv",
-                             columns, columns.size());
-  const auto row = std::ranges::find_if(file.rows, [&](const auto& r) {
-    return *r.fields[0] == 5 && *r.fields[1] == 10 && *r.fields[2] == gap;
-  });
-  if (row == file.rows.end()) throw std::invalid_argument("the reference has no such gap");
-  const double drag_factor = *row->fields[3];
-  const double digits = *row->fields[4];
-  return {drag_factor,
-          0.5 * std::pow(10, std::floor(std::log10(drag_factor)) + 1 - digits) / drag_factor};
-}
 
 class ClosedCylinder : public ::testing::TestWithParam<double> {};
 
@@ -44,13 +21,10 @@ TEST_P(ClosedCylinder, DragIsExactToTheAskedAccuracyAndToItsOwnEstimate) {
   const double gap = GetParam();
   const auto tabulation = unit_tabulation({gap}, 5, kAccuracy);
   const auto row = solve_row(default_freefem(), tabulation, gap, -1);
-  const auto exact = exact_drag_in_cylinder(gap);
-  const double error = std::abs(row.drag_factor / exact.drag_factor - 1);
-  EXPECT_LT(error,
-            kAccuracy);  // what was asked; the reference's 7 digits (5e-7 at worst) are well below
+  const double error = std::abs(row.drag_factor / sphere_in_cylinder_drag_factor(gap, 5, 10) - 1);
+  EXPECT_LT(error, kAccuracy);
   EXPECT_LE(row.relative_error_estimate, kAccuracy);
-  // The estimate must cover the true error, which is known to `rounding`.
-  EXPECT_LT(error, row.relative_error_estimate + exact.rounding);
+  EXPECT_LT(error, row.relative_error_estimate);
   EXPECT_GT(row.force, 0);  // towards the floor at -1: the fluid pushes away from it
   EXPECT_EQ(row.gap, gap);
   EXPECT_EQ(row.reference_velocity, -1);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "common/csv.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/sphere_in_cylinder.hpp"
 
 namespace viscontact {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::array kAll = {
     ExactRows{"equal_spheres", draw_equal_spheres},
     ExactRows{"spheres", draw_spheres},
     ExactRows{"cavity", draw_cavity},
-    ExactRows{"cylinder_5x10", draw_cylinder},
+    ExactRows{"cylinder", draw_cylinder},
 };
 
 }  // namespace
@@ -73,17 +73,13 @@ ExactRow draw_cavity(Random& random, double accuracy) {
 }
 
 ExactRow draw_cylinder(Random& random, double accuracy) {
-  const std::array<std::string, 5> columns = {"R_over_r", "H_over_r", "gap_over_r", "lambda",
-                                              "n_digits"};
-  const auto file = read_csv(VISCONTACT_SOURCE_FOLDER "/data/reference/sphere_in_cylinder.csv",
-                             columns, columns.size());
-  const auto& fields =
-      file.rows[static_cast<std::size_t>(uniform(random, 0, static_cast<double>(file.rows.size())))]
-          .fields;
-  auto row = exact_row("plane", *fields[2], {}, accuracy, *fields[3]);
-  row.tabulation.container = Container{*fields[0], *fields[1]};
-  row.rounding = 0.5 * std::pow(10, std::floor(std::log10(row.drag_factor)) + 1 - *fields[4]) /
-                 row.drag_factor;
+  const double radius = log_uniform(random, 3, 80);
+  const double height = 2 * radius;
+  // What the exact solution covers.
+  const double gap = log_uniform(random, 1e-4, std::min(kLargestGap, radius - 1));
+  auto row =
+      exact_row("plane", gap, {}, accuracy, sphere_in_cylinder_drag_factor(gap, radius, height));
+  row.tabulation.container = Container{radius, height};
   return row;
 }
 

@@ -26,7 +26,7 @@ while [ $# -gt 1 ]; do
   shift 2
 done
 )" + before + R"(
-awk "BEGIN { printf \"viscontact-result %.17g 1e-6 1000\n\", \
+awk "BEGIN { printf \"viscontact-result %.17g 1e-6 1000 4\n\", \
      -6 * 3.14159265358979323846 * $viscosity * $radius * ($velocity) * ($radius / $gap + 1) }"
 echo "$gap $velocity" >> "$folder/answered"
 )");

@@ -83,15 +83,15 @@ INSTANTIATE_TEST_SUITE_P(
                 "echo 'out of memory'; kill -KILL $$\n",
                 {"exit status 137", "out of memory"}},
         Failure{"ForceNotANumber",
-                "echo 'viscontact-result nan 0 0'; exit 0\n",
-                {"viscontact-result nan 0 0"}},
+                "echo 'viscontact-result nan 0 0 4'; exit 0\n",
+                {"viscontact-result nan 0 0 4"}},
         Failure{"ForceInfinite",
-                "echo 'viscontact-result -inf 0 0'; exit 0\n",
-                {"viscontact-result -inf 0 0"}},
+                "echo 'viscontact-result -inf 0 0 4'; exit 0\n",
+                {"viscontact-result -inf 0 0 4"}},
         Failure{
             "ResultCutShort", "echo 'viscontact-result 1.5'; exit 0\n", {"viscontact-result 1.5"}},
         Failure{"ResultThenAFailure",
-                "echo 'viscontact-result 1.5 0 10'; echo 'double free'; exit 134\n",
+                "echo 'viscontact-result 1.5 0 10 4'; echo 'double free'; exit 134\n",
                 {"exit status 134", "double free"}}),
     [](const auto& test) { return test.param.name; });
 

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "freefem_axi/freefem.hpp"
 #include "freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
+#include "tests/oracles/bispherical.hpp"
 
 namespace viscontact {
 namespace {
@@ -77,9 +79,9 @@ TEST(Geometry, LengthsArePositiveAndAVelocityRatioIsAnything) {
 
 TEST(Geometry, AboveAFloorNeedsTheSphereAndTheGap) {
   const std::vector<double> ripples = {0.25, 0.5};
-  for (const auto* name : {"plane", "free_surface", "rough_plane"}) {
+  for (const std::string name : {"plane", "free_surface", "rough_plane"}) {
     const auto room = find_geometry(name).room(2, 0.5, ripples);
-    EXPECT_EQ(room.container_radius, 2) << name;
+    EXPECT_EQ(room.container_radius, name == "rough_plane" ? 4 : 2) << name;
     EXPECT_EQ(room.container_height, 4.5) << name;
     EXPECT_EQ(room.largest_gap, kInfinity) << name;
     EXPECT_TRUE(find_geometry(name).takes_container) << name;
@@ -157,6 +159,52 @@ TEST(TabulationHash, OfACavityDoesNotDependOnAContainerThatItHasNot) {
   auto without = tabulation_of("cavity", {5});
   without.container.reset();
   EXPECT_EQ(tabulation_hash(without), tabulation_hash(tabulation_of("cavity", {5})));
+}
+
+struct Leading {
+  const char* geometry;
+  std::vector<double> parameters;
+  double factor;  ///< k over 6 pi mu r^2
+};
+
+class LeadingCoefficient : public ::testing::TestWithParam<Leading> {};
+
+TEST_P(LeadingCoefficient, IsThatOfLubricationTheory) {
+  const auto& [geometry, parameters, factor] = GetParam();
+  auto tabulation = tabulation_of(geometry, parameters);
+  const double plane =
+      6 * std::numbers::pi * tabulation.viscosity * tabulation.radius * tabulation.radius;
+  EXPECT_DOUBLE_EQ(leading_coefficient(tabulation).value(), factor * plane);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, LeadingCoefficient,
+    ::testing::Values(Leading{"plane", {}, 1}, Leading{"free_surface", {}, 0.25},
+                      Leading{"sphere", {1, 0}, 0.25},      // r_eff = 1/2
+                      Leading{"sphere", {1, -1}, 0.5},      // approach at twice the velocity
+                      Leading{"sphere", {1, 1}, 0},         // no approach
+                      Leading{"sphere", {3, 0}, 9.0 / 16},  // r_eff = 3/4
+                      Leading{"cavity", {5}, 25.0 / 16}),   // r_eff = 5/4
+    [](const auto& test) {
+      return test.param.geometry + std::string("Number") + std::to_string(test.index);
+    });
+
+TEST(LeadingCoefficientInTheory, IsThatOfTheExactDragAtASmallGap) {
+  // R q/k - 1 is of the order of q ln q: some 1e-5 at q = 1e-6.
+  constexpr double kGap = 1e-6;
+  const auto share = [](const char* geometry, const std::vector<double>& parameters, double exact) {
+    const auto tabulation = tabulation_of(geometry, parameters);
+    const double stokes = 6 * std::numbers::pi * tabulation.viscosity * tabulation.radius;
+    return stokes * exact * kGap * tabulation.radius / leading_coefficient(tabulation).value();
+  };
+  EXPECT_NEAR(share("plane", {}, plane_drag_factor(kGap)), 1, 1e-4);
+  EXPECT_NEAR(share("free_surface", {}, free_surface_drag_factor(kGap)), 1, 1e-4);
+  EXPECT_NEAR(share("sphere", {3, -0.5}, two_sphere_drag_factor(kGap, 3, -0.5)), 1, 1e-4);
+  EXPECT_NEAR(share("cavity", {5}, cavity_drag_factor(kGap, 5)), 1, 1e-4);
+}
+
+TEST(RoughPlane, HasNoLeadingCoefficientThatIsKnown) {
+  EXPECT_FALSE(leading_coefficient(tabulation_of("rough_plane", {0.01, 0.05})).has_value());
 }
 
 TEST(Neighbour, MovesOnlyIfItIsASphereWithAVelocity) {

@@ -53,8 +53,6 @@ TEST_P(MeshConvergence, IsOfTwiceTheOrderInTheReactionsAsInTheBoundaryStress) {
   EXPECT_LT(order, 2.3);
   // Two functionals of one solution: that they agree says that both are the drag. Observed 3e-4 at most.
   EXPECT_LT(std::abs(stress_error(3)), 1e-3);
-  // The dissipation of an approximation is above the minimum: the force comes down to the exact one.
-  for (std::size_t i = 0; i < levels.size(); ++i) EXPECT_GT(force_error(i), 0) << i;
   // A direct solve: round-off. Observed 1e-13.
   for (const auto& level : levels) EXPECT_LT(level[3], 1e-11);
 

@@ -20,8 +20,9 @@ using ::testing::HasSubstr;
 constexpr const char* kHash = "hash-of-this-tabulation";
 
 // Numbers with no short decimal form: they must come back bit by bit.
-const FinishedRow kFirst = {{1.0 / 3, -1, 56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1}, "4.9"};
-const FinishedRow kSecond = {{2.0 / 3, -1, 28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2},
+const FinishedRow kFirst = {{1.0 / 3, -1, 56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1, 35.0 / 9},
+                            "4.9"};
+const FinishedRow kSecond = {{2.0 / 3, -1, 28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2, -0.1},
                              "4.9 (of 2021)"};
 
 GridPoint point_of(const FinishedRow& finished) {
@@ -36,6 +37,7 @@ void expect_equal(const FinishedRow& a, const FinishedRow& b) {
   EXPECT_EQ(a.row.relative_error_estimate, b.row.relative_error_estimate);
   EXPECT_EQ(a.row.degrees_of_freedom, b.row.degrees_of_freedom);
   EXPECT_EQ(a.row.seconds, b.row.seconds);
+  EXPECT_EQ(a.row.observed_order, b.row.observed_order);
   EXPECT_EQ(a.freefem_version, b.freefem_version);
 }
 
@@ -156,6 +158,16 @@ TEST_F(RowJournalFile, JournalsOfAWrittenTableAreRemoved) {
   write({kSecond}, "1-of-2.node.1");
   remove_journals(table(), kHash);
   EXPECT_TRUE(std::filesystem::is_empty(table().parent_path()));
+}
+
+TEST_F(RowJournalFile, FilesOfTheUserWhoseNamesBeginLikeAJournalsStay) {
+  write({kFirst});
+  for (const auto* name : {"table.csv.rows.notes.txt", "table.csv.rows.csv", "table.csv.rows2"})
+    put_text(table().parent_path() / name, "mine");
+  remove_journals(table(), kHash);
+  EXPECT_FALSE(std::filesystem::exists(path()));
+  for (const auto* name : {"table.csv.rows.notes.txt", "table.csv.rows.csv", "table.csv.rows2"})
+    EXPECT_TRUE(std::filesystem::exists(table().parent_path() / name)) << name;
 }
 
 TEST_F(RowJournalFile, RowsOfAnotherTabulationStayInTheJournal) {

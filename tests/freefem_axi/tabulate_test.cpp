@@ -26,11 +26,11 @@ using ::testing::UnorderedElementsAre;
 void no_report(const TabulateProgress&) {}
 
 /// What identifies and answers a row; its seconds differ from run to run.
-std::vector<std::array<double, 6>> values_of(const ForceTable& table) {
-  std::vector<std::array<double, 6>> values;
+std::vector<std::array<double, 7>> values_of(const ForceTable& table) {
+  std::vector<std::array<double, 7>> values;
   for (const auto& row : table.rows)
     values.push_back({row.gap, row.reference_velocity, row.force, row.drag_factor,
-                      row.relative_error_estimate, row.degrees_of_freedom});
+                      row.relative_error_estimate, row.degrees_of_freedom, row.observed_order});
   return values;
 }
 
@@ -122,9 +122,12 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
 
 TEST_F(Tabulate, RowThatAnotherProcessFinishesMeanwhileIsNotComputed) {
   // While the first row is computed, a process of a cluster finishes the third.
-  const FakeFreeFem fake(scratch_.path(), "[ $gap = 0.125 ] && sleep 0.5\n");
-  const FinishedRow elsewhere = {{0.5, -1, 42, 1, 1e-6, 1000, 1}, "0-fake"};
+  const FakeFreeFem fake(scratch_.path(),
+                         "[ $gap = 0.125 ] && { touch \"$folder/first\"; sleep 0.5; }\n");
+  const FinishedRow elsewhere = {{0.5, -1, 42, 1, 1e-6, 1000, 1, 4}, "0-fake"};
   std::jthread other([&] {
+    while (!std::filesystem::exists(scratch_.path() / "first"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     RowJournal(journal_path(table_path(), "2-of-4.node.1"), tabulation_hash(tabulation_))
         .append(elsewhere);
   });
@@ -206,7 +209,7 @@ TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
   ASSERT_EQ(table.rows.size(), 2U);
   for (const auto& row : table.rows) {
     EXPECT_LE(row.relative_error_estimate, kAccuracy);
-    // The walls add 4e-6 at 40 x 80 radii (physics.md, section 2), well below what was asked.
+    // The walls add 4e-6 at 40 x 80 radii (docs/theory.md, section 1), well below what was asked.
     EXPECT_NEAR(row.drag_factor / brenner_drag_factor(row.gap), 1, kAccuracy);
   }
   EXPECT_FALSE(table.versions.at("FreeFEM").empty());

@@ -125,7 +125,7 @@ TEST(Bispherical, TheForceOfOneSphereOnTheOtherIsReciprocal) {
 }
 
 TEST(Bispherical, EqualSpheresThatMoveTogetherDragLessThanTwoAlone) {
-  // At contact 0.645141..., Cooley & O'Neill 1969 (Mathematika 16, 37) for touching spheres; the
+  // At contact 0.645141..., Cooley & O'Neill 1969 (Proc. Camb. Phil. Soc. 66, 407) for touching spheres; the
   // approach is linear in the gap, with a slope of order 0.1.
   EXPECT_NEAR(two_sphere_drag_factor(1e-6, 1, 1), 0.645141, 1e-6);
   // Far away, at distance d of the centres over r, Smoluchowski's reflections give mobility

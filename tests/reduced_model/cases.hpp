@@ -10,7 +10,7 @@
 
 namespace viscontact {
 
-/// Exact inertialess and inertial minimal gaps of the lecture's case (physics.md, "Numbers that must come out"): half-space, exact drag.
+/// Exact inertialess and inertial minimal gaps of the lecture's case (docs/theory.md, section 3): half-space, exact drag.
 inline constexpr double kExactMinimalGap = 2.97084661e-3;
 inline constexpr double kInertialMinimalGap = 2.97845928e-3;
 inline constexpr double kInertialMinimalGapTime = 2.00072819;

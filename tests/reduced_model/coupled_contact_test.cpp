@@ -50,7 +50,7 @@ TEST(RegularDrag, ConvergesToTheImpulseThatTheResolvedDragLeavesAtFirstOrderInIt
   EXPECT_NEAR(std::log10(coarse / middle), 1,
               0.05);  // the next term of the error is of relative size 40 h: 0.04 / ln 10
   EXPECT_NEAR(std::log10(middle / fine), 1, 0.05);  // and the landing within a step, at random
-  // "tends to 3.00e-3" (physics.md): to half a unit of what the lecture prints, 3e-3 with three digits at most.
+  // "tends to 3.00e-3" (docs/theory.md): to half a unit of what the lecture prints, 3e-3 with three digits at most.
   EXPECT_NEAR(limit, 3.00e-3, 1e-5);
 }
 

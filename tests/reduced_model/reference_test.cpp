@@ -115,7 +115,7 @@ TEST(Reference, ConvergesToTheExactSolutionAtFirstOrderInItsStep) {
   const double coarse = euler_minimal_gap(force, 1e-2) / exact - 1;
   const double middle = euler_minimal_gap(force, 1e-3) / exact - 1;
   const double fine = euler_minimal_gap(force, 1e-4) / exact - 1;
-  // physics.md prints two digits: half a unit of the last one. Below the exact film at every step.
+  // docs/theory.md prints two digits: half a unit of the last one. Below the exact film at every step.
   EXPECT_NEAR(coarse, -0.087, 5e-4);
   EXPECT_NEAR(middle, -8.9e-3, 5e-5);
   EXPECT_NEAR(fine, -8.9e-4, 5e-6);
