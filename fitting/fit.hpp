@@ -5,11 +5,15 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fitting/fit_diagnostics.hpp"
 #include "fitting/force_table.hpp"
+#include "fitting/robust_least_squares.hpp"
+#include "fitting/terms.hpp"
 
 namespace viscontact {
 
@@ -22,34 +26,53 @@ std::string_view to_string(Weights weights);
 /// "relative" or "absolute". Throws Error(kBadInput) for another word.
 Weights parse_weights(std::string_view word);
 
+/// How a table is fitted.
+struct FitSettings {
+  Basis basis = find_basis("lecture");
+  Weights weights = Weights::kRelative;
+  Loss loss = Loss::kSquared;
+  /// True: the coefficient of 1/q is not fitted but held at `leading_value`, or at what theory says (ForceTable::leading_coefficient).
+  bool hold_leading = false;
+  std::optional<double> leading_value{};  ///< of the force at the table's first velocity, as in the fit file [M L^2/T^2]
+};
+
 struct FitTerm {
   std::string name;        ///< of a Term
   double coefficient = 0;  ///< [force / dimension of the term]
   double standard_error =
       0;  ///< same dimension, >= 0; from the misfit, as if it were random noise (it is not)
+  bool held = false;  ///< given, not fitted: its standard error is 0
 };
 
 /// F_lub(q, u0) = sum of coefficient * term(q) for q in gap_interval.
 struct Fit {
-  std::string basis;
+  std::string basis;                        ///< name of a Basis; kOwnTerms: a user's own list
   double reference_velocity = 0;            ///< u0 [L/T], not 0
   double viscosity = 0;                     ///< mu [M/(L T)], > 0
   double radius = 0;                        ///< r [L], > 0
   std::array<double, 2> gap_interval = {};  ///< [L], 0 < first < second
   Weights weights = Weights::kRelative;
+  Loss loss = Loss::kSquared;
   std::vector<FitTerm> terms;
-  double largest_relative_residual = 0;
+  double largest_relative_residual = 0;         ///< of all rows, outliers too
   double rms_relative_residual = 0;
   double condition_number = 1;                  ///< of the scaled, weighted columns
   std::vector<std::vector<double>> covariance;  ///< of the coefficients
+  std::string geometry;                         ///< the table's, in words; may be empty
+  std::optional<double> leading_coefficient{};  ///< k of R = k/q [M L/T] in theory, if the table says it
+  std::optional<FitDiagnostics> diagnostics{};  ///< none in a fit that was written by hand
   std::string table_sha256;                     ///< of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// Fits a basis (by name) to a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes
+/// Fits a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes
 /// flow is linear. table_sha256 and versions are left to the caller.
-/// Throws Error(kBadInput) for an unknown basis, fewer different gaps than terms, or rows of equal gap whose F/u
-/// differ by more than their error estimates; Error(kNotConverged) from the least squares.
+/// Throws Error(kBadInput) for fewer different gaps than free coefficients or than two, rows of equal gap whose F/u
+/// differ by more than their error estimates, or a leading coefficient to hold that the basis or the table has not;
+/// Error(kNotConverged) from the least squares.
+Fit fit_force_table(const ForceTable& table, const FitSettings& settings);
+
+/// The same with a basis by name, every row counted. Throws Error(kBadInput) for an unknown basis too.
 Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) naming the

@@ -7,60 +7,70 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
 
-LubricationForce::LubricationForce(const Fit& fit, BelowInterval below)
+LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInterval above)
     : radius_(fit.radius),
       viscosity_(fit.viscosity),
       fitted_interval_(fit.gap_interval),
-      below_(below) {
+      below_(below),
+      above_(above) {
   for (const auto& term : fit.terms) {
     terms_.push_back({find_term(term.name).value(), -term.coefficient / fit.reference_velocity});
     if (term.name == kLeadingTerm) leading_ = terms_.back().weight;
   }
   impulse_at_radius_ = sum(&Term::antiderivative, radius_);
   // A drag that changes sign has no Gamma to invert; such a fit is of no use to any model.
-  constexpr int kProbes = 200;
-  for (int i = 0; i <= kProbes; ++i) {
-    const auto [smallest, largest] = fitted_interval_;
-    const double gap = i == 0         ? smallest
-                       : i == kProbes ? largest
-                                      : std::exp(std::lerp(std::log(smallest), std::log(largest),
-                                                           static_cast<double>(i) / kProbes));
+  for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0))
       throw Error(ExitCode::kBadInput, fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
                                                    "inside its interval; a drag must be positive: "
                                                    "fit again with another basis or other weights",
                                                    resistance(gap), gap));
-  }
+  set_limits(fit);
 }
 
-double LubricationForce::sum(double (*Term::*function)(double), double gap) const {
+void LubricationForce::set_limits(const Fit& fit) {
+  const auto [smallest, largest] = fitted_interval_;
+  if (below_ == BelowInterval::kLubricationLimit && leading_ > 0)
+    limit_ = {leading_, regular_resistance(smallest)};
+  if (below_ == BelowInterval::kTheoryLimit) {
+    if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
+      throw Error(ExitCode::kBadInput,
+                  "the fit does not say what theory's coefficient k of k/q is (leading_coefficient > "
+                  "0): fit a table that says it, or use the fitted coefficient");
+    limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
+  }
+  image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
+}
+
+double LubricationForce::sum(Formula Term::*formula, double gap) const {
+  const double log_gap = std::log(gap);
   double total = 0;
-  for (const auto& [term, weight] : terms_) total += weight * (term.*function)(gap);
+  for (const auto& [term, weight] : terms_) total += weight * (term.*formula).at(gap, log_gap);
   return total;
 }
 
 std::array<double, 2> LubricationForce::interval() const {
-  return {below_ == BelowInterval::kLubricationLimit ? 0.0 : fitted_interval_[0],
-          fitted_interval_[1]};
+  return {below_ == BelowInterval::kError ? fitted_interval_[0] : 0.0,
+          above_ == AboveInterval::kError ? fitted_interval_[1]
+                                          : std::numeric_limits<double>::infinity()};
 }
 
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
-  const bool allowed = gap <= largest &&
-                       (gap >= smallest || (below_ == BelowInterval::kLubricationLimit && gap > 0));
-  if (!allowed)
-    throw Error(
-        ExitCode::kBadInput,
-        fmt::format(
-            "gap {} is outside the fitted interval [{}, {}]; tabulate "
-            "and fit further{}",
-            gap, smallest, largest,
-            gap < smallest
-                ? ", or ask for the lubrication limit below it (simulate --lubrication-limit)"
-                : ""));
+  const bool allowed = gap >= smallest ? gap <= largest || (above_ != AboveInterval::kError && std::isfinite(gap))
+                                       : below_ != BelowInterval::kError && gap > 0;
+  if (allowed) return;
+  const char* remedy = "";
+  if (gap < smallest && below_ == BelowInterval::kError)
+    remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";
+  if (gap > largest) remedy = ", or ask for Stokes' drag far above it (simulate --stokes-limit)";
+  throw Error(ExitCode::kBadInput,
+              fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}",
+                          gap, smallest, largest, remedy));
 }
 
 double LubricationForce::leading_coefficient() const {
@@ -72,42 +82,56 @@ double LubricationForce::leading_coefficient() const {
   return leading_;
 }
 
+LubricationForce::LubricationLimit LubricationForce::limit() const {
+  if (!(limit_.k > 0)) (void)leading_coefficient();  // says what is missing
+  return limit_;
+}
+
 double LubricationForce::regular_resistance(double gap) const {
   const double from = std::max(gap, fitted_interval_[0]);
   check_gap(from);
+  if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
+  const double log_gap = std::log(from);
   double total = 0;
   for (const auto& [term, weight] : terms_)
-    if (term.name != kLeadingTerm) total += weight * term.value(from);
+    if (term.name != kLeadingTerm) total += weight * term.value.at(from, log_gap);
   return total;
 }
 
 double LubricationForce::resistance(double gap) const {
   check_gap(gap);
-  if (gap < fitted_interval_[0]) return leading_coefficient() / gap + regular_resistance(gap);
+  if (gap < fitted_interval_[0]) return limit().k / gap + limit().constant;
+  if (gap > fitted_interval_[1])
+    return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
   return sum(&Term::value, gap);
 }
 
 double LubricationForce::resistance_log_slope(double gap) const {
   check_gap(gap);
-  if (gap < fitted_interval_[0]) return -leading_coefficient() / gap;
+  if (gap < fitted_interval_[0]) return -limit().k / gap;
+  if (gap > fitted_interval_[1])
+    return -stokes_resistance(viscosity_, radius_) * image_ * gap /
+           ((gap + radius_) * (gap + radius_));
   return sum(&Term::log_slope, gap);
 }
 
 double LubricationForce::impulse(double gap) const {
   check_gap(gap);
-  const double smallest = fitted_interval_[0];
+  const auto [smallest, largest] = fitted_interval_;
   if (gap < smallest)
-    return impulse(smallest) + leading_coefficient() * std::log(gap / smallest) +
-           regular_resistance(smallest) * (gap - smallest);
+    return impulse(smallest) + limit().k * std::log(gap / smallest) +
+           limit().constant * (gap - smallest);
+  if (gap > largest)
+    return impulse(largest) +
+           stokes_resistance(viscosity_, radius_) *
+               (gap - largest + image_ * std::log((gap + radius_) / (largest + radius_)));
   return sum(&Term::antiderivative, gap) - impulse_at_radius_;
 }
 
-double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a
-  // bracket that shrinks.
+std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   const auto [smallest, largest] = fitted_interval_;
-  double low = std::log(smallest);
-  double high = std::log(largest);
+  const double low = std::log(smallest);
+  const double high = std::log(largest);
   if (impulse_wanted < impulse(smallest)) {
     if (below_ == BelowInterval::kError)
       throw Error(
@@ -116,25 +140,42 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
                       "{:.6g}]; tabulate and fit further, "
                       "or ask for the lubrication limit below it (simulate --lubrication-limit)",
                       smallest, largest));
-    // k (s - ln q_min) + R_reg (e^s - q_min) = what is wanted beyond Gamma(q_min): the second term moves s by less than R_reg q_min / k.
-    const double k = leading_coefficient();
+    // k (s - ln q1) + c (e^s - q1) = what is wanted beyond Gamma(q1): the second term moves s by less than |c| q1 / k.
+    const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
-    const double by_regular_part = regular_resistance(smallest) * smallest / k;
-    high = std::min(low, by_leading_term + std::max(0.0, by_regular_part));
+    const double by_constant = constant * smallest / k;
+    const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
     const double thinnest = std::log(std::numeric_limits<double>::min());
-    if (!(high >= thinnest))
+    if (!(above >= thinnest))
       throw Error(ExitCode::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
-    low = std::max(thinnest, by_leading_term + std::min(0.0, by_regular_part));
-  } else if (!(impulse_wanted <= impulse(largest))) {
-    throw Error(ExitCode::kBadInput, fmt::format("the gap would be wider than the fitted interval "
-                                                 "[{:.6g}, {:.6g}]; tabulate and fit further",
-                                                 smallest, largest));
+    return {std::max(thinnest, by_leading_term + std::min(0.0, by_constant)), above};
   }
+  const double beyond = impulse_wanted - impulse(largest);
+  if (!(beyond > 0)) return {low, high};
+  if (above_ == AboveInterval::kError)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
+                            "tabulate and fit further, or ask for Stokes' drag far above it "
+                            "(simulate --stokes-limit)",
+                            smallest, largest));
+  // R lies between its values at q2 and at infinity.
+  const double stokes = stokes_resistance(viscosity_, radius_);
+  return {high, std::log(largest + beyond / std::min(stokes, resistance(largest)))};
+}
+
+double LubricationForce::gap_of_impulse(double impulse_wanted) const {
+  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a
+  // bracket that shrinks.
+  auto [low, high] = bracket_of_impulse(impulse_wanted);
   double s = high - (high - low) / 2;
   constexpr int kMaxSteps = 200;  // bisection alone needs about 60
+  // ln and exp of an end of the interval may come back a rounding outside it.
+  const auto gap_at = [this](double log_gap) {
+    return std::clamp(std::exp(log_gap), interval()[0], interval()[1]);
+  };
   for (int step = 0; step < kMaxSteps; ++step) {
-    const double gap = std::clamp(std::exp(s), std::exp(low), std::exp(high));
+    const double gap = gap_at(s);
     const double excess = impulse(gap) - impulse_wanted;
     if (excess == 0) return gap;
     (excess > 0 ? high : low) = s;
@@ -143,10 +184,10 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
     // Steps below the rounding of s change nothing any more.
     if (std::abs(next - s) <=
         2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
-      return std::clamp(std::exp(next), interval()[0], largest);
+      return gap_at(next);
     s = next;
   }
-  return std::exp(s);
+  return gap_at(s);
 }
 
 }  // namespace viscontact

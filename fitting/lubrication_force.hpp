@@ -10,20 +10,30 @@
 
 namespace viscontact {
 
-/// What the force is at gaps below the fitted interval.
+/// What the force is at gaps below the fitted interval [q1, q2].
 enum class BelowInterval {
   kError,             ///< nothing: asking is an error
-  kLubricationLimit,  ///< k/q, plus R - k/q as it is at the smallest fitted gap (what theory adds
-                      ///< to k/q varies as ln q only)
+  kLubricationLimit,  ///< R(q1) + k (1/q - 1/q1), k the fit's coefficient of 1/q: what theory adds to k/q varies as ln q only
+  kTheoryLimit        ///< the same, k as theory has it (Fit::leading_coefficient)
+};
+
+/// What the force is at gaps above it.
+enum class AboveInterval {
+  kError,       ///< nothing: asking is an error
+  kStokesLimit  ///< Stokes' drag in the end: R_S (1 + c/(q + r)), R_S = 6 pi mu r, c such that R is continuous at q2. The first
+                ///< reflection at a wall or a sphere decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a
+                ///< plane); a container's other walls have no part in it
 };
 
 /// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).
 /// Every function of the gap throws Error(kBadInput) that names the interval for a gap outside the fit's, unless
-/// `below` or the function's own words allow it.
+/// `below`, `above` or the function's own words allow it.
 class LubricationForce {
  public:
   /// Throws Error(kBadInput) if the fit's resistance is not positive at one of 201 gaps spread over its interval.
-  explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError);
+  /// Error(kBadInput) too if `below` asks for theory's k and the fit has none.
+  explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError,
+                            AboveInterval above = AboveInterval::kError);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0.
   double resistance(double gap) const;
@@ -31,7 +41,7 @@ class LubricationForce {
   /// dR/d ln q = q dR/dq [M/T].
   double resistance_log_slope(double gap) const;
 
-  /// R(q) - k/q [M/T], for 0 <= q: below the interval, its value at the smallest fitted gap.
+  /// R(q) - k/q [M/T], k the fit's, for 0 <= q: below the interval, its value at the smallest fitted gap.
   double regular_resistance(double gap) const;
 
   /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius; closed form, increasing in q.
@@ -44,8 +54,7 @@ class LubricationForce {
   /// if the fit has none, or it is not positive.
   double leading_coefficient() const;
 
-  /// The gaps [L] at which the functions above may be called; the first is 0 with
-  /// BelowInterval::kLubricationLimit.
+  /// The gaps [L] at which the functions above may be called; the first is 0 and the second infinite where the limits are asked for.
   std::array<double, 2> interval() const;
 
   double radius() const { return radius_; }        ///< r [L]
@@ -56,14 +65,26 @@ class LubricationForce {
     Term term;
     double weight;  // coefficient / -u0
   };
-  double sum(double (*Term::*function)(double), double gap) const;
+  /// R(q) = k/q + constant below the interval.
+  struct LubricationLimit {
+    double k, constant;
+  };
+  double sum(Formula Term::*formula, double gap) const;
   void check_gap(double gap) const;
+  void set_limits(const Fit& fit);
+  /// Throws Error(kBadInput) if the fit has no k to go below its interval with.
+  LubricationLimit limit() const;
+  /// ln q of two gaps with Gamma(q) = impulse between them.
+  std::array<double, 2> bracket_of_impulse(double impulse) const;
 
   std::vector<WeightedTerm> terms_;
   double radius_, viscosity_;
   double leading_ = 0;  // k
   std::array<double, 2> fitted_interval_;
   BelowInterval below_;
+  AboveInterval above_;
+  LubricationLimit limit_ = {};
+  double image_ = 0;          // c [L] of the Stokes limit
   double impulse_at_radius_;  // of the bare antiderivatives
 };
 

@@ -1,39 +1,56 @@
 #include "fitting/terms.hpp"
 
-#include <array>
-#include <cmath>
+#include <fmt/format.h>
 
+#include <array>
+
+#include "common/error.hpp"
 #include "common/named.hpp"
 
 namespace viscontact {
 namespace {
 
-constexpr std::array kTerms = {
-    Term{kLeadingTerm,  //
-         [](double q) { return 1 / q; }, [](double q) { return -1 / q; },
-         [](double q) { return std::log(q); }},
-    Term{"ln q",  //
-         [](double q) { return std::log(q); }, [](double) { return 1.0; },
-         [](double q) { return q * (std::log(q) - 1); }},
-    Term{"1",  //
-         [](double) { return 1.0; }, [](double) { return 0.0; }, [](double q) { return q; }},
-    Term{"q ln q",  //
-         [](double q) { return q * std::log(q); }, [](double q) { return q * (std::log(q) + 1); },
-         [](double q) { return q * q / 2 * (std::log(q) - 0.5); }},
-    Term{"q",  //
-         [](double q) { return q; }, [](double q) { return q; },
-         [](double q) { return q * q / 2; }},
-    Term{"q^2",  //
-         [](double q) { return q * q; }, [](double q) { return 2 * q * q; },
-         [](double q) { return q * q * q / 3; }},
-    Term{"q^3",  //
-         [](double q) { return q * q * q; }, [](double q) { return 3 * q * q * q; },
-         [](double q) { return q * q * q * q / 4; }},
-};
+// The expression once as text and once as code: what is exported cannot differ from what is fitted.
+#define FORMULA(expression)                                                       \
+  Formula {                                                                       \
+#expression, []([[maybe_unused]] double q, [[maybe_unused]] double l) -> double { \
+      return expression;                                                          \
+    }                                                                             \
+  }
 
-Basis make_basis(std::string_view name, std::initializer_list<std::string_view> terms) {
-  Basis basis{name, {}};
-  for (const auto term : terms) basis.terms.push_back(find_term(term).value());
+// clang-format off
+constexpr std::array kTerms = {
+    //   name          value             log_slope                 antiderivative
+    Term{kLeadingTerm, FORMULA(1.0/q),   FORMULA(-1.0/q),          FORMULA(l)},
+    Term{"ln q",       FORMULA(l),       FORMULA(1.0),             FORMULA(q*(l - 1.0))},
+    Term{"1",          FORMULA(1.0),     FORMULA(0.0),             FORMULA(q)},
+    Term{"q ln q",     FORMULA(q*l),     FORMULA(q*(l + 1.0)),     FORMULA(q*q*(2.0*l - 1.0)/4.0)},
+    Term{"q",          FORMULA(q),       FORMULA(q),               FORMULA(q*q/2.0)},
+    Term{"q^2 ln q",   FORMULA(q*q*l),   FORMULA(q*q*(2.0*l + 1.0)), FORMULA(q*q*q*(3.0*l - 1.0)/9.0)},
+    Term{"q^2",        FORMULA(q*q),     FORMULA(2.0*q*q),         FORMULA(q*q*q/3.0)},
+    Term{"q^3 ln q",   FORMULA(q*q*q*l), FORMULA(q*q*q*(3.0*l + 1.0)), FORMULA(q*q*q*q*(4.0*l - 1.0)/16.0)},
+    Term{"q^3",        FORMULA(q*q*q),   FORMULA(3.0*q*q*q),       FORMULA(q*q*q*q/4.0)},
+};
+// clang-format on
+
+#undef FORMULA
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Adds the term of that name. Throws Error(kBadInput).
+void add_term(Basis& basis, std::string_view name) {
+  if (find_named(basis.terms, name) != nullptr)
+    throw Error(ExitCode::kBadInput, fmt::format("term '{}' is named twice", name));
+  basis.terms.push_back(require_named(kTerms, name, "term"));
+}
+
+Basis make_basis(std::string_view name, std::string_view terms) {
+  Basis basis = parse_terms(terms);
+  basis.name = name;
   return basis;
 }
 
@@ -48,12 +65,23 @@ std::optional<Term> find_term(std::string_view name) {
 
 const std::vector<Basis>& all_bases() {
   static const std::vector<Basis> bases = {
-      make_basis("lecture", {"1/q", "1", "q", "q^2", "q^3"}),
-      make_basis("asymptotic", {"1/q", "ln q", "1", "q ln q", "q"}),
+      make_basis("lecture", "1/q, 1, q, q^2, q^3"),
+      make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
+      make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),
   };
   return bases;
 }
 
 const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
+
+Basis parse_terms(std::string_view names) {
+  Basis basis{kOwnTerms, {}};
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const auto end = std::min(names.find(',', begin), names.size());
+    add_term(basis, trimmed(names.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return basis;
+}
 
 }  // namespace viscontact

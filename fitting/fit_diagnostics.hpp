@@ -1,0 +1,71 @@
+// How far a fit can be trusted: what its residuals say beside the table's own error estimates.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace viscontact {
+
+struct ForceTable;
+
+/// Whether the residuals are larger than the table's error estimates explain.
+enum class Misfit {
+  kBasis,   ///< they are: another basis can do better
+  kData,    ///< they are not: only a better table can
+  kUnknown  ///< the table has no estimates, or nothing is left over to judge by
+};
+
+/// "basis", "data", "unknown".
+std::string_view to_string(Misfit misfit);
+
+/// Throws Error(kBadInput) for another word.
+Misfit parse_misfit(std::string_view word);
+
+/// A row that a robust loss sets aside.
+struct Outlier {
+  double gap = 0;                 ///< [L]
+  double reference_velocity = 0;  ///< [L/T]
+  double relative_residual = 0;   ///< fit / table - 1
+};
+
+/// Relative residuals are fit / table - 1.
+struct FitDiagnostics {
+  std::size_t rows = 0;
+  std::size_t free_coefficients = 0;
+  double worst_gap = 0;                ///< where the largest relative residual is [L]
+  double worst_relative_residual = 0;  ///< with its sign
+  double largest_error_estimate = 0;   ///< of the table's rows; 0: it has none
+  /// Of each row as predicted by the fit of the others, r_i / (1 - h_i) with the leverage h_i (Allen 1974, PRESS); nothing if a
+  /// row is needed to determine the coefficients.
+  std::optional<double> leave_one_out_rms{}, leave_one_out_largest{};
+  std::optional<double> leave_one_out_gap{};  ///< where the largest is [L]
+  /// Sum of (relative residual / error estimate)^2; nothing unless every row has an estimate.
+  std::optional<double> chi_squared{};
+  std::size_t degrees_of_freedom = 0;  ///< rows - free coefficients
+  Misfit misfit = Misfit::kUnknown;    ///< kBasis: chi_squared is beyond the 99 % quantile of its distribution
+  /// Akaike's criterion for small samples, n ln(sum of squares / n) + 2 K + 2 K (K + 1)/(n - K - 1), K = free coefficients + 1 (Hurvich &
+  /// Tsai 1989). Less is better; only between fits of the same rows with the same weights. Nothing for n <= K + 1 or no residual.
+  std::optional<double> information_criterion{};
+  std::vector<Outlier> outliers;      ///< beyond 5 times the scale of the others; with a robust loss only
+  std::vector<std::string> warnings;  ///< each a sentence for the user
+};
+
+struct Fit;
+
+/// The least squares behind a fit: rows as in the table, one column a free coefficient.
+struct FittedSystem {
+  Eigen::MatrixXd weighted_matrix;    ///< weight * term(gap), and times the root of the loss's weight
+  Eigen::VectorXd weighted_residual;  ///< likewise, fit - table
+  Eigen::VectorXd relative_residual;
+  Eigen::VectorXd scaled_residual;    ///< residual as the loss sees it: over the scale of all
+};
+
+/// Judges a fit whose other members are complete.
+FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, const Fit& fit);
+
+}  // namespace viscontact

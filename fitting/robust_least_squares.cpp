@@ -1,0 +1,111 @@
+#include "fitting/robust_least_squares.hpp"
+
+#include <ceres/loss_function.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "common/error.hpp"
+#include "common/named.hpp"
+
+namespace viscontact {
+namespace {
+
+struct NamedLoss {
+  std::string_view name;
+  Loss loss;
+  std::unique_ptr<ceres::LossFunction> (*make)();
+};
+
+const std::array kLosses = {
+    NamedLoss{"none", Loss::kSquared,
+              []() -> std::unique_ptr<ceres::LossFunction> {
+                return std::make_unique<ceres::TrivialLoss>();
+              }},
+    NamedLoss{"huber", Loss::kHuber,
+              []() -> std::unique_ptr<ceres::LossFunction> {
+                return std::make_unique<ceres::HuberLoss>(1.345);
+              }},
+    NamedLoss{"cauchy", Loss::kCauchy,
+              []() -> std::unique_ptr<ceres::LossFunction> {
+                return std::make_unique<ceres::CauchyLoss>(2.385);
+              }},
+};
+
+const NamedLoss& row_of(Loss loss) {
+  return *std::ranges::find(kLosses, loss, &NamedLoss::loss);
+}
+
+/// 1.4826 makes the median of |z| the standard deviation of Gaussian z.
+double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
+  std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
+  std::ranges::transform(residual, sizes.begin(), [](double r) { return std::abs(r); });
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  const auto rows = static_cast<double>(residual.size());
+  const double freedom = std::max(1.0, rows - static_cast<double>(columns));
+  return 1.4826 * *middle * std::sqrt(rows / freedom);
+}
+
+/// Reweights until the residuals settle, from `solution` on.
+void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
+             const ceres::LossFunction& loss, RobustSolution& solution) {
+  // The scale follows the residuals at first and is then held, as only with a fixed scale the iteration goes downhill.
+  constexpr int kStepsWithScale = 20;
+  constexpr int kMostSteps = 1000;
+  constexpr double kSettled = 1e-9;  // of the scale: far below what the data can tell
+  // Residuals that are round-off are no outliers.
+  const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
+  Eigen::VectorXd residual =
+      matrix * solution.least_squares.coefficients - right_hand_side;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (step < kStepsWithScale)
+      solution.scale = std::max(round_off, scale_of(residual, matrix.cols()));
+    for (Eigen::Index i = 0; i < residual.size(); ++i) {
+      std::array<double, 3> rho{};
+      const double z = residual(i) / solution.scale;
+      loss.Evaluate(z * z, rho.data());
+      // A row that lies beyond all measure keeps a trace, so that no division by zero follows.
+      solution.row_weights(i) = std::max(rho[1], std::numeric_limits<double>::min());
+    }
+    const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
+    solution.least_squares =
+        solve_least_squares(root.asDiagonal() * matrix, root.cwiseProduct(right_hand_side));
+    const Eigen::VectorXd next =
+        matrix * solution.least_squares.coefficients - right_hand_side;
+    const double moved = (next - residual).cwiseAbs().maxCoeff();
+    residual = next;
+    if (step >= kStepsWithScale && moved <= std::max(round_off, kSettled * solution.scale)) return;
+  }
+  throw Error(ExitCode::kNotConverged, "the robust fit does not settle; try another loss");
+}
+
+}  // namespace
+
+std::string_view to_string(Loss loss) { return row_of(loss).name; }
+
+Loss parse_loss(std::string_view word) {
+  return require_named(kLosses, word, "loss").loss;
+}
+
+RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
+                                          const Eigen::VectorXd& right_hand_side, Loss loss) {
+  RobustSolution solution;
+  solution.least_squares = solve_least_squares(matrix, right_hand_side);
+  solution.row_weights = Eigen::VectorXd::Ones(matrix.rows());
+  solution.scale =
+      scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
+  if (loss == Loss::kSquared) return solution;
+  // Huber's sum has one minimum; Cauchy's may have several: from Huber's, the one that most rows agree on.
+  iterate(matrix, right_hand_side, *row_of(Loss::kHuber).make(), solution);
+  if (loss != Loss::kHuber)
+    iterate(matrix, right_hand_side, *row_of(loss).make(), solution);
+  return solution;
+}
+
+}  // namespace viscontact

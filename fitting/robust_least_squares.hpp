@@ -1,0 +1,32 @@
+// Least squares that a few wrong rows do not spoil: M-estimates by Ceres's loss functions.
+#pragma once
+
+#include <string_view>
+
+#include "fitting/least_squares.hpp"
+
+namespace viscontact {
+
+/// How a residual z (over the residuals' own scale) counts: z^2/2; Huber 1964: as |z| beyond 1.345; Cauchy:
+/// (c^2/2) ln(1 + (z/c)^2) with c = 2.385. Both constants keep 95 % of least squares' efficiency on Gaussian residuals (Holland & Welsch 1977).
+enum class Loss { kSquared, kHuber, kCauchy };
+
+/// "none", "huber", "cauchy".
+std::string_view to_string(Loss loss);
+
+/// Throws Error(kBadInput) for another word.
+Loss parse_loss(std::string_view word);
+
+struct RobustSolution {
+  /// Of the rows weighted as the loss weighs them in the end; its covariance is that of these least squares.
+  LeastSquaresSolution least_squares;
+  Eigen::VectorXd row_weights;  ///< in ]0, 1]: 1 for every row with Loss::kSquared
+  double scale = 0;             ///< of the residuals A x - b: 1.4826 times their median absolute value, corrected for the freedoms used
+};
+
+/// The x that minimises the sum of loss((A x - b)_i / scale) over x, by iteratively reweighted least squares; arguments and errors as
+/// solve_least_squares. Throws Error(kNotConverged) too when the weights do not settle.
+RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
+                                          const Eigen::VectorXd& right_hand_side, Loss loss);
+
+}  // namespace viscontact

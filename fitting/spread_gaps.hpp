@@ -1,0 +1,24 @@
+// Gaps at which a function on an interval is looked at.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace viscontact {
+
+/// `count` >= 2 gaps in geometric progression over an interval [L], 0 < first < second, whose ends they hit exactly.
+inline std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201) {
+  const double low = std::log(interval[0]);
+  const double high = std::log(interval[1]);
+  std::vector<double> gaps;
+  for (int i = 0; i < count; ++i)
+    gaps.push_back(std::clamp(std::exp(std::lerp(low, high, static_cast<double>(i) / (count - 1))),
+                              interval[0], interval[1]));
+  gaps.front() = interval[0];
+  gaps.back() = interval[1];
+  return gaps;
+}
+
+}  // namespace viscontact
