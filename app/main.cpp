@@ -10,6 +10,7 @@
 
 #include "app/command_options.hpp"
 #include "app/doctor.hpp"
+#include "app/fit_command.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
@@ -19,7 +20,6 @@
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
-#include "fitting/terms.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
@@ -31,25 +31,6 @@ std::string version_text() {
     if (program != "Viscontact") text += fmt::format("{} {}\n", program, version);
   return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION,
                      freefem_version_or_not_found(), text);
-}
-
-void add_fit(CLI::App& app) {
-  struct Options {
-    std::string table, fit, basis = "lecture", weights = "relative";
-  };
-  auto* command = app.add_subcommand("fit", "least squares of a table");
-  auto o = std::make_shared<Options>();
-  command->add_option("TABLE", o->table, "table of forces (CSV)")->required();
-  command->add_option("-o,--output", o->fit, "fit to write (JSON)")->required();
-  command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))
-      ->capture_default_str();
-  command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
-      ->capture_default_str();
-  command->callback([o] {
-    check_outputs({o->fit});
-    refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
-    fit_stage(o->table, o->fit, o->basis, parse_weights(o->weights));
-  });
 }
 
 void add_shift(CLI::App& app) {
@@ -77,7 +58,8 @@ void add_simulate(CLI::App& app) {
   struct Options {
     std::string case_file, fit, folder;
     std::vector<std::string> models;
-    bool lubrication_limit = false;
+    std::string lubrication_limit;
+    bool stokes_limit = false;
   };
   auto* command = app.add_subcommand("simulate", "one trajectory for each model of motion");
   auto o = std::make_shared<Options>();
@@ -91,13 +73,22 @@ void add_simulate(CLI::App& app) {
       ->add_option("--models", o->models,
                    "comma-separated; default: the case's, or all of: " + names_of(all_models()))
       ->delimiter(',');
-  command->add_flag("--lubrication-limit", o->lubrication_limit,
-                    "below the fit's smallest gap use the leading term and what the fit adds to it "
-                    "there, instead of stopping");
-  command->callback([o] {
+  auto* limit = command
+                    ->add_option("--lubrication-limit", o->lubrication_limit,
+                                 "below the fit's smallest gap let the drag grow as k/q instead of "
+                                 "stopping; k: fitted (default), or theory's")
+                    ->check(CLI::IsMember({"fitted", "theory"}))
+                    ->expected(0, 1)
+                    ->type_name("[fitted|theory]");
+  command->add_flag("--stokes-limit", o->stokes_limit,
+                    "above the fit's largest gap let the drag fall to Stokes' instead of stopping");
+  command->callback([o, limit] {
     check_outputs({o->folder});
-    simulate_stage(read_case(o->case_file), o->fit, o->folder, o->models,
-                   o->lubrication_limit ? BelowInterval::kLubricationLimit : BelowInterval::kError);
+    const auto below = limit->count() == 0                ? BelowInterval::kError
+                       : o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
+                                                          : BelowInterval::kLubricationLimit;
+    simulate_stage(read_case(o->case_file), o->fit, o->folder, o->models, below,
+                   o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError);
   });
 }
 
@@ -168,6 +159,7 @@ int run(int argc, char** argv) {
   add_run(app);
   add_tabulate(app);
   add_fit(app);
+  add_export(app);
   add_shift(app);
   add_simulate(app);
   add_compare(app);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/comparison_table.hpp"
+#include "app/fit_summary.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
@@ -17,6 +18,7 @@
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
 #include "reduced_model/comparison.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
@@ -53,6 +55,19 @@ std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> a
 std::string time_step_of(std::string_view model, const Motion& motion) {
   if (find_model(model).contact != nullptr) return format_number(motion.contact_time_step);
   return model == "reference" ? format_number(motion.reference_time_step) : "variable";
+}
+
+/// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
+void write_uncertainty_file(const Motion& motion, const Fit& fit, const fs::path& path) {
+  constexpr std::size_t kTimes = 81;
+  try {
+    write_file(path, write_uncertainty(propagate_fit(motion, fit, kTimes)));
+  } catch (const Error& error) {
+    if (error.exit_code() != ExitCode::kNotConverged) throw;
+    fs::remove(path);
+    say(fmt::format("viscontact: warning: the fit's uncertainty is not propagated: {}",
+                    error.what()));
+  }
 }
 
 /// Says so if trajectories of ours were made from different cases or fits: their distances then mix two causes.
@@ -93,30 +108,39 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 
 }  // namespace
 
-void fit_stage(const fs::path& table_path, const fs::path& fit_path, const std::string& basis,
-               Weights weights) {
-  const std::string table_sha256 = sha256(read_file(table_path));
-  const auto versions = library_versions();
-  if (up_to_date(fit_path, [&] {
-        const Fit fit = read_fit(fit_path);
-        return fit.table_sha256 == table_sha256 && fit.basis == basis && fit.weights == weights &&
-               fit.versions == versions;
-      })) {
-    say(fmt::format("fit: {} is up to date", fit_path.string()));
-    return;
-  }
-  const auto table = read_force_table(table_path);
-  Fit fit;
+Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSettings& settings) {
   try {
-    fit = fit_force_table(table, basis, weights);
+    Fit fit = fit_force_table(table, settings);
+    fit.table_sha256 = sha256(read_file(table_path));
+    fit.versions = library_versions();
+    return fit;
   } catch (const Error& error) {
     throw Error(error.exit_code(), fmt::format("{}: {}", table_path.string(), error.what()));
   }
-  fit.table_sha256 = table_sha256;
-  fit.versions = versions;
-  write_file(fit_path, write_fit(fit));
-  say(fmt::format("fit: basis {}, largest relative residual {:.2g}, condition number {:.2g}",
-                  fit.basis, fit.largest_relative_residual, fit.condition_number));
+}
+
+void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings) {
+  const Fit fit = fit_file(table_path, read_force_table(table_path), settings);
+  for (const auto& warning : fit.diagnostics->warnings)
+    say(fmt::format("viscontact: warning: {}", warning));
+  const std::string text = write_fit(fit);
+  if (up_to_date(fit_path, [&] { return read_file(fit_path) == text; })) {
+    say(fmt::format("fit: {} is up to date", fit_path.string()));
+    return;
+  }
+  write_file(fit_path, text);
+  say(fit_in_words(fit));
+}
+
+void compare_bases_stage(const fs::path& table_path, const FitSettings& settings,
+                         const fs::path& plot_path) {
+  const auto table = read_force_table(table_path);
+  const auto results = compare_bases(table, settings);
+  if (std::ranges::none_of(results,
+                           [](const BasisResult& result) { return result.fit.has_value(); }))
+    throw_bad_input({table_path.string()}, results.front().failure);
+  write_file(plot_path, plot_bases(table, results));
+  fmt::print("{}", basis_table(results));
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
@@ -153,7 +177,7 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
 }
 
 void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
-                    std::vector<std::string> models, BelowInterval below) {
+                    std::vector<std::string> models, BelowInterval below, AboveInterval above) {
   const auto& motion = required_motion(c);
   const std::string fit_text = read_file(fit_path);
   const Fit fit = read_fit(fit_path);
@@ -167,7 +191,7 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
             fit.viscosity, fit.radius, c.viscosity, c.radius));
   const LubricationForce force = [&] {
     try {
-      return LubricationForce(fit, below);
+      return LubricationForce(fit, below, above);
     } catch (const Error& error) {
       throw Error(error.exit_code(), fmt::format("{}: {}", fit_path.string(), error.what()));
     }
@@ -184,6 +208,7 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
   write_file(run.case_file(), c.text);
   write_file(run.fit(), fit_text);
+  write_uncertainty_file(motion, fit, run.uncertainty());
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 
@@ -211,7 +236,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     (void)required_tabulation(c);
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
-    fit_stage(run.table(), fit, request.basis, request.weights);
+    fit_stage(run.table(), fit, request.settings);
   }
   throw_if_interrupted();
 

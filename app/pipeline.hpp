@@ -10,9 +10,13 @@
 
 namespace viscontact {
 
-/// Fits a table file into `fit_path`.
+/// Fits a table file into `fit_path`; a file that would not change is left as it is.
 void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
-               const std::string& basis, Weights weights);
+               const FitSettings& settings);
+
+/// Fits a table in every basis, prints them side by side and draws their residuals (SVG).
+void compare_bases_stage(const std::filesystem::path& table_path, const FitSettings& settings,
+                         const std::filesystem::path& plot_path);
 
 /// Fits the shift of a rough wall's table against a smooth wall's fit (fitting/wall_shift.hpp), prints it, and writes each row's (CSV), and a
 /// picture (SVG) unless `plot_path` is empty.
@@ -24,7 +28,7 @@ void shift_stage(const std::filesystem::path& table_path, const std::filesystem:
 /// Error(kBadInput) if the fit is of another viscosity or radius than the case.
 void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
                     const std::filesystem::path& folder, std::vector<std::string> models,
-                    BelowInterval below);
+                    BelowInterval below, AboveInterval above = AboveInterval::kError);
 
 /// Compares a folder's trajectories, and other files, into `comparison_path`.
 void compare_stage(const std::filesystem::path& folder,

@@ -8,6 +8,7 @@
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
@@ -67,6 +68,40 @@ std::string coefficients(const Fit& fit) {
       "error</th></tr>\n{}</table></div>\n",
       fit.reference_velocity, to_string(fit.weights), fit.largest_relative_residual,
       fit.rms_relative_residual, fit.condition_number, rows);
+}
+
+std::string trust(const FitDiagnostics& d) {
+  std::string text = fmt::format(
+      "<p>{}", escaped(d.leave_one_out_rms
+                           ? fmt::format("Each row predicted from the others: root mean square "
+                                         "{:.3g}, largest {:.3g} at gap {:.4g}. ",
+                                         *d.leave_one_out_rms, d.leave_one_out_largest.value(),
+                                         d.leave_one_out_gap.value())
+                           : ""));
+  if (d.chi_squared)
+    text += fmt::format(
+        "Chi-squared against the table's error estimates: {:.3g} for {} degrees of freedom{}",
+        *d.chi_squared, d.degrees_of_freedom,
+        d.misfit == Misfit::kBasis
+            ? ": the misfit is the basis's, and the standard errors take it for noise."
+            : ".");
+  text += "</p>\n";
+  for (const auto& warning : d.warnings) text += "<p>Warning: " + escaped(warning) + ".</p>\n";
+  for (const auto& outlier : d.outliers)
+    text += fmt::format("<p>Outlier at gap {:.6g}: the fit is {:+.2g} relative from it.</p>\n",
+                        outlier.gap, outlier.relative_residual);
+  return text;
+}
+
+std::string uncertainty_table(const FitUncertainty& uncertainty) {
+  const auto& smallest = uncertainty.smallest;
+  return fmt::format(
+      "<p>Without inertia the smallest gap is {:.6g} at time {:.4g}. 95 % of {} draws of the "
+      "coefficients "
+      "({} refused) lie in [{:.6g}, {:.6g}]. If the drag were off by {:.2g} everywhere, the "
+      "largest residual and error estimate: in [{:.6g}, {:.6g}].</p>\n",
+      smallest.gap, smallest.time, uncertainty.draws, uncertainty.refused, smallest.random[0],
+      smallest.random[1], uncertainty.misfit, smallest.misfit[0], smallest.misfit[1]);
 }
 
 std::string model_table(const Comparison& comparison) {
@@ -133,7 +168,13 @@ void write_report(const std::filesystem::path& folder) {
                                   plot_gaps_logarithmic(trajectories, required_motion(c), force));
   page += section("Contact", plot_gamma(trajectories));
   page += section("Lubrication force and fit",
-                  (table ? plot_fit(*table, fit) : "") + coefficients(fit));
+                  (table ? plot_fit(*table, fit) : "") + coefficients(fit) +
+                      (fit.diagnostics ? trust(*fit.diagnostics) : ""));
+  if (std::filesystem::exists(run.uncertainty())) {
+    const auto uncertainty = read_uncertainty(run.uncertainty());
+    page += section("What the fit does to the answer",
+                    uncertainty_table(uncertainty) + plot_uncertainty(uncertainty));
+  }
   page += fmt::format("<footer>Made by Viscontact {}. {}.</footer>\n</body></html>\n",
                       VISCONTACT_VERSION, versions(fit, table));
   write_file(run.report(), page);

@@ -222,4 +222,28 @@ std::string plot_minimal_gaps(const Comparison& comparison,
   return draw_svg({panel}, kWidth, 160 + 34 * rows);
 }
 
+std::string plot_uncertainty(const FitUncertainty& uncertainty) {
+  Panel panel{"Gap without inertia: intervals around the fit's, relative",
+              "time t",
+              "q / q_{fit} - 1",
+              false,
+              false,
+              {kKeyBelow},
+              {}};
+  const auto curve = [&](const char* legend, const char* style,
+                         std::array<double, 2> UncertainGap::*interval, std::size_t end) {
+    Curve result{legend, style, {}};
+    for (const auto& gap : uncertainty.gaps)
+      result.points.emplace_back(gap.time, (gap.*interval)[end] / gap.gap - 1);
+    panel.curves.push_back(result);
+  };
+  constexpr const char* kRandom = "lines linecolor rgb '#0072B2' linewidth 2";
+  constexpr const char* kMisfit = "lines linecolor rgb '#D55E00' linewidth 2 dashtype (8,5)";
+  curve("95 % of the draws of coefficients", kRandom, &UncertainGap::random, 0);
+  curve("", kRandom, &UncertainGap::random, 1);
+  curve("drag off by the largest misfit everywhere", kMisfit, &UncertainGap::misfit, 0);
+  curve("", kMisfit, &UncertainGap::misfit, 1);
+  return draw_svg({panel}, kWidth, 440);
+}
+
 }  // namespace viscontact

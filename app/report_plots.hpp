@@ -8,6 +8,7 @@
 #include "case_file/case_file.hpp"
 #include "fitting/lubrication_force.hpp"
 #include "reduced_model/comparison.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
 
 namespace viscontact {
 
@@ -30,5 +31,8 @@ std::string plot_gamma(const std::vector<Trajectory>& trajectories);
 /// value if the case has one.
 std::string plot_minimal_gaps(const Comparison& comparison,
                               const std::optional<PublishedGap>& published);
+
+/// Bands of the inertialess gap over time, relative to the fit's own.
+std::string plot_uncertainty(const FitUncertainty& uncertainty);
 
 }  // namespace viscontact

@@ -19,6 +19,7 @@ struct RunFolder {
     return trajectories() / (std::string(model) + ".csv");
   }
   std::filesystem::path comparison() const { return path / "comparison.json"; }
+  std::filesystem::path uncertainty() const { return path / "uncertainty.json"; }
   std::filesystem::path report() const { return path / "report.html"; }
 };
 

@@ -139,10 +139,28 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   if (section.has("file")) {
     fit.file = case_folder / section.text("file");
   } else {
-    fit.basis = section.text("basis");
-    at_key(section, "basis", [&] { return find_basis(fit.basis); });
+    auto& settings = fit.settings;
+    const std::string basis_key = section.has("terms") ? "terms" : "basis";
+    const std::string basis = section.text(basis_key);
+    if (basis_key == "terms" && section.has("basis"))
+      section.fail("basis", "must not be there beside terms, a basis of your own");
+    settings.basis = at_key(section, basis_key, [&] {
+      return basis_key == "terms" ? parse_terms(basis) : find_basis(basis);
+    });
     const std::string weights = section.text("weights");
-    fit.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
+    settings.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
+    if (section.has("loss")) {
+      const std::string loss = section.text("loss");
+      settings.loss = at_key(section, "loss", [&] { return parse_loss(loss); });
+    }
+    if (section.has("fix")) {
+      settings.hold_leading = true;
+      if (!section.is_text("fix"))
+        settings.leading_value = section.number("fix", kFinite);
+      else if (section.text("fix") != "theory")
+        section.fail("fix", fmt::format("is '{}'; must be \"theory\" or the coefficient of 1/q",
+                                        section.text("fix")));
+    }
   }
   section.finish();
   return fit;

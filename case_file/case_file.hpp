@@ -14,8 +14,7 @@ namespace viscontact {
 
 /// How the force is fitted, or the fit that stands in for tabulation and fitting.
 struct FitRequest {
-  std::string basis;
-  Weights weights = Weights::kRelative;
+  FitSettings settings;
   std::optional<std::filesystem::path> file;  ///< a fit file to use as it is
 };
 

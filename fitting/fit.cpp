@@ -52,7 +52,8 @@ double held_leading(const ForceTable& table, const FitSettings& settings) {
   if (settings.leading_value) return *settings.leading_value;
   if (!table.leading_coefficient)
     throw Error(ExitCode::kBadInput,
-                "the table does not say what theory's coefficient of 1/q is; give the value to hold, or write k of R = "
+                "the table does not say what theory's coefficient of 1/q is; give the value to "
+                "hold, or write k of R = "
                 "k/q into its header (# leading_coefficient: k)");
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
@@ -68,19 +69,93 @@ void check_gaps(const ForceTable& table, const FitSettings& settings) {
                             gaps.size(), settings.basis.name, needed));
 }
 
+/// What the least squares are made of, a row for each of the table's.
+struct Equations {
+  Eigen::VectorXd force;  // at the first row's velocity
+  Eigen::VectorXd left;   // what the held term leaves of it to the others
+  Eigen::MatrixXd terms;  // a column for each term that is not held
+  Eigen::VectorXd weight;
+};
+
+bool is_held(const Term& term, const FitSettings& settings) {
+  return settings.hold_leading && term.name == kLeadingTerm;
+}
+
+Equations assemble(const ForceTable& table, const FitSettings& settings, double held) {
+  const auto rows = static_cast<Eigen::Index>(table.rows.size());
+  const auto columns =
+      static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.hold_leading ? 1 : 0);
+  const double u0 = table.rows.front().reference_velocity;
+  Equations equations = {Eigen::VectorXd(rows), Eigen::VectorXd(rows),
+                         Eigen::MatrixXd(rows, columns), Eigen::VectorXd::Ones(rows)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto& row = table.rows[static_cast<std::size_t>(i)];
+    const double log_gap = std::log(row.gap);
+    equations.force(i) = equations.left(i) = row.force * (u0 / row.reference_velocity);
+    Eigen::Index column = 0;
+    for (const auto& term : settings.basis.terms) {
+      const double value = term.value.at(row.gap, log_gap);
+      if (is_held(term, settings))
+        equations.left(i) -= held * value;
+      else
+        equations.terms(i, column++) = value;
+    }
+  }
+  if (settings.weights == Weights::kRelative)
+    equations.weight = equations.force.cwiseAbs().cwiseInverse();
+  return equations;
+}
+
+/// Coefficients and covariance, with a zero row and column for what is held.
+void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
+                      double held, Fit& fit) {
+  std::vector<Eigen::Index> columns;  // of the solution; -1: held
+  Eigen::Index free = 0;
+  for (const auto& term : settings.basis.terms) {
+    const std::string name(term.name);
+    if (is_held(term, settings)) {
+      columns.push_back(-1);
+      fit.terms.push_back({name, held, 0, true});
+    } else {
+      fit.terms.push_back(
+          {name, solution.coefficients(free), std::sqrt(solution.covariance(free, free)), false});
+      columns.push_back(free++);
+    }
+  }
+  fit.covariance.assign(columns.size(), std::vector<double>(columns.size(), 0.0));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      if (columns[i] >= 0 && columns[j] >= 0)
+        fit.covariance[i][j] = solution.covariance(columns[i], columns[j]);
+}
+
+FittedSystem residuals_of(const Equations& equations, const RobustSolution& solution) {
+  const Eigen::VectorXd residual =
+      equations.terms * solution.least_squares.coefficients - equations.left;
+  const Eigen::VectorXd weighted = equations.weight.cwiseProduct(residual);
+  const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
+  FittedSystem system;
+  system.weighted_matrix = root.cwiseProduct(equations.weight).asDiagonal() * equations.terms;
+  system.weighted_residual = root.cwiseProduct(weighted);
+  system.relative_residual = residual.cwiseQuotient(equations.force);
+  system.scaled_residual = weighted / solution.scale;
+  return system;
+}
+
 }  // namespace
 
 Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   check_linearity(table);
   check_gaps(table, settings);
-  const auto& basis = settings.basis;
-  const auto held = settings.hold_leading ? std::optional(held_leading(table, settings)) : std::nullopt;
-  const auto rows = static_cast<Eigen::Index>(table.rows.size());
-  const double u0 = table.rows.front().reference_velocity;
+  const double held = settings.hold_leading ? held_leading(table, settings) : 0;
+  const auto equations = assemble(table, settings, held);
+  const auto solution =
+      solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
+                                 equations.weight.cwiseProduct(equations.left), settings.loss);
 
   Fit fit;
-  fit.basis = basis.name;
-  fit.reference_velocity = u0;
+  fit.basis = settings.basis.name;
+  fit.reference_velocity = table.rows.front().reference_velocity;
   fit.viscosity = table.viscosity;
   fit.radius = table.radius;
   fit.gap_interval = {std::ranges::min_element(table.rows, {}, &ForceTableRow::gap)->gap,
@@ -89,56 +164,9 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   fit.loss = settings.loss;
   fit.geometry = table.geometry;
   fit.leading_coefficient = table.leading_coefficient;
-
-  Eigen::VectorXd force(rows), weight(rows);
-  Eigen::VectorXd left = Eigen::VectorXd::Zero(rows);  // what the held term leaves to the others
-  Eigen::MatrixXd terms(rows, static_cast<Eigen::Index>(basis.terms.size()) - (held ? 1 : 0));
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const auto& row = table.rows[static_cast<std::size_t>(i)];
-    const double log_gap = std::log(row.gap);
-    force(i) = row.force * (u0 / row.reference_velocity);
-    left(i) = force(i);
-    Eigen::Index column = 0;
-    for (const auto& term : basis.terms) {
-      const double value = term.value.at(row.gap, log_gap);
-      if (held && term.name == kLeadingTerm)
-        left(i) -= *held * value;
-      else
-        terms(i, column++) = value;
-    }
-  }
-  weight = settings.weights == Weights::kRelative ? Eigen::VectorXd(force.cwiseAbs().cwiseInverse())
-                                                  : Eigen::VectorXd::Ones(rows);
-  const Eigen::MatrixXd matrix = weight.asDiagonal() * terms;
-  const Eigen::VectorXd right_hand_side = weight.cwiseProduct(left);
-  const auto solution = solve_robust_least_squares(matrix, right_hand_side, settings.loss);
-  const auto& least_squares = solution.least_squares;
-  fit.condition_number = least_squares.condition_number;
-
-  // Coefficients and covariance, with a zero row and column for what was held.
-  fit.covariance.assign(basis.terms.size(), std::vector<double>(basis.terms.size(), 0.0));
-  Eigen::Index free = 0;
-  std::vector<Eigen::Index> column_of;
-  for (const auto& term : basis.terms) {
-    const bool is_held = held && term.name == kLeadingTerm;
-    column_of.push_back(is_held ? -1 : free++);
-    fit.terms.push_back({std::string(term.name),
-                         is_held ? *held : least_squares.coefficients(column_of.back()),
-                         is_held ? 0 : std::sqrt(least_squares.covariance(column_of.back(), column_of.back())),
-                         is_held});
-  }
-  for (std::size_t i = 0; i < column_of.size(); ++i)
-    for (std::size_t j = 0; j < column_of.size(); ++j)
-      if (column_of[i] >= 0 && column_of[j] >= 0)
-        fit.covariance[i][j] = least_squares.covariance(column_of[i], column_of[j]);
-
-  FittedSystem system;
-  const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
-  const Eigen::VectorXd residual = matrix * least_squares.coefficients - right_hand_side;
-  system.weighted_matrix = root.asDiagonal() * matrix;
-  system.weighted_residual = root.cwiseProduct(residual);
-  system.relative_residual = (terms * least_squares.coefficients - left).cwiseQuotient(force);
-  system.scaled_residual = residual / solution.scale;
+  set_coefficients(solution.least_squares, settings, held, fit);
+  fit.condition_number = solution.least_squares.condition_number;
+  const auto system = residuals_of(equations, solution);
   fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();
   fit.rms_relative_residual = std::sqrt(system.relative_residual.array().square().mean());
   fit.diagnostics = diagnose(table, system, fit);

@@ -33,7 +33,8 @@ struct FitSettings {
   Loss loss = Loss::kSquared;
   /// True: the coefficient of 1/q is not fitted but held at `leading_value`, or at what theory says (ForceTable::leading_coefficient).
   bool hold_leading = false;
-  std::optional<double> leading_value{};  ///< of the force at the table's first velocity, as in the fit file [M L^2/T^2]
+  std::optional<double>
+      leading_value{};  ///< of the force at the table's first velocity, as in the fit file [M L^2/T^2]
 };
 
 struct FitTerm {
@@ -54,12 +55,13 @@ struct Fit {
   Weights weights = Weights::kRelative;
   Loss loss = Loss::kSquared;
   std::vector<FitTerm> terms;
-  double largest_relative_residual = 0;         ///< of all rows, outliers too
+  double largest_relative_residual = 0;  ///< of all rows, outliers too
   double rms_relative_residual = 0;
   double condition_number = 1;                  ///< of the scaled, weighted columns
   std::vector<std::vector<double>> covariance;  ///< of the coefficients
   std::string geometry;                         ///< the table's, in words; may be empty
-  std::optional<double> leading_coefficient{};  ///< k of R = k/q [M L/T] in theory, if the table says it
+  std::optional<double>
+      leading_coefficient{};  ///< k of R = k/q [M L/T] in theory, if the table says it
   std::optional<FitDiagnostics> diagnostics{};  ///< none in a fit that was written by hand
   std::string table_sha256;                     ///< of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version

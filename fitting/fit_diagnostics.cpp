@@ -59,8 +59,7 @@ void leave_one_out(const ForceTable& table, const FittedSystem& system, FitDiagn
   Eigen::VectorXd leverage = Eigen::VectorXd::Zero(matrix.rows());
   if (matrix.cols() > 0) {
     // Columns of length 1, as in the least squares: the leverages do not depend on their scale, the rounding does.
-    const Eigen::MatrixXd scaled =
-        matrix * matrix.colwise().norm().cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd scaled = matrix * matrix.colwise().norm().cwiseInverse().asDiagonal();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
     const Eigen::MatrixXd q =
         qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
@@ -112,7 +111,8 @@ void warn_of_shape(const Fit& fit, std::vector<std::string>& warnings) {
       slope += weight * found.log_slope(gap);
     }
     if (positive && !(resistance > 0)) {
-      warnings.push_back(fmt::format("the fitted resistance is not positive: {:.4g} at gap {:.4g}", resistance, gap));
+      warnings.push_back(fmt::format("the fitted resistance is not positive: {:.4g} at gap {:.4g}",
+                                     resistance, gap));
       positive = false;
     }
     if (decreasing && !(slope < 0)) {
@@ -125,18 +125,21 @@ void warn_of_shape(const Fit& fit, std::vector<std::string>& warnings) {
 void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
-    warnings.emplace_back("as many coefficients as rows: the residuals and the standard errors say nothing");
+    warnings.emplace_back(
+        "as many coefficients as rows: the residuals and the standard errors say nothing");
   for (const auto& term : fit.terms) {
     if (!term.held && term.standard_error >= std::abs(term.coefficient) && term.standard_error > 0)
-      warnings.push_back(fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
-                                     term.name, term.coefficient, term.standard_error));
+      warnings.push_back(
+          fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
+                      term.name, term.coefficient, term.standard_error));
     if (term.name != kLeadingTerm || term.held || !fit.leading_coefficient) continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
     // Two standard errors: one fit in twenty of pure noise.
     if (d.degrees_of_freedom > 0 && std::abs(departure) > 2 * term.standard_error)
       warnings.push_back(fmt::format(
-          "the coefficient of 1/q is {:.6g}, theory's is {:.6g}: {:+.2g} relative, {:.1f} standard errors apart",
+          "the coefficient of 1/q is {:.6g}, theory's is {:.6g}: {:+.2g} relative, {:.1f} standard "
+          "errors apart",
           term.coefficient, theory, departure / theory, std::abs(departure) / term.standard_error));
   }
 }
@@ -147,7 +150,9 @@ std::string_view to_string(Misfit misfit) {
   return std::ranges::find(kMisfits, misfit, &NamedMisfit::misfit)->name;
 }
 
-Misfit parse_misfit(std::string_view word) { return require_named(kMisfits, word, "misfit").misfit; }
+Misfit parse_misfit(std::string_view word) {
+  return require_named(kMisfits, word, "misfit").misfit;
+}
 
 FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, const Fit& fit) {
   FitDiagnostics d;

@@ -1,13 +1,12 @@
 // How far a fit can be trusted: what its residuals say beside the table's own error estimates.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace viscontact {
 
@@ -47,11 +46,13 @@ struct FitDiagnostics {
   /// Sum of (relative residual / error estimate)^2; nothing unless every row has an estimate.
   std::optional<double> chi_squared{};
   std::size_t degrees_of_freedom = 0;  ///< rows - free coefficients
-  Misfit misfit = Misfit::kUnknown;    ///< kBasis: chi_squared is beyond the 99 % quantile of its distribution
+  Misfit misfit =
+      Misfit::kUnknown;  ///< kBasis: chi_squared is beyond the 99 % quantile of its distribution
   /// Akaike's criterion for small samples, n ln(sum of squares / n) + 2 K + 2 K (K + 1)/(n - K - 1), K = free coefficients + 1 (Hurvich &
   /// Tsai 1989). Less is better; only between fits of the same rows with the same weights. Nothing for n <= K + 1 or no residual.
   std::optional<double> information_criterion{};
-  std::vector<Outlier> outliers;      ///< beyond 5 times the scale of the others; with a robust loss only
+  std::vector<Outlier>
+      outliers;  ///< beyond 5 times the scale of the others; with a robust loss only
   std::vector<std::string> warnings;  ///< each a sentence for the user
 };
 
@@ -59,10 +60,10 @@ struct Fit;
 
 /// The least squares behind a fit: rows as in the table, one column a free coefficient.
 struct FittedSystem {
-  Eigen::MatrixXd weighted_matrix;    ///< weight * term(gap), and times the root of the loss's weight
+  Eigen::MatrixXd weighted_matrix;  ///< weight * term(gap), and times the root of the loss's weight
   Eigen::VectorXd weighted_residual;  ///< likewise, fit - table
   Eigen::VectorXd relative_residual;
-  Eigen::VectorXd scaled_residual;    ///< residual as the loss sees it: over the scale of all
+  Eigen::VectorXd scaled_residual;  ///< residual as the loss sees it: over the scale of all
 };
 
 /// Judges a fit whose other members are complete.

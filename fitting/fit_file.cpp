@@ -1,73 +1,17 @@
 // The fit file: docs/fit.schema.json in words of C++.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/fit_diagnostics_json.hpp"
+#include "fitting/json_object.hpp"
 #include "fitting/terms.hpp"
 
 namespace viscontact {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
-/// "terms[2].name is ...".
-class JsonObject {
- public:
-  JsonObject(const Json& json, std::string file, std::string path)
-      : json_(json), file_(std::move(file)), path_(std::move(path)) {
-    if (!json_.is_object()) fail("", "must be an object");
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
-    throw_bad_input({file_}, fmt::format("{} {}", where.empty() ? "the file" : where, what));
-  }
-
-  const Json& at(const std::string& key) const {
-    if (!json_.contains(key)) fail(key, "is missing");
-    return json_.at(key);
-  }
-
-  double number(const std::string& key) const { return finite(key, at(key)); }
-
-  double finite(const std::string& key, const Json& value) const {
-    if (!value.is_number() || !std::isfinite(value.get<double>()))
-      fail(key, fmt::format("is {}; must be a finite number", value.dump()));
-    return value.get<double>();
-  }
-
-  double number_above(const std::string& key, double bound, bool bound_allowed) const {
-    const double value = number(key);
-    if (value < bound || (value == bound && !bound_allowed))
-      fail(key, fmt::format("is {}; must be {} {}", value, bound_allowed ? ">=" : ">", bound));
-    return value;
-  }
-
-  std::string text(const std::string& key) const {
-    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", at(key).dump()));
-    return at(key).get<std::string>();
-  }
-
-  const Json& array(const std::string& key) const {
-    if (!at(key).is_array()) fail(key, "must be an array");
-    return at(key);
-  }
-
-  void allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, value] : json_.items())
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        fail(key, "is not a key of a fit file");
-  }
-
- private:
-  const Json& json_;
-  std::string file_, path_;
-};
 
 Json parse(const std::string& file, const std::string& text) {
   try {
@@ -87,15 +31,16 @@ Json parse(const std::string& file, const std::string& text) {
   }
 }
 
-std::vector<FitTerm> read_terms(const JsonObject& root, const std::string& file) {
+std::vector<FitTerm> read_terms(const JsonObject& root) {
   std::vector<FitTerm> terms;
   const Json& array = root.array("terms");
   if (array.empty()) root.fail("terms", "is empty");
   for (std::size_t i = 0; i < array.size(); ++i) {
-    const JsonObject object(array[i], file, fmt::format("terms[{}]", i));
-    object.allow_only({"name", "coefficient", "standard_error"});
+    const JsonObject object = root.element("terms", i);
+    object.allow_only({"name", "coefficient", "standard_error", "held"});
     FitTerm term{object.text("name"), object.number("coefficient"),
-                 object.number_above("standard_error", 0, true)};
+                 object.number_above("standard_error", 0, true),
+                 object.has("held") && object.truth("held")};
     if (!find_term(term.name))
       object.fail("name", fmt::format("is '{}', which is no term", term.name));
     for (const auto& other : terms)
@@ -127,7 +72,8 @@ Fit read_fit(const std::filesystem::path& path) {
   const JsonObject root(json, file, "");
   root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights",
                    "terms", "largest_relative_residual", "rms_relative_residual",
-                   "condition_number", "covariance", "table_sha256", "versions"});
+                   "condition_number", "covariance", "table_sha256", "versions", "loss", "geometry",
+                   "leading_coefficient", "diagnostics"});
   Fit fit;
   fit.basis = root.text("basis");
   fit.reference_velocity = root.number("reference_velocity");
@@ -140,13 +86,13 @@ Fit read_fit(const std::filesystem::path& path) {
                       root.finite("gap_interval[1]", interval[1])};
   if (!(fit.gap_interval[0] > 0 && fit.gap_interval[1] > fit.gap_interval[0]))
     root.fail("gap_interval", fmt::format("is {}; must be 0 < first < second", interval.dump()));
-  try {
-    fit.weights = parse_weights(root.text("weights"));
-  } catch (const Error&) {
-    root.fail("weights",
-              fmt::format("is '{}'; must be relative or absolute", root.text("weights")));
-  }
-  fit.terms = read_terms(root, file);
+  fit.weights = root.word("weights", parse_weights);
+  if (root.has("loss")) fit.loss = root.word("loss", parse_loss);
+  if (root.has("geometry")) fit.geometry = root.text("geometry");
+  if (root.has("leading_coefficient")) fit.leading_coefficient = root.number("leading_coefficient");
+  if (root.has("diagnostics"))
+    fit.diagnostics = read_diagnostics({root.at("diagnostics"), file, "diagnostics"});
+  fit.terms = read_terms(root);
   fit.largest_relative_residual = root.number_above("largest_relative_residual", 0, true);
   fit.rms_relative_residual = root.number_above("rms_relative_residual", 0, true);
   fit.condition_number = root.number_above("condition_number", 1, true);
@@ -168,15 +114,20 @@ std::string write_fit(const Fit& fit) {
   json["radius"] = fit.radius;
   json["gap_interval"] = fit.gap_interval;
   json["weights"] = to_string(fit.weights);
+  json["loss"] = to_string(fit.loss);
   json["terms"] = Json::array();
   for (const auto& term : fit.terms)
     json["terms"].push_back({{"name", term.name},
                              {"coefficient", term.coefficient},
-                             {"standard_error", term.standard_error}});
+                             {"standard_error", term.standard_error},
+                             {"held", term.held}});
   json["largest_relative_residual"] = fit.largest_relative_residual;
   json["rms_relative_residual"] = fit.rms_relative_residual;
   json["condition_number"] = fit.condition_number;
   json["covariance"] = fit.covariance;
+  if (!fit.geometry.empty()) json["geometry"] = fit.geometry;
+  if (fit.leading_coefficient) json["leading_coefficient"] = *fit.leading_coefficient;
+  if (fit.diagnostics) json["diagnostics"] = write_diagnostics(*fit.diagnostics);
   json["table_sha256"] = fit.table_sha256;
   json["versions"] = fit.versions;
   return json.dump(2) + "\n";

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "fitting/spread_gaps.hpp"
 #include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
@@ -38,9 +39,10 @@ void LubricationForce::set_limits(const Fit& fit) {
     limit_ = {leading_, regular_resistance(smallest)};
   if (below_ == BelowInterval::kTheoryLimit) {
     if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
-      throw Error(ExitCode::kBadInput,
-                  "the fit does not say what theory's coefficient k of k/q is (leading_coefficient > "
-                  "0): fit a table that says it, or use the fitted coefficient");
+      throw Error(
+          ExitCode::kBadInput,
+          "the fit does not say what theory's coefficient k of k/q is (leading_coefficient > "
+          "0): fit a table that says it, or use the fitted coefficient");
     limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
   }
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
@@ -61,16 +63,18 @@ std::array<double, 2> LubricationForce::interval() const {
 
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
-  const bool allowed = gap >= smallest ? gap <= largest || (above_ != AboveInterval::kError && std::isfinite(gap))
-                                       : below_ != BelowInterval::kError && gap > 0;
+  const bool allowed =
+      gap >= smallest ? gap <= largest || (above_ != AboveInterval::kError && std::isfinite(gap))
+                      : below_ != BelowInterval::kError && gap > 0;
   if (allowed) return;
   const char* remedy = "";
   if (gap < smallest && below_ == BelowInterval::kError)
     remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";
   if (gap > largest) remedy = ", or ask for Stokes' drag far above it (simulate --stokes-limit)";
-  throw Error(ExitCode::kBadInput,
-              fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}",
-                          gap, smallest, largest, remedy));
+  throw Error(
+      ExitCode::kBadInput,
+      fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
+                  smallest, largest, remedy));
 }
 
 double LubricationForce::leading_coefficient() const {

@@ -21,8 +21,8 @@ enum class BelowInterval {
 enum class AboveInterval {
   kError,       ///< nothing: asking is an error
   kStokesLimit  ///< Stokes' drag in the end: R_S (1 + c/(q + r)), R_S = 6 pi mu r, c such that R is continuous at q2. The first
-                ///< reflection at a wall or a sphere decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a
-                ///< plane); a container's other walls have no part in it
+  ///< reflection at a wall or a sphere decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a
+  ///< plane); a container's other walls have no part in it
 };
 
 /// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).

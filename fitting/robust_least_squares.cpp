@@ -37,9 +37,7 @@ const std::array kLosses = {
               }},
 };
 
-const NamedLoss& row_of(Loss loss) {
-  return *std::ranges::find(kLosses, loss, &NamedLoss::loss);
-}
+const NamedLoss& row_of(Loss loss) { return *std::ranges::find(kLosses, loss, &NamedLoss::loss); }
 
 /// 1.4826 makes the median of |z| the standard deviation of Gaussian z.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
@@ -61,8 +59,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   constexpr double kSettled = 1e-9;  // of the scale: far below what the data can tell
   // Residuals that are round-off are no outliers.
   const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
-  Eigen::VectorXd residual =
-      matrix * solution.least_squares.coefficients - right_hand_side;
+  Eigen::VectorXd residual = matrix * solution.least_squares.coefficients - right_hand_side;
   for (int step = 0; step < kMostSteps; ++step) {
     if (step < kStepsWithScale)
       solution.scale = std::max(round_off, scale_of(residual, matrix.cols()));
@@ -76,8 +73,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
     const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
     solution.least_squares =
         solve_least_squares(root.asDiagonal() * matrix, root.cwiseProduct(right_hand_side));
-    const Eigen::VectorXd next =
-        matrix * solution.least_squares.coefficients - right_hand_side;
+    const Eigen::VectorXd next = matrix * solution.least_squares.coefficients - right_hand_side;
     const double moved = (next - residual).cwiseAbs().maxCoeff();
     residual = next;
     if (step >= kStepsWithScale && moved <= std::max(round_off, kSettled * solution.scale)) return;
@@ -89,9 +85,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
 
 std::string_view to_string(Loss loss) { return row_of(loss).name; }
 
-Loss parse_loss(std::string_view word) {
-  return require_named(kLosses, word, "loss").loss;
-}
+Loss parse_loss(std::string_view word) { return require_named(kLosses, word, "loss").loss; }
 
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side, Loss loss) {
@@ -103,8 +97,7 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
   if (loss == Loss::kSquared) return solution;
   // Huber's sum has one minimum; Cauchy's may have several: from Huber's, the one that most rows agree on.
   iterate(matrix, right_hand_side, *row_of(Loss::kHuber).make(), solution);
-  if (loss != Loss::kHuber)
-    iterate(matrix, right_hand_side, *row_of(loss).make(), solution);
+  if (loss != Loss::kHuber) iterate(matrix, right_hand_side, *row_of(loss).make(), solution);
   return solution;
 }
 

@@ -21,7 +21,8 @@ struct RobustSolution {
   /// Of the rows weighted as the loss weighs them in the end; its covariance is that of these least squares.
   LeastSquaresSolution least_squares;
   Eigen::VectorXd row_weights;  ///< in ]0, 1]: 1 for every row with Loss::kSquared
-  double scale = 0;             ///< of the residuals A x - b: 1.4826 times their median absolute value, corrected for the freedoms used
+  double scale =
+      0;  ///< of the residuals A x - b: 1.4826 times their median absolute value, corrected for the freedoms used
 };
 
 /// The x that minimises the sum of loss((A x - b)_i / scale) over x, by iteratively reweighted least squares; arguments and errors as

@@ -11,11 +11,10 @@ namespace viscontact {
 namespace {
 
 // The expression once as text and once as code: what is exported cannot differ from what is fitted.
-#define FORMULA(expression)                                                       \
-  Formula {                                                                       \
-#expression, []([[maybe_unused]] double q, [[maybe_unused]] double l) -> double { \
-      return expression;                                                          \
-    }                                                                             \
+#define FORMULA(expression)                                                                       \
+  Formula {                                                                                       \
+#expression,                                                                                  \
+        []([[maybe_unused]] double q, [[maybe_unused]] double l) -> double { return expression; } \
   }
 
 // clang-format off

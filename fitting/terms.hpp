@@ -22,8 +22,9 @@ struct Formula {
 /// between ln q and 1, q ln q and q. A coefficient's dimension is [force] over that of phi.
 struct Term {
   std::string_view name;
-  Formula value;           ///< phi(q)
-  Formula log_slope;       ///< q phi'(q) = d phi / d ln q: the derivative, in a form that does not overflow near contact
+  Formula value;  ///< phi(q)
+  Formula
+      log_slope;  ///< q phi'(q) = d phi / d ln q: the derivative, in a form that does not overflow near contact
   Formula antiderivative;  ///< a primitive of phi: what Gamma is made of
 };
 

@@ -1,0 +1,122 @@
+#include "app/fit_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command_options.hpp"
+#include "app/pipeline.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/named.hpp"
+#include "common/number.hpp"
+#include "fitting/export_fit.hpp"
+
+namespace viscontact {
+namespace {
+
+/// --fix without a value or with "1/q": theory's coefficient; "1/q=56.5": that one.
+void read_fix(const std::string& word, FitSettings& settings) {
+  settings.hold_leading = true;
+  if (word.empty() || word == kLeadingTerm) return;
+  const std::string prefix = std::string(kLeadingTerm) + "=";
+  settings.leading_value =
+      word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
+  if (!settings.leading_value)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app) {
+  struct Options {
+    std::string table, fit, basis = "lecture", terms, weights = "relative", loss = "none", fix, plot;
+    bool compare_bases = false;
+  };
+  auto* command = app.add_subcommand("fit", "least squares of a table");
+  auto o = std::make_shared<Options>();
+  command->add_option("TABLE", o->table, "table of forces (CSV)")->required();
+  auto* output = command->add_option("-o,--output", o->fit, "fit to write (JSON)");
+  auto* basis = command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))
+                    ->capture_default_str();
+  command
+      ->add_option("--terms", o->terms,
+                   "a basis of your own: comma-separated, of: " + names_of(all_terms()))
+      ->excludes(basis);
+  command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
+      ->capture_default_str();
+  command
+      ->add_option("--loss", o->loss,
+                   "how large residuals count: none (least squares), or robust: huber, cauchy; "
+                   "names the outliers")
+      ->capture_default_str();
+  auto* fix = command
+                  ->add_option("--fix", o->fix,
+                               "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE")
+                  ->expected(0, 1)
+                  ->type_name("[1/q[=VALUE]]");
+  command->add_flag("--compare-bases", o->compare_bases,
+                    "print every basis side by side, and draw their residuals");
+  command->add_option("--plot", o->plot,
+                      "picture of --compare-bases (SVG); default: beside the fit, or the table's name with .bases.svg here");
+  command->callback([o, output, fix] {
+    FitSettings settings;
+    settings.basis = o->terms.empty() ? find_basis(o->basis) : parse_terms(o->terms);
+    settings.weights = parse_weights(o->weights);
+    settings.loss = parse_loss(o->loss);
+    if (fix->count() > 0) read_fix(o->fix, settings);
+    if (output->count() == 0 && !o->compare_bases)
+      throw Error(ExitCode::kWrongUsage, "--output is required (or --compare-bases)");
+    if (!o->plot.empty() && !o->compare_bases)
+      throw Error(ExitCode::kWrongUsage, "--plot is for --compare-bases only");
+    std::filesystem::path plot = o->plot;
+    if (plot.empty() && output->count() > 0)
+      plot = std::filesystem::path(o->fit).replace_extension(".bases.svg");
+    if (plot.empty()) plot = std::filesystem::path(o->table).stem().string() + ".bases.svg";
+    auto outputs = std::vector<std::string>{};
+    if (output->count() > 0) outputs.push_back(o->fit);
+    if (o->compare_bases) outputs.push_back(plot.string());
+    check_outputs(outputs);
+    if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
+    if (o->compare_bases) {
+      refuse_other_kind(plot.string(), "<svg", "picture");
+      compare_bases_stage(o->table, settings, plot);
+    }
+    if (output->count() > 0) fit_stage(o->table, o->fit, settings);
+  });
+}
+
+void add_export(CLI::App& app) {
+  struct Options {
+    std::string fit, target, output;
+  };
+  auto* command = app.add_subcommand("export", "a fit as code or numbers for other programs");
+  auto o = std::make_shared<Options>();
+  std::string targets;
+  for (const auto& target : export_targets())
+    targets += fmt::format("{}{} ({})", targets.empty() ? "" : ", ", target.name, target.description);
+  command->add_option("FIT", o->fit, "fit (JSON)")->required();
+  command->add_option("--to", o->target, targets)->required();
+  auto* output = command->add_option("-o,--output", o->output, "file to write; default: standard output");
+  command->callback([o, output] {
+    if (output->count() > 0) {
+      check_outputs({o->output});
+      refuse_other_kind(o->output, "viscontact", "export");
+    }
+    const Fit fit = read_fit(o->fit);
+    std::string text;
+    try {
+      text = export_fit(fit, o->target);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
+    }
+    if (output->count() > 0)
+      write_file(o->output, text);
+    else
+      fmt::print("{}", text);
+  });
+}
+
+}  // namespace viscontact

@@ -1,0 +1,36 @@
+#include "fitting/basis_comparison.hpp"
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+std::vector<BasisResult> compare_bases(const ForceTable& table, const FitSettings& settings) {
+  auto bases = all_bases();
+  if (settings.basis.name == kOwnTerms) bases.push_back(settings.basis);
+  std::vector<BasisResult> results;
+  for (const auto& basis : bases) {
+    BasisResult result{std::string(basis.name), {}, ""};
+    FitSettings one = settings;
+    one.basis = basis;
+    try {
+      result.fit = fit_force_table(table, one);
+    } catch (const Error& error) {
+      result.failure = error.what();
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+const BasisResult* best_basis(const std::vector<BasisResult>& results) {
+  const auto criterion = [](const BasisResult& result) {
+    return result.fit ? result.fit->diagnostics->information_criterion : std::nullopt;
+  };
+  const BasisResult* best = nullptr;
+  for (const auto& result : results)
+    if (criterion(result) && (best == nullptr || *criterion(result) < *criterion(*best)))
+      best = &result;
+  return best;
+}
+
+}  // namespace viscontact

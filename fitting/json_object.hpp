@@ -1,0 +1,109 @@
+// A JSON object that is read with errors fit for a user.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+using Json = nlohmann::ordered_json;
+
+/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
+/// "terms[2].name is ...".
+class JsonObject {
+ public:
+  JsonObject(const Json& json, std::string file, std::string path)
+      : json_(json), file_(std::move(file)), path_(std::move(path)) {
+    if (!json_.is_object()) fail("", "must be an object");
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
+    throw_bad_input({file_}, fmt::format("{} {}", where.empty() ? "the file" : where, what));
+  }
+
+  const Json& at(const std::string& key) const {
+    if (!json_.contains(key)) fail(key, "is missing");
+    return json_.at(key);
+  }
+
+  double number(const std::string& key) const { return finite(key, at(key)); }
+
+  double finite(const std::string& key, const Json& value) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      fail(key, fmt::format("is {}; must be a finite number", value.dump()));
+    return value.get<double>();
+  }
+
+  double number_above(const std::string& key, double bound, bool bound_allowed) const {
+    const double value = number(key);
+    if (value < bound || (value == bound && !bound_allowed))
+      fail(key, fmt::format("is {}; must be {} {}", value, bound_allowed ? ">=" : ">", bound));
+    return value;
+  }
+
+  std::string text(const std::string& key) const {
+    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", at(key).dump()));
+    return at(key).get<std::string>();
+  }
+
+  /// A number, or null for none.
+  std::optional<double> number_or_null(const std::string& key) const {
+    return at(key).is_null() ? std::nullopt : std::optional(number(key));
+  }
+
+  std::size_t count(const std::string& key) const {
+    if (!at(key).is_number_unsigned())
+      fail(key, fmt::format("is {}; must be a whole number >= 0", at(key).dump()));
+    return at(key).get<std::size_t>();
+  }
+
+  bool truth(const std::string& key) const {
+    if (!at(key).is_boolean()) fail(key, fmt::format("is {}; must be true or false", at(key).dump()));
+    return at(key).get<bool>();
+  }
+
+  /// A word that `parse` knows; what that throws becomes an error at the key.
+  template <class Parse>
+  auto word(const std::string& key, const Parse& parse) const {
+    try {
+      return parse(text(key));
+    } catch (const Error& error) {
+      fail(key, fmt::format("is '{}': {}", text(key), error.what()));
+    }
+  }
+
+  bool has(const std::string& key) const { return json_.contains(key); }
+
+  const Json& array(const std::string& key) const {
+    if (!at(key).is_array()) fail(key, "must be an array");
+    return at(key);
+  }
+
+  /// An element of an array of objects.
+  JsonObject element(const std::string& key, std::size_t index) const {
+    const std::string inner = fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
+    return {array(key).at(index), file_, inner};
+  }
+
+  void allow_only(std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : json_.items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail(key, "is not a key of a fit file");
+  }
+
+ private:
+  const Json& json_;
+  std::string file_, path_;
+};
+
+}  // namespace viscontact

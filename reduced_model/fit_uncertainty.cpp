@@ -1,0 +1,154 @@
+#include "reduced_model/fit_uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "fitting/lubrication_force.hpp"
+
+namespace viscontact {
+namespace {
+
+LubricationForce with_limits(const Fit& fit) {
+  return LubricationForce(fit, BelowInterval::kLubricationLimit, AboveInterval::kStokesLimit);
+}
+
+/// L with L L^T = covariance, also where that is singular: by the eigenvectors of the correlations, as the coefficients' sizes differ by decades.
+Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
+  const auto size = static_cast<Eigen::Index>(covariance.size());
+  Eigen::MatrixXd matrix(size, size);
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = 0; j < size; ++j)
+      matrix(i, j) = covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  const Eigen::VectorXd deviation = matrix.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd over = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(over.asDiagonal() * matrix *
+                                                             over.asDiagonal());
+  return deviation.asDiagonal() * eigen.eigenvectors() *
+         eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// The two ends of the 95 % in the middle; sorts.
+std::array<double, 2> middle_of(std::vector<double>& values) {
+  if (values.empty())
+    throw Error(ExitCode::kNotConverged, "no draw of the fit's coefficients gives a positive drag");
+  std::ranges::sort(values);
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  };
+  return {at(0.025), at(0.975)};
+}
+
+/// The instants that are looked at; the first is that of q_min.
+std::vector<double> instants_of(const Motion& motion, std::size_t times) {
+  auto ends = motion.external_force.jumps();
+  std::erase_if(ends, [&](double t) { return t > motion.end_time; });
+  ends.insert(ends.end(), {0, motion.end_time});
+  std::vector<double> instants = {*std::ranges::min_element(
+      ends, {}, [&](double t) { return motion.external_force.impulse(t); })};
+  for (std::size_t i = 0; i < times; ++i)
+    instants.push_back(motion.end_time * static_cast<double>(i) /
+                       static_cast<double>(std::max<std::size_t>(1, times - 1)));
+  return instants;
+}
+
+}  // namespace
+
+FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
+                             std::size_t draws) {
+  const auto instants = instants_of(motion, times);
+  const auto gaps_with = [&](const LubricationForce& force, double share, std::vector<double>& gaps) {
+    const double start = force.impulse(motion.initial_gap);
+    for (std::size_t i = 0; i < instants.size(); ++i)
+      gaps[i] = force.gap_of_impulse(start + share * motion.external_force.impulse(instants[i]));
+  };
+  FitUncertainty result;
+  result.draws = draws;
+  result.misfit = fit.largest_relative_residual +
+                  (fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0);
+  const LubricationForce force = with_limits(fit);
+  std::vector<double> gaps(instants.size()), less(instants.size()), more(instants.size());
+  gaps_with(force, 1, gaps);
+  gaps_with(force, 1 - result.misfit, less);
+  gaps_with(force, 1 + result.misfit, more);
+
+  const Eigen::MatrixXd root = root_of(fit.covariance);
+  std::mt19937_64 random(1);  // always the same draws
+  std::normal_distribution<double> normal;
+  std::vector<std::vector<double>> drawn(instants.size());
+  std::vector<double> of_draw(instants.size());
+  Fit one = fit;
+  for (std::size_t draw = 0; draw < draws; ++draw) {
+    Eigen::VectorXd z(root.cols());
+    for (auto& component : z) component = normal(random);
+    const Eigen::VectorXd shift = root * z;
+    for (std::size_t i = 0; i < one.terms.size(); ++i)
+      one.terms[i].coefficient = fit.terms[i].coefficient + shift(static_cast<Eigen::Index>(i));
+    try {
+      gaps_with(with_limits(one), 1, of_draw);
+    } catch (const Error&) {
+      ++result.refused;
+      continue;
+    }
+    for (std::size_t i = 0; i < instants.size(); ++i) drawn[i].push_back(of_draw[i]);
+  }
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const UncertainGap uncertain = {instants[i], gaps[i], middle_of(drawn[i]),
+                                    {std::min(less[i], more[i]), std::max(less[i], more[i])}};
+    if (i == 0)
+      result.smallest = uncertain;
+    else
+      result.gaps.push_back(uncertain);
+  }
+  return result;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json write_gap(const UncertainGap& gap) {
+  return {{"time", gap.time},
+          {"gap", gap.gap},
+          {"random_interval", gap.random},
+          {"misfit_interval", gap.misfit}};
+}
+
+UncertainGap read_gap(const Json& json) {
+  return {json.at("time"), json.at("gap"), json.at("random_interval"), json.at("misfit_interval")};
+}
+
+}  // namespace
+
+std::string write_uncertainty(const FitUncertainty& uncertainty) {
+  Json json;
+  json["level"] = 0.95;
+  json["draws"] = uncertainty.draws;
+  json["refused_draws"] = uncertainty.refused;
+  json["misfit"] = uncertainty.misfit;
+  json["minimal_gap"] = write_gap(uncertainty.smallest);
+  json["gaps"] = Json::array();
+  for (const auto& gap : uncertainty.gaps) json["gaps"].push_back(write_gap(gap));
+  return json.dump(2) + "\n";
+}
+
+FitUncertainty read_uncertainty(const std::filesystem::path& path) {
+  try {
+    const auto json = Json::parse(read_file(path));
+    FitUncertainty uncertainty;
+    uncertainty.draws = json.at("draws");
+    uncertainty.refused = json.at("refused_draws");
+    uncertainty.misfit = json.at("misfit");
+    uncertainty.smallest = read_gap(json.at("minimal_gap"));
+    for (const auto& gap : json.at("gaps")) uncertainty.gaps.push_back(read_gap(gap));
+    return uncertainty;
+  } catch (const Json::exception&) {
+    throw_bad_input({path.string()}, "is not an uncertainty file; write one with 'viscontact simulate'");
+  }
+}
+
+}  // namespace viscontact
