@@ -19,20 +19,22 @@ namespace {
 /// --fix without a value or with "1/q": theory's coefficient; "1/q=56.5": that one.
 void read_fix(const std::string& word, FitSettings& settings) {
   settings.hold_leading = true;
-  if (word.empty() || word == kLeadingTerm) return;
+  if (word.empty() || word == kLeadingTerm || word == "theory") return;
   const std::string prefix = std::string(kLeadingTerm) + "=";
   settings.leading_value =
       word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
   if (!settings.leading_value)
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
 }
 
 }  // namespace
 
 void add_fit(CLI::App& app) {
   struct Options {
-    std::string table, fit, basis = "lecture", terms, weights = "relative", loss = "none", fix, plot;
+    std::string table, fit, basis = "lecture", terms, weights = "relative", loss = "none", fix,
+                            plot;
     bool compare_bases = false;
   };
   auto* command = app.add_subcommand("fit", "least squares of a table");
@@ -52,15 +54,17 @@ void add_fit(CLI::App& app) {
                    "how large residuals count: none (least squares), or robust: huber, cauchy; "
                    "names the outliers")
       ->capture_default_str();
-  auto* fix = command
-                  ->add_option("--fix", o->fix,
-                               "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE")
-                  ->expected(0, 1)
-                  ->type_name("[1/q[=VALUE]]");
+  auto* fix =
+      command
+          ->add_option("--fix", o->fix,
+                       "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE")
+          ->expected(0, 1)
+          ->type_name("[1/q[=VALUE]]");
   command->add_flag("--compare-bases", o->compare_bases,
                     "print every basis side by side, and draw their residuals");
   command->add_option("--plot", o->plot,
-                      "picture of --compare-bases (SVG); default: beside the fit, or the table's name with .bases.svg here");
+                      "picture of --compare-bases (SVG); default: beside the fit, or the table's "
+                      "name with .bases.svg here");
   command->callback([o, output, fix] {
     FitSettings settings;
     settings.basis = o->terms.empty() ? find_basis(o->basis) : parse_terms(o->terms);
@@ -96,10 +100,12 @@ void add_export(CLI::App& app) {
   auto o = std::make_shared<Options>();
   std::string targets;
   for (const auto& target : export_targets())
-    targets += fmt::format("{}{} ({})", targets.empty() ? "" : ", ", target.name, target.description);
+    targets +=
+        fmt::format("{}{} ({})", targets.empty() ? "" : ", ", target.name, target.description);
   command->add_option("FIT", o->fit, "fit (JSON)")->required();
   command->add_option("--to", o->target, targets)->required();
-  auto* output = command->add_option("-o,--output", o->output, "file to write; default: standard output");
+  auto* output =
+      command->add_option("-o,--output", o->output, "file to write; default: standard output");
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});

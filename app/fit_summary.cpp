@@ -28,12 +28,14 @@ std::string misfit_in_words(const FitDiagnostics& d) {
 std::string fit_in_words(const Fit& fit) {
   const auto& d = fit.diagnostics.value();
   std::string text = fmt::format(
-      "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {}, condition number {:.2g}{}",
+      "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {}, condition "
+      "number {:.2g}{}",
       fit.basis, fit.largest_relative_residual, d.worst_gap,
       number_or_dash(d.leave_one_out_largest, "{:.2g}"), fit.condition_number, misfit_in_words(d));
   for (const auto& outlier : d.outliers)
-    text += fmt::format("\nfit: outlier at gap {:.6g}, velocity {:.6g}: the fit is {:+.2g} relative from it", outlier.gap,
-                        outlier.reference_velocity, outlier.relative_residual);
+    text += fmt::format(
+        "\nfit: outlier at gap {:.6g}, velocity {:.6g}: the fit is {:+.2g} relative from it",
+        outlier.gap, outlier.reference_velocity, outlier.relative_residual);
   return text;
 }
 
@@ -48,18 +50,19 @@ std::string basis_table(const std::vector<BasisResult>& results) {
     }
     const auto& fit = *result.fit;
     const auto& d = fit.diagnostics.value();
-    const auto reduced = d.chi_squared && d.degrees_of_freedom > 0
-                             ? std::optional(*d.chi_squared / static_cast<double>(d.degrees_of_freedom))
-                             : std::nullopt;
-    text += fmt::format(fmt::runtime(kLine), result.basis, fit.terms.size(),
-                        fmt::format("{:.2e}", fit.largest_relative_residual),
-                        fmt::format("{:.1e}", fit.rms_relative_residual),
-                        number_or_dash(d.leave_one_out_largest, "{:.2e}"),
-                        number_or_dash(reduced, "{:.2g}"), fmt::format("{:.1e}", fit.condition_number),
-                        number_or_dash(d.information_criterion, "{:.1f}"));
+    const auto reduced =
+        d.chi_squared && d.degrees_of_freedom > 0
+            ? std::optional(*d.chi_squared / static_cast<double>(d.degrees_of_freedom))
+            : std::nullopt;
+    text +=
+        fmt::format(fmt::runtime(kLine), result.basis, fit.terms.size(),
+                    fmt::format("{:.2e}", fit.largest_relative_residual),
+                    fmt::format("{:.1e}", fit.rms_relative_residual),
+                    number_or_dash(d.leave_one_out_largest, "{:.2e}"),
+                    number_or_dash(reduced, "{:.2g}"), fmt::format("{:.1e}", fit.condition_number),
+                    number_or_dash(d.information_criterion, "{:.1f}"));
   }
-  if (const auto* best = best_basis(results))
-    text += fmt::format("least AICc: {}\n", best->basis);
+  if (const auto* best = best_basis(results)) text += fmt::format("least AICc: {}\n", best->basis);
   return text;
 }
 
@@ -78,10 +81,11 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
     const char* colour = kColours.at(place++ % kColours.size());
     if (!result.fit) continue;
     const double u0 = result.fit->reference_velocity;
-    Curve curve{result.basis,
-                fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
-                            colour),
-                {}};
+    Curve curve{
+        result.basis,
+        fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
+                    colour),
+        {}};
     for (const auto& row : table.rows) {
       double force = 0;
       for (const auto& term : result.fit->terms)
@@ -92,7 +96,8 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
     }
     panel.curves.push_back(curve);
   }
-  Curve estimate{"table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#000000'", {}};
+  Curve estimate{
+      "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#000000'", {}};
   for (const auto& row : table.rows)
     if (row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);

@@ -26,7 +26,8 @@ Sum sum_of(const Fit& fit) {
   for (const auto& term : fit.terms)
     sum.terms.emplace_back(-term.coefficient / fit.reference_velocity,
                            find_term(term.name).value());
-  for (const auto& [weight, term] : sum.terms) sum.offset += weight * term.antiderivative(fit.radius);
+  for (const auto& [weight, term] : sum.terms)
+    sum.offset += weight * term.antiderivative(fit.radius);
   return sum;
 }
 
@@ -67,13 +68,15 @@ std::vector<std::string> facts(const Fit& fit) {
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
                   version == fit.versions.end() ? "of unknown version" : version->second),
       "F = -R(q) u: q the gap, u the normal velocity (positive away), F along the outward normal.",
-      "Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has absorbed.",
-      fmt::format("Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
-                  plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),
-                  plain(fit.viscosity)),
+      "Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has "
+      "absorbed.",
+      fmt::format(
+          "Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
+          plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),
+          plain(fit.viscosity)),
       fmt::format("Approaching: {}.", fit.geometry.empty() ? "not said" : fit.geometry),
-      fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.", fit.basis,
-                  fit.largest_relative_residual, fit.rms_relative_residual)};
+      fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.",
+                  fit.basis, fit.largest_relative_residual, fit.rms_relative_residual)};
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
     lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
                                 fit.diagnostics->largest_error_estimate));
@@ -90,7 +93,8 @@ std::string commented(const Fit& fit, std::string_view mark) {
 
 std::string write_c_header(const Fit& fit) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, Formula Term::*formula, const std::string& tail) {
+  const auto function = [&](std::string_view name, Formula Term::*formula,
+                            const std::string& tail) {
     return fmt::format(
         "static inline double viscontact_{}(double gap) {{\n"
         "  const double q = gap, l = log(gap);\n"
@@ -106,14 +110,16 @@ std::string write_c_header(const Fit& fit) {
              "#define VISCONTACT_LARGEST_GAP {}\n\n",
              c_literal(fit.gap_interval[0]), c_literal(fit.gap_interval[1])) +
          "// R(q), > 0.\n" + function("resistance", &Term::value, "") + "// Gamma(q).\n" +
-         function("impulse", &Term::antiderivative, fmt::format("\n      - ({})", c_literal(sum.offset))) +
+         function("impulse", &Term::antiderivative,
+                  fmt::format("\n      - ({})", c_literal(sum.offset))) +
          "// F(q, u).\nstatic inline double viscontact_force(double gap, double velocity) {\n"
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
 std::string write_fortran(const Fit& fit) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, Formula Term::*formula, const std::string& tail) {
+  const auto function = [&](std::string_view name, Formula Term::*formula,
+                            const std::string& tail) {
     return fmt::format(
         "  elemental function viscontact_{0}(gap) result(answer)\n"
         "    real(real64), intent(in) :: gap\n"
@@ -166,7 +172,8 @@ std::string write_python(const Fit& fit) {
                      plain(fit.gap_interval[0]), plain(fit.gap_interval[1])) +
          "def _check(gap):\n"
          "    if not SMALLEST_GAP <= gap <= LARGEST_GAP:\n"
-         "        raise ValueError(f\"gap {gap} is outside [{SMALLEST_GAP}, {LARGEST_GAP}]\")\n\n\n" +
+         "        raise ValueError(f\"gap {gap} is outside [{SMALLEST_GAP}, "
+         "{LARGEST_GAP}]\")\n\n\n" +
          function("resistance", "R(q), > 0.", &Term::value, "") +
          function("impulse", "Gamma(q).", &Term::antiderivative,
                   fmt::format("\n            - ({})", plain(sum.offset))) +
@@ -181,7 +188,8 @@ std::string write_json(const Fit& fit) {
   nlohmann::ordered_json json;
   json["about"] = facts(fit);
   json["formulas"] =
-      "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - impulse_offset";
+      "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
+      "impulse_offset";
   json["gap_interval"] = fit.gap_interval;
   json["radius"] = fit.radius;
   json["viscosity"] = fit.viscosity;

@@ -135,8 +135,10 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
     if (term.name != kLeadingTerm || term.held || !fit.leading_coefficient) continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
-    // Two standard errors: one fit in twenty of pure noise.
-    if (d.degrees_of_freedom > 0 && std::abs(departure) > 2 * term.standard_error)
+    // Two standard errors: one fit in twenty of pure noise. Nor can it be known better than the table.
+    const double error =
+        std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
+    if (d.degrees_of_freedom > 0 && std::abs(departure) > error)
       warnings.push_back(fmt::format(
           "the coefficient of 1/q is {:.6g}, theory's is {:.6g}: {:+.2g} relative, {:.1f} standard "
           "errors apart",

@@ -68,17 +68,21 @@ class JsonObject {
   }
 
   bool truth(const std::string& key) const {
-    if (!at(key).is_boolean()) fail(key, fmt::format("is {}; must be true or false", at(key).dump()));
+    if (!at(key).is_boolean())
+      fail(key, fmt::format("is {}; must be true or false", at(key).dump()));
     return at(key).get<bool>();
   }
 
-  /// A word that `parse` knows; what that throws becomes an error at the key.
+  /// A word that `parse` knows. It throws Error("...; what is allowed") for another one, which becomes an error at the key.
   template <class Parse>
   auto word(const std::string& key, const Parse& parse) const {
     try {
       return parse(text(key));
     } catch (const Error& error) {
-      fail(key, fmt::format("is '{}': {}", text(key), error.what()));
+      const std::string said = error.what();
+      const auto allowed = said.find("; ");
+      fail(key, fmt::format("is '{}'{}", text(key),
+                            allowed == std::string::npos ? "" : said.substr(allowed)));
     }
   }
 
@@ -91,7 +95,8 @@ class JsonObject {
 
   /// An element of an array of objects.
   JsonObject element(const std::string& key, std::size_t index) const {
-    const std::string inner = fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
+    const std::string inner =
+        fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
     return {array(key).at(index), file_, inner};
   }
 

@@ -3,8 +3,10 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -39,6 +41,39 @@ class LinearResiduals : public ceres::CostFunction {
   const Eigen::VectorXd& right_hand_side_;
 };
 
+/// Columns divided by powers of two, so that they are about equally long and no entry is rounded.
+Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
+  return matrix.colwise().norm().unaryExpr(
+      [](double norm) { return norm > 0 ? std::exp2(std::floor(std::log2(norm))) : 1.0; });
+}
+
+/// Iterative refinement of solution and residual together (Bjorck 1967): r + A x = b, A^T r = 0 with sums in extended precision. Refining x
+/// alone does not help where the residual is large.
+void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
+            Eigen::VectorXd& solution) {
+  using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  constexpr int kSteps = 4;  // each gains the digits that the conditioning leaves
+  const Eigen::Index columns = matrix.cols();
+  const auto long_matrix = matrix.cast<long double>();
+  const LongVector b = right_hand_side.cast<long double>();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
+  const auto upper = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  LongVector x = solution.cast<long double>();
+  LongVector residual = b - long_matrix * x;
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::VectorXd f = (b - residual - long_matrix * x).cast<double>();
+    const Eigen::VectorXd g = (-(long_matrix.transpose() * residual)).cast<double>();
+    const Eigen::VectorXd h = upper.transpose().solve(g);
+    Eigen::VectorXd d = qr.householderQ().adjoint() * f;
+    x += upper.solve(d.head(columns) - h).cast<long double>();
+    d.head(columns) = h;
+    const Eigen::VectorXd correction = qr.householderQ() * d;
+    residual += correction.cast<long double>();
+  }
+  const Eigen::VectorXd refined = x.cast<double>();
+  if (refined.allFinite()) solution = refined;
+}
+
 }  // namespace
 
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
@@ -48,12 +83,15 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   if (!matrix.allFinite() || !right_hand_side.allFinite())
     throw Error(ExitCode::kBadInput,
                 "a gap or a force is too small or too large: a term of the fit overflows");
-  const Eigen::VectorXd scale =
-      matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+  const Eigen::VectorXd scale = binary_scale(matrix);
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
 
   LeastSquaresSolution solution;
-  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues();
+  const Eigen::VectorXd length =
+      scaled.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+  const Eigen::VectorXd singular =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(scaled * length.cwiseInverse().asDiagonal())
+          .singularValues();
   const double smallest = singular(singular.size() - 1);
   if (!(smallest >
         singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
@@ -85,6 +123,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable() || !x.allFinite())
     throw Error(ExitCode::kNotConverged, "the least squares failed: " + summary.message);
+  refine(scaled, right_hand_side, x);
   solution.coefficients = x.cwiseQuotient(scale);
 
   const Eigen::Index freedom = matrix.rows() - matrix.cols();

@@ -1,4 +1,4 @@
-// Linear least squares by Ceres: columns scaled, covariance, condition number.
+// Linear least squares by Ceres: columns scaled, solution refined, covariance, condition number.
 #pragma once
 
 #include <Eigen/Core>

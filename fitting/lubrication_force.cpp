@@ -133,6 +133,9 @@ double LubricationForce::impulse(double gap) const {
 }
 
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
+  if (!std::isfinite(impulse_wanted))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the film cannot absorb an impulse of {}", impulse_wanted));
   const auto [smallest, largest] = fitted_interval_;
   const double low = std::log(smallest);
   const double high = std::log(largest);

@@ -38,7 +38,8 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
     throw Error(ExitCode::kNotConverged, "no draw of the fit's coefficients gives a positive drag");
   std::ranges::sort(values);
   const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+    return values[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(values.size() - 1)))];
   };
   return {at(0.025), at(0.975)};
 }
@@ -61,7 +62,8 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
                              std::size_t draws) {
   const auto instants = instants_of(motion, times);
-  const auto gaps_with = [&](const LubricationForce& force, double share, std::vector<double>& gaps) {
+  const auto gaps_with = [&](const LubricationForce& force, double share,
+                             std::vector<double>& gaps) {
     const double start = force.impulse(motion.initial_gap);
     for (std::size_t i = 0; i < instants.size(); ++i)
       gaps[i] = force.gap_of_impulse(start + share * motion.external_force.impulse(instants[i]));
@@ -97,7 +99,9 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
     for (std::size_t i = 0; i < instants.size(); ++i) drawn[i].push_back(of_draw[i]);
   }
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const UncertainGap uncertain = {instants[i], gaps[i], middle_of(drawn[i]),
+    const UncertainGap uncertain = {instants[i],
+                                    gaps[i],
+                                    middle_of(drawn[i]),
                                     {std::min(less[i], more[i]), std::max(less[i], more[i])}};
     if (i == 0)
       result.smallest = uncertain;
@@ -147,7 +151,8 @@ FitUncertainty read_uncertainty(const std::filesystem::path& path) {
     for (const auto& gap : json.at("gaps")) uncertainty.gaps.push_back(read_gap(gap));
     return uncertainty;
   } catch (const Json::exception&) {
-    throw_bad_input({path.string()}, "is not an uncertainty file; write one with 'viscontact simulate'");
+    throw_bad_input({path.string()},
+                    "is not an uncertainty file; write one with 'viscontact simulate'");
   }
 }
 

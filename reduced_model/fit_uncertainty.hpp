@@ -23,10 +23,12 @@ struct UncertainGap {
 };
 
 struct FitUncertainty {
-  std::size_t draws = 0;    ///< of coefficients
-  std::size_t refused = 0;  ///< of these: a drag that is not positive, or that such a motion is impossible with
-  double misfit = 0;        ///< largest relative residual and largest error estimate of the table, together
-  UncertainGap smallest;    ///< q_min
+  std::size_t draws = 0;  ///< of coefficients
+  std::size_t refused =
+      0;  ///< of these: a drag that is not positive, or that such a motion is impossible with
+  double misfit =
+      0;  ///< largest relative residual and largest error estimate of the table, together
+  UncertainGap smallest;           ///< q_min
   std::vector<UncertainGap> gaps;  ///< over time
 };
 

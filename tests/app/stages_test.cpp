@@ -8,6 +8,7 @@
 #include "common/number.hpp"
 #include "fitting/fit.hpp"
 #include "reduced_model/comparison.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 #include "reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
@@ -72,6 +73,78 @@ TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
   EXPECT_EQ(fit.weights, Weights::kRelative);
   // docs/theory.md, section 2: 2.5e-3 over [1e-3, 1]; to 2 it is less than twice as far from a cubic.
   EXPECT_LT(fit.largest_relative_residual, 5e-3);
+}
+
+TEST_F(Stages, FitTakesOwnTermsALossAndAHeldCoefficient) {
+  expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--terms",
+                              "1/q, ln q, 1", "--loss", "cauchy", "--fix", "1/q=56.5"}));
+  auto fit = read_fit(path("fit.json"));
+  EXPECT_EQ(fit.basis, "terms");
+  EXPECT_EQ(fit.loss, Loss::kCauchy);
+  ASSERT_EQ(fit.terms.size(), 3U);
+  EXPECT_TRUE(fit.terms[0].held);
+  EXPECT_EQ(fit.terms[0].coefficient, 56.5);
+  EXPECT_EQ(fit.terms[0].standard_error, 0);
+  // The table does not say theory's value; then it does.
+  expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}),
+                 ExitCode::kBadInput, HasSubstr("leading_coefficient"));
+  put("table.csv", "# leading_coefficient: 56.548667764616276\n" + read_file(path("table.csv")));
+  expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}));
+  fit = read_fit(path("new.json"));
+  EXPECT_EQ(fit.terms[0].coefficient, 56.548667764616276);  // u0 = -1
+  EXPECT_EQ(fit.leading_coefficient, 56.548667764616276);
+}
+
+TEST_F(Stages, CompareBasesPrintsThemSideBySideAndDrawsThem) {
+  const auto result = run_viscontact({"fit", path("table.csv"), "--compare-bases", "--plot",
+                                      path("bases.svg"), "--terms", "1/q, 1"});
+  expect_done(result);
+  for (const auto* word : {"lecture", "asymptotic_extended", "terms", "AICc", "least AICc: "})
+    EXPECT_THAT(result.output, HasSubstr(word));
+  EXPECT_THAT(read_file(path("bases.svg")), HasSubstr("<svg"));
+  EXPECT_FALSE(std::filesystem::exists(path("fit.json")));
+  expect_done(
+      run_viscontact({"fit", path("table.csv"), "--compare-bases", "-o", path("fit.json")}));
+  EXPECT_EQ(read_fit(path("fit.json")).basis, "lecture");
+  EXPECT_TRUE(std::filesystem::exists(path("fit.bases.svg")));
+}
+
+TEST_F(Stages, ExportIsPrintedOrWritten) {
+  fit("asymptotic");
+  const auto printed = run_viscontact({"export", path("fit.json"), "--to", "c-header"});
+  expect_done(printed);
+  EXPECT_THAT(printed.output, HasSubstr("viscontact_resistance"));
+  expect_done(run_viscontact({"export", path("fit.json"), "--to", "c-header", "-o", path("f.h")}));
+  EXPECT_EQ(read_file(path("f.h")), printed.output);
+  expect_refusal(run_viscontact({"export", path("fit.json"), "--to", "cobol"}), ExitCode::kBadInput,
+                 HasSubstr("cobol"));
+  expect_refusal(
+      run_viscontact({"export", path("fit.json"), "--to", "csv", "-o", path("case.toml")}),
+      ExitCode::kBadInput, HasSubstr("case.toml"));
+}
+
+TEST_F(Stages, SimulateSaysWhatTheFitsErrorsDoToTheAnswer) {
+  simulate();
+  const auto uncertainty = read_uncertainty(path("run/uncertainty.json"));
+  EXPECT_EQ(uncertainty.draws, 10000U);
+  EXPECT_LT(uncertainty.smallest.misfit[0], 2.97084661e-3);
+  EXPECT_GT(uncertainty.smallest.misfit[1], 2.97084661e-3);
+  expect_done(run_viscontact({"compare", path("run")}));
+  expect_done(run_viscontact({"report", path("run")}));
+  EXPECT_THAT(read_file(path("run/report.html")), HasSubstr("What the fit does to the answer"));
+}
+
+TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
+  put("case.toml", replaced(lecture_case_text(), "initial_gap = 1.0", "initial_gap = 2.5"));
+  fit("asymptotic");
+  const std::vector<std::string> arguments = {
+      "simulate", path("case.toml"), "--fit",    path("fit.json"),
+      "-o",       path("run"),       "--models", "reference_exact"};
+  expect_refusal(run_viscontact(arguments), ExitCode::kBadInput, HasSubstr("--stokes-limit"));
+  auto with_limit = arguments;
+  with_limit.emplace_back("--stokes-limit");
+  expect_done(run_viscontact(with_limit));
+  EXPECT_NEAR(trajectory("reference_exact").rows.back().gap, 2.5, 1e-9);  // the push is given back
 }
 
 TEST_F(Stages, SameFitIsNotMadeAgainAnotherIs) {

@@ -67,6 +67,23 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{"TaskWithoutCount",
                    {"tabulate", "case.toml", "-o", "table.csv", "--task", "4"},
                    "--task is '4'"},
+        WrongUsage{"FitWithoutOutput", {"fit", "table.csv"}, "--output is required"},
+        WrongUsage{"FitWithTwoBases",
+                   {"fit", "table.csv", "-o", "f.json", "--basis", "lecture", "--terms", "1/q"},
+                   "--terms"},
+        WrongUsage{"FixOfAnotherTerm",
+                   {"fit", "table.csv", "-o", "f.json", "--fix", "q^2=1"},
+                   "--fix is 'q^2=1'"},
+        WrongUsage{"FixOfNoNumber",
+                   {"fit", "table.csv", "-o", "f.json", "--fix", "1/q=x"},
+                   "--fix is '1/q=x'"},
+        WrongUsage{"PictureOfOneFit",
+                   {"fit", "table.csv", "-o", "f.json", "--plot", "p.svg"},
+                   "--plot is for --compare-bases"},
+        WrongUsage{"FitAndPictureInOneFile",
+                   {"fit", "table.csv", "-o", "f.json", "--compare-bases", "--plot", "f.json"},
+                   "would be written twice"},
+        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "no name"},
         WrongUsage{"UnknownLauncher",
                    {"tabulate", "case.toml", "-o", "table.csv", "--launcher", "pbs"},
                    "--launcher"},
@@ -96,24 +113,26 @@ TEST_P(CommandHelp, IsPrintedWithEveryOption) {
 
 INSTANTIATE_TEST_SUITE_P(
     Each, CommandHelp,
-    ::testing::Values(Help{"run", {"CASE", "-o,--output", "--jobs"}},
-                      Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
-                      Help{"fit",
-                           {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights",
-                            "relative", "absolute"}},
-                      Help{"simulate",
-                           {"CASE", "--fit", "-o,--output", "--models", "viscous_contact_threshold",
-                            "--lubrication-limit"}},
-                      Help{"compare",
-                           {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
-                      Help{"report", {"DIR"}}, Help{"doctor", {}}),
+    ::testing::Values(
+        Help{"run", {"CASE", "-o,--output", "--jobs"}},
+        Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
+        Help{"fit",
+             {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights", "relative",
+              "absolute", "--terms", "q ln q", "--loss", "huber", "--fix", "--compare-bases",
+              "--plot"}},
+        Help{"export", {"FIT", "--to", "c-header", "fortran", "python", "json", "csv"}},
+        Help{"simulate",
+             {"CASE", "--fit", "-o,--output", "--models", "viscous_contact_threshold",
+              "--lubrication-limit", "--stokes-limit"}},
+        Help{"compare", {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
+        Help{"report", {"DIR"}}, Help{"doctor", {}}),
     [](const auto& test) { return test.param.command; });
 
 TEST(ProgramHelp, NamesEveryCommand) {
   const auto result = run_viscontact({"--help"});
   expect_done(result);
   for (const auto* command :
-       {"run", "tabulate", "fit", "simulate", "compare", "report", "doctor", "--version"})
+       {"run", "tabulate", "fit", "export", "simulate", "compare", "report", "doctor", "--version"})
     EXPECT_THAT(result.output, HasSubstr(std::string("  ") + command + " "));
 }
 

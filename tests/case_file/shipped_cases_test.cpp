@@ -61,8 +61,8 @@ TEST(ShippedTables, AreThoseOfTheirCases) {
 TEST(LecturesCase, FitsTheLecturesBasis) {
   const Case c = shipped("lecture.toml");
   const auto& fit = required_fit(c);
-  EXPECT_EQ(fit.basis, "lecture");
-  EXPECT_EQ(fit.weights, Weights::kRelative);
+  EXPECT_EQ(fit.settings.basis.name, "lecture");
+  EXPECT_EQ(fit.settings.weights, Weights::kRelative);
   EXPECT_FALSE(fit.file.has_value());
 }
 

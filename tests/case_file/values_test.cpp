@@ -31,6 +31,34 @@ std::string without_section(const std::string& name) {
   return text.erase(from, next == std::string::npos ? next : next + 1 - from);
 }
 
+TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
+  const auto settings = [](const std::string& keys) {
+    return read_text(with_text(kFitKeys, keys).text).fit->settings;
+  };
+  auto read =
+      settings("terms = \"1/q, ln q, 1\"\nweights = \"relative\"\nloss = \"huber\"\nfix = 56.5\n");
+  EXPECT_EQ(read.basis.name, kOwnTerms);
+  EXPECT_EQ(read.basis.terms.size(), 3U);
+  EXPECT_EQ(read.loss, Loss::kHuber);
+  EXPECT_TRUE(read.hold_leading);
+  EXPECT_EQ(read.leading_value, 56.5);
+  read = settings("basis = \"lecture\"\nweights = \"relative\"\nfix = \"theory\"\n");
+  EXPECT_TRUE(read.hold_leading);
+  EXPECT_FALSE(read.leading_value.has_value());
+  read = settings(kFitKeys);
+  EXPECT_FALSE(read.hold_leading);
+  EXPECT_EQ(read.loss, Loss::kSquared);
+}
+
+TEST(FitSection, RefusesWhatItDoesNotKnow) {
+  const std::string weights = "weights = \"relative\"\n";
+  expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms", "q^9");
+  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis", "beside terms");
+  expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss", "huber");
+  expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix", "theory");
+  expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix", "number");
+}
+
 TEST(CaseValues, MayBeWholeNumbers) {
   const Case c = read_text(with_value({"", "[sphere]", "mass", "20.0"}, "7").text);
   EXPECT_EQ(required_motion(c).mass, 7);

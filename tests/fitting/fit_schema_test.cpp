@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -19,15 +20,23 @@ namespace {
 
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
+using nlohmann::literals::operator""_json_pointer;
 
 Json schema() {
   return Json::parse(
       read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs" / "fit.schema.json"));
 }
 
+/// A fit that has everything a fit file may hold: a held term, an outlier, a warning.
 Json good_file() {
-  Fit fit =
-      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  table.geometry = "plane";
+  table.leading_coefficient = 50;
+  table.rows[20].force *= 2;
+  for (auto& row : table.rows) row.relative_error_estimate = 1e-5;
+  FitSettings settings;
+  settings.loss = Loss::kHuber;
+  Fit fit = fit_force_table(table, settings);
   fit.versions = {{"Ceres", "2.1.0"}};
   return Json::parse(write_fit(fit));
 }
@@ -57,12 +66,15 @@ class Schema : public ::testing::Test {
     for (const auto& [key, value] : good.at(place).items())
       EXPECT_TRUE(rules.at("properties").contains(key))
           << key << " is written, but not in the schema";
-    for (const std::string key : rules.at("required")) {
-      EXPECT_TRUE(rules.at("properties").contains(key)) << key;
-      expect_refused(changed(good, place, [&](Json& object) { object.erase(key); }), key);
+    const auto required = rules.at("required").get<std::set<std::string>>();
+    for (const auto& [key, rule] : rules.at("properties").items()) {
+      const auto without = changed(good, place, [&key = key](Json& object) { object.erase(key); });
+      if (required.contains(key))
+        expect_refused(without, key);
+      else
+        EXPECT_NO_THROW(read(without)) << key << " is optional";
     }
-    EXPECT_EQ(rules.at("required").size(), rules.at("properties").size())
-        << "the reader has no optional keys";
+    for (const auto& key : required) EXPECT_TRUE(rules.at("properties").contains(key)) << key;
   }
 
   void expect_refused(const Json& json, const std::string& key) const {
@@ -87,12 +99,19 @@ class Schema : public ::testing::Test {
           << value;
     };
     for (const auto& [type, value] : kOneOfEach.items())
-      if (type != rule.at("type")) refused(value);
+      if (!is_type(rule.at("type"), type)) refused(value);
+    if (rule.at("type") == "object" && rule.contains("properties")) {
+      expect_object_rules(rule, (place / key).to_string());
+      return;
+    }
     for (const auto& [name, argument] : rule.items()) {
-      if (name == "enum") {
+      if (name == "minLength") {
+        refused("");
+      } else if (name == "enum") {
         refused("no such word");
       } else if (name == "minimum") {
         refused(argument.get<double>() - 1e-9);
+        if (rule.at("type") == "integer") refused(argument.get<double>() + 0.5);
         read_well(argument);
       } else if (name == "exclusiveMinimum") {
         refused(argument);
@@ -115,6 +134,11 @@ class Schema : public ::testing::Test {
             << "the test does not know the rule " << name;
       }
     }
+  }
+
+  /// True if a value of that type of kOneOfEach is allowed by a rule's `type`: 1.5 is no integer.
+  static bool is_type(const Json& rule, const std::string& type) {
+    return rule.is_array() ? std::find(rule.begin(), rule.end(), type) != rule.end() : rule == type;
   }
 
   template <class Refused>
@@ -148,17 +172,22 @@ TEST_F(Schema, RulesOfATermAreTheReaders) {
   expect_object_rules(schema().at("properties").at("terms").at("items"), "/terms/0");
 }
 
-TEST_F(Schema, KnowsEveryTermThereIs) {
-  const Json names =
-      schema().at("properties").at("terms").at("items").at("properties").at("name").at("enum");
-  std::set<std::string> terms;
-  for (const auto& term : all_terms()) terms.emplace(term.name);
-  EXPECT_EQ(names.get<std::set<std::string>>(), terms);
+TEST_F(Schema, RulesOfAnOutlierAreTheReaders) {
+  expect_object_rules(schema().at("/properties/diagnostics/properties/outliers/items"_json_pointer),
+                      "/diagnostics/outliers/0");
 }
 
 TEST_F(Schema, KnowsEveryWeights) {
   const Json words = schema().at("properties").at("weights").at("enum");
   for (const std::string word : words) EXPECT_NO_THROW(parse_weights(word));
+}
+
+TEST_F(Schema, KnowsEveryLossAndMisfit) {
+  for (const std::string word : schema().at("/properties/loss/enum"_json_pointer))
+    EXPECT_NO_THROW(parse_loss(word));
+  for (const std::string word :
+       schema().at("/properties/diagnostics/properties/misfit/enum"_json_pointer))
+    EXPECT_NO_THROW(parse_misfit(word));
 }
 
 TEST_F(Schema, IsOfTheDraftItClaims) {

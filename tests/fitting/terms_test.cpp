@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// f'(q) by the central difference of five points, step h = q/256 (a power of two: q +- h are exact).
-double numerical_derivative(double (*f)(double), double q) {
+double numerical_derivative(const Formula& f, double q) {
   const double h = std::ldexp(q, -8);
   return (8 * (f(q + h) - f(q - h)) - (f(q + 2 * h) - f(q - 2 * h))) / (12 * h);
 }
@@ -26,7 +26,7 @@ double numerical_derivative(double (*f)(double), double q) {
 double numerical_tolerance(double size, double q) { return 2e-9 * size / q; }
 
 /// |f| without the dip where a logarithm passes zero.
-double size_of(double (*f)(double), double q) {
+double size_of(const Formula& f, double q) {
   return std::abs(f(q)) + std::abs(f(2 * q)) + std::abs(f(q / 2));
 }
 
@@ -51,7 +51,7 @@ TEST_P(EachTerm, IsTheDerivativeOfItsAntiderivative) {
 TEST_P(EachTerm, IsFoundByItsName) {
   const auto found = find_term(GetParam().name);
   ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->value, GetParam().value);
+  EXPECT_EQ(found->value.text, GetParam().value.text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Terms, EachTerm,
@@ -69,6 +69,8 @@ TEST(Terms, AreWhatTheirNamesSay) {
   EXPECT_EQ(find_term("q")->value(q), q);
   EXPECT_DOUBLE_EQ(find_term("q^2")->value(q), q * q);
   EXPECT_DOUBLE_EQ(find_term("q^3")->value(q), q * q * q);
+  EXPECT_DOUBLE_EQ(find_term("q^2 ln q")->value(q), q * q * std::log(q));
+  EXPECT_DOUBLE_EQ(find_term("q^3 ln q")->value(q), q * q * q * std::log(q));
 }
 
 TEST(Terms, HaveDifferentNames) {
@@ -87,6 +89,23 @@ std::vector<std::string> term_names(std::string_view basis) {
 TEST(Bases, HaveTheTermsOfTheirSources) {
   EXPECT_THAT(term_names("lecture"), ElementsAre("1/q", "1", "q", "q^2", "q^3"));
   EXPECT_THAT(term_names("asymptotic"), ElementsAre("1/q", "ln q", "1", "q ln q", "q"));
+  EXPECT_THAT(term_names("asymptotic_extended"),
+              ElementsAre("1/q", "ln q", "1", "q ln q", "q", "q^2 ln q", "q^2", "q^3"));
+}
+
+TEST(OwnTerms, AreThoseNamedInTheirOrder) {
+  const auto basis = parse_terms(" q^2,1/q , q ln q");
+  EXPECT_EQ(basis.name, kOwnTerms);
+  std::vector<std::string> names;
+  for (const auto& term : basis.terms) names.emplace_back(term.name);
+  EXPECT_THAT(names, ElementsAre("q^2", "1/q", "q ln q"));
+}
+
+TEST(OwnTerms, AreRefusedWhereANameIsUnknownEmptyOrThereTwice) {
+  EXPECT_THAT(bad_input([] { parse_terms("1/q, q^7"); }), HasSubstr("'q^7'"));
+  EXPECT_THAT(bad_input([] { parse_terms("1/q,, q"); }), HasSubstr("''"));
+  EXPECT_THAT(bad_input([] { parse_terms(""); }), HasSubstr("1/q, ln q"));
+  EXPECT_THAT(bad_input([] { parse_terms("1/q, q, 1/q"); }), HasSubstr("twice"));
 }
 
 TEST(Bases, AreListedWhereANameIsUnknown) {

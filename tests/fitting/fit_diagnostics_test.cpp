@@ -1,0 +1,194 @@
+#include "fitting/fit_diagnostics.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fitting/fit.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/fitting/samples.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+double force_of(const Fit& fit, double gap) {
+  double force = 0;
+  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
+  return force;
+}
+
+FitSettings settings_of(std::string_view basis) {
+  FitSettings settings;
+  settings.basis = find_basis(basis);
+  return settings;
+}
+
+ForceTable exact_table() { return exact_drag_table(fifty_gaps(), {-1}, 3, 1); }
+
+/// R = k/q + 1 with the errors +-e in turn, which no smooth basis can follow.
+ForceTable table_with_noise(double noise, double estimate) {
+  ForceTable table = exact_table();
+  double sign = 1;
+  for (auto& row : table.rows) {
+    row.force = (50 / row.gap + 1) * (1 + sign * noise);
+    row.relative_error_estimate = estimate;
+    sign = -sign;
+  }
+  return table;
+}
+
+FitDiagnostics diagnostics_of(const ForceTable& table, const FitSettings& settings) {
+  return fit_force_table(table, settings).diagnostics.value();
+}
+
+TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
+  const auto table = exact_table();
+  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+    auto settings = settings_of("lecture");
+    settings.weights = weights;
+    const auto d = diagnostics_of(table, settings);
+    double squares = 0, largest = 0, gap = 0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      ForceTable others = table;
+      others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto& row = table.rows[i];
+      const double residual = std::abs(force_of(fit_force_table(others, settings), row.gap) / row.force - 1);
+      squares += residual * residual;
+      if (residual > largest) {
+        largest = residual;
+        gap = row.gap;
+      }
+    }
+    // The same numbers by another way: round-off times the conditioning, over residuals of 1e-3 and more.
+    EXPECT_NEAR(d.leave_one_out_rms.value() / std::sqrt(squares / 50), 1, 1e-8);
+    EXPECT_NEAR(d.leave_one_out_largest.value() / largest, 1, 1e-8);
+    EXPECT_EQ(d.leave_one_out_gap, gap);
+  }
+}
+
+TEST(WorstResidual, IsFoundWithItsSign) {
+  auto table = exact_table();
+  table.rows[17].force *= 1.5;  // the fit lies below it
+  const auto d = diagnostics_of(table, settings_of("asymptotic"));
+  EXPECT_EQ(d.worst_gap, table.rows[17].gap);
+  EXPECT_LT(d.worst_relative_residual, -0.2);
+}
+
+TEST(ChiSquared, IsTheSumOverTheRowsOfResidualOverEstimateSquared) {
+  const auto table = table_with_noise(1e-4, 2e-4);
+  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  double sum = 0;
+  for (const auto& row : table.rows)
+    sum += std::pow((force_of(fit, row.gap) / row.force - 1) / row.relative_error_estimate, 2);
+  const auto& d = *fit.diagnostics;
+  EXPECT_NEAR(d.chi_squared.value() / sum, 1, 1e-9);  // residuals of 1e-4, to round-off
+  EXPECT_EQ(d.degrees_of_freedom, 45U);
+  EXPECT_EQ(d.largest_error_estimate, 2e-4);
+}
+
+TEST(Misfit, IsTheDatasOrTheBasiss) {
+  // Noise within the estimates, beyond them (chi-squared 45 * 4 against a quantile of 70), and no estimates.
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 2e-4), settings_of("lecture")).misfit, Misfit::kData);
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 5e-5), settings_of("lecture")).misfit, Misfit::kBasis);
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 0), settings_of("lecture")).misfit, Misfit::kUnknown);
+  auto table = table_with_noise(1e-4, 2e-4);
+  table.rows.front().relative_error_estimate = 0;  // one without
+  EXPECT_FALSE(diagnostics_of(table, settings_of("lecture")).chi_squared.has_value());
+}
+
+TEST(Misfit, JudgesByTheQuantileOfChiSquared) {
+  // 99 % quantile for 45 degrees of freedom: 69.957 (tables). +-noise/estimate = z in all 50 rows gives about 50 z^2.
+  for (const auto& [chi_squared, misfit] : {std::pair{68.0, Misfit::kData}, {72.0, Misfit::kBasis}}) {
+    auto table = table_with_noise(1e-4, 1e-4);
+    const double now = diagnostics_of(table, settings_of("lecture")).chi_squared.value();
+    for (auto& row : table.rows) row.relative_error_estimate *= std::sqrt(now / chi_squared);
+    const auto d = diagnostics_of(table, settings_of("lecture"));
+    EXPECT_NEAR(d.chi_squared.value(), chi_squared, 1e-6);
+    EXPECT_EQ(d.misfit, misfit);
+  }
+}
+
+TEST(InformationCriterion, IsAkaikesForSmallSamples) {
+  const auto table = exact_table();
+  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  const double n = 50, k = 6;
+  const double expected = n * std::log(std::pow(fit.rms_relative_residual, 2)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+  EXPECT_NEAR(fit.diagnostics->information_criterion.value(), expected, 1e-9 * std::abs(expected));
+}
+
+TEST(InformationCriterion, NeedsMoreRowsThanCoefficients) {
+  const auto table = exact_drag_table(log_spaced(1e-3, 1, 6), {-1}, 3, 1);
+  EXPECT_FALSE(diagnostics_of(table, settings_of("lecture")).information_criterion.has_value());
+}
+
+TEST(Outliers, AreNamedByARobustLossOnly) {
+  auto table = table_with_noise(1e-5, 1e-4);
+  table.rows[20].force *= 1.1;
+  auto settings = settings_of("lecture");
+  EXPECT_THAT(diagnostics_of(table, settings).outliers, IsEmpty());
+  for (const auto loss : {Loss::kHuber, Loss::kCauchy}) {
+    settings.loss = loss;
+    const auto d = diagnostics_of(table, settings);
+    ASSERT_EQ(d.outliers.size(), 1U) << to_string(loss);
+    EXPECT_EQ(d.outliers[0].gap, table.rows[20].gap);
+    EXPECT_EQ(d.outliers[0].reference_velocity, -1);
+    EXPECT_NEAR(d.outliers[0].relative_residual, 1 / 1.1 - 1, 1e-4);  // noise, and Huber's pull
+  }
+}
+
+TEST(Warnings, AreNoneForAGoodFit) {
+  auto table = exact_table();
+  table.leading_coefficient = 18 * std::numbers::pi;
+  // The basis leaves 1e-8; with estimates below that, what it does to the leading coefficient would be named.
+  for (auto& row : table.rows) row.relative_error_estimate = 1e-7;
+  EXPECT_THAT(diagnostics_of(table, settings_of("asymptotic_extended")).warnings, IsEmpty());
+}
+
+TEST(Warnings, SayThatTheLeadingCoefficientDepartsFromTheory) {
+  auto table = table_with_noise(1e-5, 1e-4);
+  table.leading_coefficient = 50.5;  // the table's is 50
+  EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
+              ::testing::Contains(HasSubstr("theory's is 50.5")));
+  table.leading_coefficient = 50;
+  EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
+              ::testing::Not(::testing::Contains(HasSubstr("theory"))));
+}
+
+TEST(Warnings, SayThatACoefficientIsNotDetermined) {
+  // The force is k/q + 1 and noise: the cubic's coefficients are noise.
+  EXPECT_THAT(diagnostics_of(table_with_noise(1e-3, 1e-3), settings_of("lecture")).warnings,
+              ::testing::Contains(HasSubstr("of q^3 is not determined")));
+}
+
+TEST(Warnings, SayThatTheResistanceIsNotMonotone) {
+  auto table = exact_table();
+  for (auto& row : table.rows) row.force = 1 / row.gap + 20 * row.gap;  // a minimum at 0.22
+  EXPECT_THAT(diagnostics_of(table, settings_of("lecture")).warnings,
+              ::testing::Contains(HasSubstr("does not decrease at gap 0.2")));
+}
+
+TEST(Warnings, SayThatTheResistanceIsNotPositive) {
+  auto table = exact_table();
+  table.neighbour_moves = true;
+  for (auto& row : table.rows) row.force = 1 / row.gap - 10;  // changes sign at 0.1
+  auto settings = settings_of("lecture");
+  settings.weights = Weights::kAbsolute;
+  EXPECT_THAT(diagnostics_of(table, settings).warnings,
+              ::testing::Contains(HasSubstr("not positive")));
+}
+
+TEST(Warnings, SayThatThereAreAsManyCoefficientsAsRows) {
+  const auto table = exact_drag_table(log_spaced(1e-3, 1, 5), {-1}, 3, 1);
+  const auto d = diagnostics_of(table, settings_of("lecture"));
+  EXPECT_THAT(d.warnings, ::testing::Contains(HasSubstr("as many coefficients as rows")));
+  EXPECT_FALSE(d.leave_one_out_rms.has_value());
+}
+
+}  // namespace
+}  // namespace viscontact
