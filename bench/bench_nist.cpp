@@ -9,8 +9,9 @@ int main() {
   for (const auto name : viscontact::nist_sets()) {
     const auto set = viscontact::read_nist_set(name);
     const auto reached = viscontact::digits_reached(set);
-    fmt::print("{:<10} {:>5} {:>8} {:>10.1e} {:>20.1f} {:>18}\n", name, set.matrix.rows(),
-               set.matrix.cols(), reached.condition_number, reached.coefficients,
-               set.deviations.front() > 0 ? fmt::format("{:.1f}", reached.deviations) : "exact data");
+    fmt::print(
+        "{:<10} {:>5} {:>8} {:>10.1e} {:>20.1f} {:>18}\n", name, set.matrix.rows(),
+        set.matrix.cols(), reached.condition_number, reached.coefficients,
+        set.deviations.front() > 0 ? fmt::format("{:.1f}", reached.deviations) : "exact data");
   }
 }

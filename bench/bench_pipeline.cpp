@@ -4,6 +4,7 @@
 #include "case_file/case_file.hpp"
 #include "fitting/lubrication_force.hpp"
 #include "reduced_model/comparison.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
@@ -16,31 +17,48 @@ void read_table(benchmark::State& state) {
 }
 BENCHMARK(read_table)->Unit(benchmark::kMicrosecond);
 
-void fit_table(benchmark::State& state) {
-  const auto table = read_force_table(kData / "tables/lecture.csv");
-  for (auto _ : state)
-    benchmark::DoNotOptimize(fit_force_table(table, "lecture", Weights::kRelative));
+/// The basis is the argument's place among all_bases(). 60 rows; covariance and diagnostics included.
+std::string basis_of(const benchmark::State& state) {
+  return std::string(all_bases().at(static_cast<std::size_t>(state.range(0))).name);
 }
-BENCHMARK(fit_table)->Unit(benchmark::kMicrosecond);
+
+Fit fit_of_plane(const std::string& basis) {
+  return fit_force_table(read_force_table(kData / "tables/plane.csv"), basis, Weights::kRelative);
+}
+
+void fit_60_rows(benchmark::State& state) {
+  const auto table = read_force_table(kData / "tables/plane.csv");
+  for (auto _ : state)
+    benchmark::DoNotOptimize(fit_force_table(table, basis_of(state), Weights::kRelative));
+  state.SetLabel(basis_of(state));
+}
+BENCHMARK(fit_60_rows)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
 LubricationForce lecture_force() { return LubricationForce(read_fit(kData / "fits/lecture.json")); }
 
 /// A gap in [3e-3, 1] that changes from call to call, so that nothing is computed once for all.
 double next_gap(double gap) { return gap < 0.9 ? gap * 1.07 : 3e-3; }
 
-void resistance(benchmark::State& state) {
-  const auto force = lecture_force();
+void measure_function(benchmark::State& state, double (LubricationForce::*function)(double) const) {
+  const LubricationForce force(fit_of_plane(basis_of(state)));
   double gap = 3e-3;
-  for (auto _ : state) benchmark::DoNotOptimize(force.resistance(gap = next_gap(gap)));
+  for (auto _ : state) benchmark::DoNotOptimize((force.*function)(gap = next_gap(gap)));
+  state.SetLabel(basis_of(state));
 }
-BENCHMARK(resistance);
 
-void impulse(benchmark::State& state) {
-  const auto force = lecture_force();
-  double gap = 3e-3;
-  for (auto _ : state) benchmark::DoNotOptimize(force.impulse(gap = next_gap(gap)));
+void resistance(benchmark::State& state) { measure_function(state, &LubricationForce::resistance); }
+BENCHMARK(resistance)->DenseRange(0, 2);
+
+void impulse(benchmark::State& state) { measure_function(state, &LubricationForce::impulse); }
+BENCHMARK(impulse)->DenseRange(0, 2);
+
+/// 10^4 draws of the lecture's q_min.
+void monte_carlo_minimal_gap(benchmark::State& state) {
+  const auto c = read_case(kData / "cases/lecture.toml");
+  const auto fit = read_fit(kData / "fits/lecture.json");
+  for (auto _ : state) benchmark::DoNotOptimize(propagate_fit(required_motion(c), fit, 0));
 }
-BENCHMARK(impulse);
+BENCHMARK(monte_carlo_minimal_gap)->Unit(benchmark::kMillisecond);
 
 void gap_of_impulse(benchmark::State& state) {
   const auto force = lecture_force();

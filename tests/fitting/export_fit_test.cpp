@@ -113,8 +113,8 @@ int main(void) {{
   for (const auto& compiler : {std::vector<std::string>{"gcc", "-std=c99", "-x", "c"},
                                std::vector<std::string>{"g++", "-std=c++11", "-x", "c++"}}) {
     auto command = compiler;
-    command.insert(command.end(), {"-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2", path("main.c"),
-                                   "-o", path("program"), "-lm"});
+    command.insert(command.end(), {"-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2",
+                                   path("main.c"), "-o", path("program"), "-lm"});
     output_of(command);
     expect_values(values_of(output_of({path("program")})), fit_);
   }
@@ -220,7 +220,9 @@ TEST_F(Export, ToAnUnknownLanguageIsRefusedWithTheNamesThereAre) {
 }
 
 TEST_F(Export, OfADragThatIsNotPositiveIsRefused) {
-  EXPECT_THAT(bad_input([] { export_fit(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1), "csv"); }),
+  EXPECT_THAT(bad_input([] {
+                export_fit(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1), "csv");
+              }),
               HasSubstr("positive"));
 }
 

@@ -58,7 +58,8 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
       ForceTable others = table;
       others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
       const auto& row = table.rows[i];
-      const double residual = std::abs(force_of(fit_force_table(others, settings), row.gap) / row.force - 1);
+      const double residual =
+          std::abs(force_of(fit_force_table(others, settings), row.gap) / row.force - 1);
       squares += residual * residual;
       if (residual > largest) {
         largest = residual;
@@ -94,9 +95,12 @@ TEST(ChiSquared, IsTheSumOverTheRowsOfResidualOverEstimateSquared) {
 
 TEST(Misfit, IsTheDatasOrTheBasiss) {
   // Noise within the estimates, beyond them (chi-squared 45 * 4 against a quantile of 70), and no estimates.
-  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 2e-4), settings_of("lecture")).misfit, Misfit::kData);
-  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 5e-5), settings_of("lecture")).misfit, Misfit::kBasis);
-  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 0), settings_of("lecture")).misfit, Misfit::kUnknown);
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 2e-4), settings_of("lecture")).misfit,
+            Misfit::kData);
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 5e-5), settings_of("lecture")).misfit,
+            Misfit::kBasis);
+  EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 0), settings_of("lecture")).misfit,
+            Misfit::kUnknown);
   auto table = table_with_noise(1e-4, 2e-4);
   table.rows.front().relative_error_estimate = 0;  // one without
   EXPECT_FALSE(diagnostics_of(table, settings_of("lecture")).chi_squared.has_value());
@@ -104,7 +108,8 @@ TEST(Misfit, IsTheDatasOrTheBasiss) {
 
 TEST(Misfit, JudgesByTheQuantileOfChiSquared) {
   // 99 % quantile for 45 degrees of freedom: 69.957 (tables). +-noise/estimate = z in all 50 rows gives about 50 z^2.
-  for (const auto& [chi_squared, misfit] : {std::pair{68.0, Misfit::kData}, {72.0, Misfit::kBasis}}) {
+  for (const auto& [chi_squared, misfit] :
+       {std::pair{68.0, Misfit::kData}, {72.0, Misfit::kBasis}}) {
     auto table = table_with_noise(1e-4, 1e-4);
     const double now = diagnostics_of(table, settings_of("lecture")).chi_squared.value();
     for (auto& row : table.rows) row.relative_error_estimate *= std::sqrt(now / chi_squared);
@@ -118,7 +123,8 @@ TEST(InformationCriterion, IsAkaikesForSmallSamples) {
   const auto table = exact_table();
   const Fit fit = fit_force_table(table, settings_of("lecture"));
   const double n = 50, k = 6;
-  const double expected = n * std::log(std::pow(fit.rms_relative_residual, 2)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
+  const double expected =
+      n * std::log(std::pow(fit.rms_relative_residual, 2)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
   EXPECT_NEAR(fit.diagnostics->information_criterion.value(), expected, 1e-9 * std::abs(expected));
 }
 

@@ -82,7 +82,8 @@ TEST_P(RobustLoss, SolvesItsOwnEquations) {
 TEST_P(RobustLoss, OfExactDataIsExact) {
   auto line = noisy_parabola(0);
   const auto robust = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());
-  EXPECT_LT((robust.least_squares.coefficients - kTrue).norm(), 1e-12);  // eps times the conditioning
+  EXPECT_LT((robust.least_squares.coefficients - kTrue).norm(),
+            1e-12);               // eps times the conditioning
   line.right_hand_side(5) = 100;  // one wrong row among exact ones
   const auto spoiled = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());
   EXPECT_LT((spoiled.least_squares.coefficients - kTrue).norm(), 1e-9);
@@ -94,8 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Of, RobustLoss, ::testing::Values(Loss::kHuber, Loss::k
 TEST(SquaredLoss, IsLeastSquares) {
   const auto line = noisy_parabola(0.01);
   const auto plain = solve_least_squares(line.matrix, line.right_hand_side);
-  const auto same =
-      solve_robust_least_squares(line.matrix, line.right_hand_side, Loss::kSquared);
+  const auto same = solve_robust_least_squares(line.matrix, line.right_hand_side, Loss::kSquared);
   EXPECT_EQ(same.least_squares.coefficients, plain.coefficients);
   EXPECT_EQ(same.row_weights, Eigen::VectorXd::Ones(kRows));
 }

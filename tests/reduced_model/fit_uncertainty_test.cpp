@@ -51,7 +51,9 @@ TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
   EXPECT_GT(result.smallest.misfit[1], kExactMinimalGap);
   // Over time it begins at a point, and is widest where the film is thinnest.
   ASSERT_EQ(result.gaps.size(), 41U);
-  const auto width = [](const UncertainGap& gap) { return (gap.misfit[1] - gap.misfit[0]) / gap.gap; };
+  const auto width = [](const UncertainGap& gap) {
+    return (gap.misfit[1] - gap.misfit[0]) / gap.gap;
+  };
   EXPECT_NEAR(width(result.gaps.front()), 0, 1e-14);
   const auto widest = std::ranges::max_element(result.gaps, {}, width);
   EXPECT_EQ(widest->time, 2);
@@ -70,7 +72,8 @@ TEST(FitUncertainty, IsTheSameAtEachCall) {
 TEST(FitUncertainty, CountsDrawsWhoseDragIsNotPositive) {
   // One standard error below zero: 16 %.
   const auto result = propagate_fit(lecture_motion(), uncertain_leading_term(60, 60), 0);
-  EXPECT_NEAR(static_cast<double>(result.refused), 1587, 150);  // four standard deviations of the count
+  EXPECT_NEAR(static_cast<double>(result.refused), 1587,
+              150);  // four standard deviations of the count
 }
 
 TEST(FitUncertainty, IsReadBackAsItWasWritten) {
