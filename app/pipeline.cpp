@@ -65,7 +65,7 @@ void write_uncertainty_file(const Motion& motion, const Fit& fit, const fs::path
   } catch (const Error& error) {
     if (error.exit_code() != ExitCode::kNotConverged) throw;
     fs::remove(path);
-    say(fmt::format("viscontact: warning: the fit's uncertainty is not propagated: {}",
+    say(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
                     error.what()));
   }
 }
@@ -122,7 +122,7 @@ Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSetti
 void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings) {
   const Fit fit = fit_file(table_path, read_force_table(table_path), settings);
   for (const auto& warning : fit.diagnostics->warnings)
-    say(fmt::format("viscontact: warning: {}", warning));
+    say(fmt::format("fit: warning: {}", warning));
   const std::string text = write_fit(fit);
   if (up_to_date(fit_path, [&] { return read_file(fit_path) == text; })) {
     say(fmt::format("fit: {} is up to date", fit_path.string()));

@@ -78,9 +78,14 @@ void Cvode::restart(double time, double stop_time) {
 
 Cvode::Stop Cvode::advance(double until) {
   const int code = CVode(memory_, until, state_.get(), &time_, CV_NORMAL);
-  if (code < 0 && system_error_) std::rethrow_exception(system_error_);
+  if (code < 0 && system_error_) {
+    // Whatever CVODE gave up at in the end: it made no way beyond the time at which the system was asked where it is not defined.
+    constexpr double kNoWay = 1e-9;
+    double reached = 0;
+    check(CVodeGetCurrentTime(memory_, &reached), "CVodeGetCurrentTime");
+    if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);
+  }
   check(code, "CVode");
-  system_error_ = nullptr;
   return code == CV_ROOT_RETURN ? Stop::kAtEvent : Stop::kAtTime;
 }
 
@@ -93,14 +98,18 @@ void Cvode::check(int code, const char* call) const {
                           time_, call, name.get()));
 }
 
+int Cvode::keep_error(double time) {
+  system_error_ = std::current_exception();
+  system_error_time_ = time;
+  return kTryAgain;
+}
+
 int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self) {
   auto& cvode = *static_cast<Cvode*>(self);
   try {
     cvode.system_.derivative(time, values(y), values(derivative));
-    cvode.system_error_ = nullptr;  // CVODE came past what was thrown before
   } catch (const Error&) {
-    cvode.system_error_ = std::current_exception();
-    return kTryAgain;
+    return cvode.keep_error(time);
   }
   return 0;
 }
@@ -113,8 +122,7 @@ int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobi
   try {
     cvode.system_.jacobian(time, values(y), {SUNDenseMatrix_Data(jacobian), size});
   } catch (const Error&) {
-    cvode.system_error_ = std::current_exception();
-    return kTryAgain;
+    return cvode.keep_error(time);
   }
   return 0;
 }
@@ -149,7 +157,7 @@ int Cvode::project(double time, N_Vector y, N_Vector correction, double toleranc
       if (length <= tolerance) return 0;
     }
   } catch (const Error&) {
-    cvode.system_error_ = std::current_exception();
+    return cvode.keep_error(time);
   }
   return kTryAgain;
 }

@@ -65,6 +65,8 @@ class Cvode {
   template <class T>
   using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
 
+  /// Called where the system has thrown: keeps that for whoever asks why, and lets CVODE try again.
+  int keep_error(double time);
   static int evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self);
   static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
                                N_Vector, N_Vector, N_Vector);
@@ -83,6 +85,7 @@ class Cvode {
   double time_ = 0;
   long steps_before_restart_ = 0;
   std::exception_ptr system_error_;  // the last one that the system threw
+  double system_error_time_ = 0;     // and when
 };
 
 }  // namespace viscontact

@@ -56,7 +56,8 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   expect_done(run_viscontact(arguments));
 
   std::vector<std::string> expected = {"case.toml",       "table.csv",   "fit.json",
-                                       "comparison.json", "report.html", "trajectories"};
+                                       "comparison.json", "report.html", "uncertainty.json",
+                                       "trajectories"};
   for (const auto& model : all_models())
     expected.push_back("trajectories/" + std::string(model.name) + ".csv");
   std::vector<std::string> found;

@@ -260,7 +260,7 @@ TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {
     EXPECT_EQ(model.sup_gap_distance == 0, model.model == "reference_exact") << model.model;
 }
 
-TEST_F(Stages, ReportIsOneSelfContainedPageWithFivePlots) {
+TEST_F(Stages, ReportIsOneSelfContainedPageWithSixPlots) {
   put("case.toml", replaced(lecture_case_text(), "title = \"Sphere", "title = \"<script>&"));
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
@@ -271,7 +271,7 @@ TEST_F(Stages, ReportIsOneSelfContainedPageWithFivePlots) {
   const std::regex svg("<svg[ >]");
   EXPECT_EQ(
       std::distance(std::sregex_iterator(page.begin(), page.end(), svg), std::sregex_iterator()),
-      5);
+      6);
   const std::string rest = std::regex_replace(page, std::regex("xmlns(:[a-z]+)?=\"[^\"]*\""), "");
   EXPECT_THAT(rest,
               AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("@import")),
