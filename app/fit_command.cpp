@@ -43,10 +43,11 @@ void add_fit(CLI::App& app) {
   auto* output = command->add_option("-o,--output", o->fit, "fit to write (JSON)");
   auto* basis = command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))
                     ->capture_default_str();
-  command
-      ->add_option("--terms", o->terms,
-                   "a basis of your own: comma-separated, of: " + names_of(all_terms()))
-      ->excludes(basis);
+  auto* terms =
+      command
+          ->add_option("--terms", o->terms,
+                       "a basis of your own: comma-separated, of: " + names_of(all_terms()))
+          ->excludes(basis);
   command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
       ->capture_default_str();
   command
@@ -65,9 +66,9 @@ void add_fit(CLI::App& app) {
   command->add_option("--plot", o->plot,
                       "picture of --compare-bases (SVG); default: beside the fit, or the table's "
                       "name with .bases.svg here");
-  command->callback([o, output, fix] {
+  command->callback([o, output, terms, fix] {
     FitSettings settings;
-    settings.basis = o->terms.empty() ? find_basis(o->basis) : parse_terms(o->terms);
+    settings.basis = terms->count() == 0 ? find_basis(o->basis) : parse_terms(o->terms);
     settings.weights = parse_weights(o->weights);
     settings.loss = parse_loss(o->loss);
     if (fix->count() > 0) read_fix(o->fix, settings);
@@ -83,7 +84,7 @@ void add_fit(CLI::App& app) {
     if (output->count() > 0) outputs.push_back(o->fit);
     if (o->compare_bases) outputs.push_back(plot.string());
     check_outputs(outputs);
-    if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
+    if (output->count() > 0) refuse_other_kind(o->fit, "\"table_sha256\"", "fit");
     if (o->compare_bases) {
       refuse_other_kind(plot.string(), "<svg", "picture");
       compare_bases_stage(o->table, settings, plot);
@@ -109,7 +110,7 @@ void add_export(CLI::App& app) {
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});
-      refuse_other_kind(o->output, "viscontact", "export");
+      refuse_other_kind(o->output, "written by 'viscontact export'", "export");
     }
     const Fit fit = read_fit(o->fit);
     std::string text;

@@ -86,7 +86,11 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
         fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
                     colour),
         {}};
-    for (const auto& row : table.rows) {
+    // Of a long table every n-th row: a picture shows no more.
+    constexpr std::size_t kMostPoints = 2000;
+    const std::size_t stride = 1 + table.rows.size() / kMostPoints;
+    for (std::size_t i = 0; i < table.rows.size(); i += stride) {
+      const auto& row = table.rows[i];
       double force = 0;
       for (const auto& term : result.fit->terms)
         force += term.coefficient * find_term(term.name).value().value(row.gap);
@@ -98,8 +102,8 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
   }
   Curve estimate{
       "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#000000'", {}};
-  for (const auto& row : table.rows)
-    if (row.relative_error_estimate > 0)
+  for (std::size_t i = 0; i < table.rows.size(); i += 1 + table.rows.size() / 2000)
+    if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);
   return draw_svg({panel}, 860, 520);

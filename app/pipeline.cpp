@@ -58,10 +58,11 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
 }
 
 /// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
-void write_uncertainty_file(const Motion& motion, const Fit& fit, const fs::path& path) {
+void write_uncertainty_file(const Motion& motion, const Fit& fit, BelowInterval below,
+                            AboveInterval above, const fs::path& path) {
   constexpr std::size_t kTimes = 81;
   try {
-    write_file(path, write_uncertainty(propagate_fit(motion, fit, kTimes)));
+    write_file(path, write_uncertainty(propagate_fit(motion, fit, kTimes, below, above)));
   } catch (const Error& error) {
     if (error.exit_code() != ExitCode::kNotConverged) throw;
     fs::remove(path);
@@ -120,7 +121,10 @@ Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSetti
 }
 
 void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings) {
-  const Fit fit = fit_file(table_path, read_force_table(table_path), settings);
+  const auto table = read_force_table(table_path);
+  throw_if_interrupted();
+  const Fit fit = fit_file(table_path, table, settings);
+  throw_if_interrupted();
   for (const auto& warning : fit.diagnostics->warnings)
     say(fmt::format("fit: warning: {}", warning));
   const std::string text = write_fit(fit);
@@ -208,7 +212,7 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
   write_file(run.case_file(), c.text);
   write_file(run.fit(), fit_text);
-  write_uncertainty_file(motion, fit, run.uncertainty());
+  write_uncertainty_file(motion, fit, below, above, run.uncertainty());
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -21,11 +22,12 @@ struct Sum {
   double offset = 0;
 };
 
+/// In the order of all_terms(), as LubricationForce sums.
 Sum sum_of(const Fit& fit) {
   Sum sum;
-  for (const auto& term : fit.terms)
-    sum.terms.emplace_back(-term.coefficient / fit.reference_velocity,
-                           find_term(term.name).value());
+  for (const auto& term : all_terms())
+    if (const auto* fitted = find_named(fit.terms, term.name); fitted != nullptr)
+      sum.terms.emplace_back(-fitted->coefficient / fit.reference_velocity, term);
   for (const auto& [weight, term] : sum.terms)
     sum.offset += weight * term.antiderivative(fit.radius);
   return sum;
@@ -82,6 +84,10 @@ std::vector<std::string> facts(const Fit& fit) {
                                 fit.diagnostics->largest_error_estimate));
   if (!fit.table_sha256.empty())
     lines.push_back(fmt::format("SHA-256 of the table: {}.", fit.table_sha256));
+  // They stand in comments: a line end from a fit file must not become code.
+  for (auto& line : lines)
+    std::ranges::replace_if(
+        line, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return lines;
 }
 
@@ -208,7 +214,7 @@ std::string write_json(const Fit& fit) {
     json["samples"]["impulse"].push_back(force.impulse(gap));
     json["samples"]["force"].push_back(-force.resistance(gap) * fit.reference_velocity);
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string write_csv(const Fit& fit) {

@@ -59,6 +59,8 @@ double held_leading(const ForceTable& table, const FitSettings& settings) {
 }
 
 void check_gaps(const ForceTable& table, const FitSettings& settings) {
+  if (settings.hold_leading && settings.basis.terms.size() == 1)
+    throw Error(ExitCode::kBadInput, "the only coefficient is held; there is nothing to fit");
   std::set<double> gaps;
   for (const auto& row : table.rows) gaps.insert(row.gap);
   const std::size_t needed =
@@ -169,6 +171,12 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   const auto system = residuals_of(equations, solution);
   fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();
   fit.rms_relative_residual = std::sqrt(system.relative_residual.array().square().mean());
+  if (!std::isfinite(fit.rms_relative_residual) ||
+      std::ranges::any_of(fit.terms, [](const FitTerm& term) {
+        return !std::isfinite(term.coefficient) || !std::isfinite(term.standard_error);
+      }))
+    throw Error(ExitCode::kBadInput,
+                "the forces are too large or too different to be fitted in double precision");
   fit.diagnostics = diagnose(table, system, fit);
   return fit;
 }

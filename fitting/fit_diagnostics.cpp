@@ -59,7 +59,8 @@ void leave_one_out(const ForceTable& table, const FittedSystem& system, FitDiagn
   Eigen::VectorXd leverage = Eigen::VectorXd::Zero(matrix.rows());
   if (matrix.cols() > 0) {
     // Columns of length 1, as in the least squares: the leverages do not depend on their scale, the rounding does.
-    const Eigen::MatrixXd scaled = matrix * matrix.colwise().norm().cwiseInverse().asDiagonal();
+    const Eigen::VectorXd over_length = matrix.colwise().norm().cwiseInverse();
+    const Eigen::MatrixXd scaled = matrix * over_length.asDiagonal();
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
     const Eigen::MatrixXd q =
         qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
@@ -87,12 +88,13 @@ std::optional<double> information_criterion(const FittedSystem& system, const Fi
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
+/// One Gaussian residual in two million lies as far out.
+bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
+
 std::vector<Outlier> outliers(const ForceTable& table, const FittedSystem& system) {
-  // One Gaussian residual in two million lies as far out.
-  constexpr double kFar = 5;
   std::vector<Outlier> found;
   for (Eigen::Index i = 0; i < system.scaled_residual.size(); ++i)
-    if (std::abs(system.scaled_residual(i)) > kFar)
+    if (is_far(system.scaled_residual(i)))
       found.push_back({gap_of_row(table, i),
                        table.rows[static_cast<std::size_t>(i)].reference_velocity,
                        system.relative_residual(i)});
@@ -132,7 +134,9 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
       warnings.push_back(
           fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
                       term.name, term.coefficient, term.standard_error));
-    if (term.name != kLeadingTerm || term.held || !fit.leading_coefficient) continue;
+    if (term.name != kLeadingTerm || term.standard_error == 0 ||
+        fit.leading_coefficient.value_or(0) == 0)
+      continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
     // Two standard errors: one fit in twenty of pure noise. Nor can it be known better than the table.
@@ -167,8 +171,12 @@ FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, con
   d.worst_relative_residual = system.relative_residual(worst);
   judge_misfit(table, system, d);
   leave_one_out(table, system, d);
-  d.information_criterion = information_criterion(system, d);
+  if (fit.loss == Loss::kSquared) d.information_criterion = information_criterion(system, d);
   if (fit.loss != Loss::kSquared) d.outliers = outliers(table, system);
+  for (Eigen::Index i = 0; i < system.relative_residual.size(); ++i)
+    if (fit.loss == Loss::kSquared || !is_far(system.scaled_residual(i)))
+      d.largest_inlier_residual =
+          std::max(d.largest_inlier_residual, std::abs(system.relative_residual(i)));
   warn_of_shape(fit, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
   return d;

@@ -32,13 +32,15 @@ struct Outlier {
   double relative_residual = 0;   ///< fit / table - 1
 };
 
-/// Relative residuals are fit / table - 1.
+/// Relative residuals are fit / table - 1. Every row counts as a measurement of its own: rows of one gap at several velocities, which a linear solver makes
+/// equal, make standard errors and left-one-out residuals too small.
 struct FitDiagnostics {
   std::size_t rows = 0;
   std::size_t free_coefficients = 0;
   double worst_gap = 0;                ///< where the largest relative residual is [L]
   double worst_relative_residual = 0;  ///< with its sign
   double largest_error_estimate = 0;   ///< of the table's rows; 0: it has none
+  double largest_inlier_residual = 0;  ///< the largest in size of the rows that are no outliers
   /// Of each row as predicted by the fit of the others, r_i / (1 - h_i) with the leverage h_i (Allen 1974, PRESS); nothing if a
   /// row is needed to determine the coefficients.
   std::optional<double> leave_one_out_rms{}, leave_one_out_largest{};
@@ -49,7 +51,7 @@ struct FitDiagnostics {
   Misfit misfit =
       Misfit::kUnknown;  ///< kBasis: chi_squared is beyond the 99 % quantile of its distribution
   /// Akaike's criterion for small samples, n ln(sum of squares / n) + 2 K + 2 K (K + 1)/(n - K - 1), K = free coefficients + 1 (Hurvich &
-  /// Tsai 1989). Less is better; only between fits of the same rows with the same weights. Nothing for n <= K + 1 or no residual.
+  /// Tsai 1989). Less is better; only between fits of the same rows with the same weights. Nothing for n <= K + 1, no residual, or a robust loss, which weighs the rows by the fit.
   std::optional<double> information_criterion{};
   std::vector<Outlier>
       outliers;  ///< beyond 5 times the scale of the others; with a robust loss only

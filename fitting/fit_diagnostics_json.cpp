@@ -23,9 +23,9 @@ std::vector<Outlier> read_outliers(const JsonObject& json) {
 
 FitDiagnostics read_diagnostics(const JsonObject& json) {
   json.allow_only({"rows", "free_coefficients", "degrees_of_freedom", "worst_gap",
-                   "worst_relative_residual", "largest_error_estimate", "leave_one_out_rms",
-                   "leave_one_out_largest", "leave_one_out_gap", "chi_squared", "misfit",
-                   "information_criterion", "outliers", "warnings"});
+                   "worst_relative_residual", "largest_error_estimate", "largest_inlier_residual",
+                   "leave_one_out_rms", "leave_one_out_largest", "leave_one_out_gap", "chi_squared",
+                   "misfit", "information_criterion", "outliers", "warnings"});
   FitDiagnostics d;
   d.rows = json.count("rows");
   d.free_coefficients = json.count("free_coefficients");
@@ -33,6 +33,7 @@ FitDiagnostics read_diagnostics(const JsonObject& json) {
   d.worst_gap = json.number_above("worst_gap", 0, false);
   d.worst_relative_residual = json.number("worst_relative_residual");
   d.largest_error_estimate = json.number_above("largest_error_estimate", 0, true);
+  d.largest_inlier_residual = json.number_above("largest_inlier_residual", 0, true);
   d.leave_one_out_rms = json.number_or_null("leave_one_out_rms");
   d.leave_one_out_largest = json.number_or_null("leave_one_out_largest");
   d.leave_one_out_gap = json.number_or_null("leave_one_out_gap");
@@ -55,6 +56,7 @@ Json write_diagnostics(const FitDiagnostics& d) {
   json["worst_gap"] = d.worst_gap;
   json["worst_relative_residual"] = d.worst_relative_residual;
   json["largest_error_estimate"] = d.largest_error_estimate;
+  json["largest_inlier_residual"] = d.largest_inlier_residual;
   json["leave_one_out_rms"] = number_or_null(d.leave_one_out_rms);
   json["leave_one_out_largest"] = number_or_null(d.leave_one_out_largest);
   json["leave_one_out_gap"] = number_or_null(d.leave_one_out_gap);

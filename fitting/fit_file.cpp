@@ -61,6 +61,9 @@ std::vector<std::vector<double>> read_covariance(const JsonObject& root, std::si
   }
   if (covariance.size() != size)
     root.fail("covariance", fmt::format("must be {} x {}", size, size));
+  for (std::size_t i = 0; i < size; ++i)
+    if (covariance[i][i] < 0)
+      root.fail("covariance", fmt::format("has the variance {}; must be >= 0", covariance[i][i]));
   return covariance;
 }
 
@@ -130,7 +133,8 @@ std::string write_fit(const Fit& fit) {
   if (fit.diagnostics) json["diagnostics"] = write_diagnostics(*fit.diagnostics);
   json["table_sha256"] = fit.table_sha256;
   json["versions"] = fit.versions;
-  return json.dump(2) + "\n";
+  // A table's header may hold bytes that are no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace viscontact

@@ -18,18 +18,21 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
       fitted_interval_(fit.gap_interval),
       below_(below),
       above_(above) {
-  for (const auto& term : fit.terms) {
-    terms_.push_back({find_term(term.name).value(), -term.coefficient / fit.reference_velocity});
-    if (term.name == kLeadingTerm) leading_ = terms_.back().weight;
-  }
-  impulse_at_radius_ = sum(&Term::antiderivative, radius_);
+  weights_.assign(all_terms().size(), 0.0);
+  for (const auto& term : fit.terms)
+    weights_[place_of(term.name)] = -term.coefficient / fit.reference_velocity;
+  leading_ = weights_[place_of(kLeadingTerm)];
+  regular_weights_ = weights_;
+  regular_weights_[place_of(kLeadingTerm)] = 0;
+  impulse_at_radius_ = sum_antiderivatives(weights_, radius_);
   // A drag that changes sign has no Gamma to invert; such a fit is of no use to any model.
   for (const double gap : spread_gaps(fitted_interval_))
-    if (!(resistance(gap) > 0))
-      throw Error(ExitCode::kBadInput, fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
-                                                   "inside its interval; a drag must be positive: "
-                                                   "fit again with another basis or other weights",
-                                                   resistance(gap), gap));
+    if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
+                              "inside its interval; a drag must be positive and finite: "
+                              "fit again with another basis or other weights",
+                              resistance(gap), gap));
   set_limits(fit);
 }
 
@@ -46,13 +49,6 @@ void LubricationForce::set_limits(const Fit& fit) {
     limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
   }
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
-}
-
-double LubricationForce::sum(Formula Term::*formula, double gap) const {
-  const double log_gap = std::log(gap);
-  double total = 0;
-  for (const auto& [term, weight] : terms_) total += weight * (term.*formula).at(gap, log_gap);
-  return total;
 }
 
 std::array<double, 2> LubricationForce::interval() const {
@@ -95,11 +91,7 @@ double LubricationForce::regular_resistance(double gap) const {
   const double from = std::max(gap, fitted_interval_[0]);
   check_gap(from);
   if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
-  const double log_gap = std::log(from);
-  double total = 0;
-  for (const auto& [term, weight] : terms_)
-    if (term.name != kLeadingTerm) total += weight * term.value.at(from, log_gap);
-  return total;
+  return sum_values(regular_weights_, from);
 }
 
 double LubricationForce::resistance(double gap) const {
@@ -107,7 +99,7 @@ double LubricationForce::resistance(double gap) const {
   if (gap < fitted_interval_[0]) return limit().k / gap + limit().constant;
   if (gap > fitted_interval_[1])
     return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
-  return sum(&Term::value, gap);
+  return sum_values(weights_, gap);
 }
 
 double LubricationForce::resistance_log_slope(double gap) const {
@@ -116,7 +108,7 @@ double LubricationForce::resistance_log_slope(double gap) const {
   if (gap > fitted_interval_[1])
     return -stokes_resistance(viscosity_, radius_) * image_ * gap /
            ((gap + radius_) * (gap + radius_));
-  return sum(&Term::log_slope, gap);
+  return sum_log_slopes(weights_, gap);
 }
 
 double LubricationForce::impulse(double gap) const {
@@ -129,7 +121,7 @@ double LubricationForce::impulse(double gap) const {
     return impulse(largest) +
            stokes_resistance(viscosity_, radius_) *
                (gap - largest + image_ * std::log((gap + radius_) / (largest + radius_)));
-  return sum(&Term::antiderivative, gap) - impulse_at_radius_;
+  return sum_antiderivatives(weights_, gap) - impulse_at_radius_;
 }
 
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {

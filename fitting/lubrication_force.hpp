@@ -21,8 +21,8 @@ enum class BelowInterval {
 enum class AboveInterval {
   kError,       ///< nothing: asking is an error
   kStokesLimit  ///< Stokes' drag in the end: R_S (1 + c/(q + r)), R_S = 6 pi mu r, c such that R is continuous at q2. The first
-  ///< reflection at a wall or a sphere decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a
-  ///< plane); a container's other walls have no part in it
+  ///< reflection at a wall decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a plane); that of a second sphere
+  ///< at rest decays faster, as 1/h^2; a container's other walls have no part in it
 };
 
 /// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).
@@ -61,15 +61,10 @@ class LubricationForce {
   double viscosity() const { return viscosity_; }  ///< mu [M/(L T)]
 
  private:
-  struct WeightedTerm {
-    Term term;
-    double weight;  // coefficient / -u0
-  };
   /// R(q) = k/q + constant below the interval.
   struct LubricationLimit {
     double k, constant;
   };
-  double sum(Formula Term::*formula, double gap) const;
   void check_gap(double gap) const;
   void set_limits(const Fit& fit);
   /// Throws Error(kBadInput) if the fit has no k to go below its interval with.
@@ -77,7 +72,8 @@ class LubricationForce {
   /// ln q of two gaps with Gamma(q) = impulse between them.
   std::array<double, 2> bracket_of_impulse(double impulse) const;
 
-  std::vector<WeightedTerm> terms_;
+  std::vector<double> weights_;          // of all_terms() in R: coefficient / -u0
+  std::vector<double> regular_weights_;  // the same without 1/q
   double radius_, viscosity_;
   double leading_ = 0;  // k
   std::array<double, 2> fitted_interval_;

@@ -81,6 +81,29 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   throw Error(ExitCode::kNotConverged, "the robust fit does not settle; try another loss");
 }
 
+/// From that of least squares, s^2 (A^T A)^-1 with s^2 = |r|^2 / (n - p).
+Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
+                                  const Eigen::VectorXd& right_hand_side,
+                                  const LeastSquaresSolution& plain,
+                                  const ceres::LossFunction& loss, const RobustSolution& solution) {
+  const auto rows = static_cast<double>(matrix.rows());
+  const double freedom = rows - static_cast<double>(matrix.cols());
+  const double plain_squares = (matrix * plain.coefficients - right_hand_side).squaredNorm();
+  if (freedom <= 0 || plain_squares == 0) return plain.covariance;
+  const Eigen::VectorXd residual =
+      (matrix * solution.least_squares.coefficients - right_hand_side) / solution.scale;
+  double psi_squares = 0, slopes = 0;
+  for (const double z : residual) {
+    std::array<double, 3> rho{};
+    loss.Evaluate(z * z, rho.data());
+    psi_squares += rho[1] * z * rho[1] * z;
+    slopes += rho[1] + 2 * z * z * rho[2];
+  }
+  const double variance =
+      solution.scale * solution.scale * psi_squares / freedom / std::pow(slopes / rows, 2);
+  return plain.covariance * (variance / (plain_squares / freedom));
+}
+
 }  // namespace
 
 std::string_view to_string(Loss loss) { return row_of(loss).name; }
@@ -96,8 +119,12 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == Loss::kSquared) return solution;
   // Huber's sum has one minimum; Cauchy's may have several: from Huber's, the one that most rows agree on.
+  const auto function = row_of(loss).make();
+  const auto plain = solution.least_squares;
   iterate(matrix, right_hand_side, *row_of(Loss::kHuber).make(), solution);
-  if (loss != Loss::kHuber) iterate(matrix, right_hand_side, *row_of(loss).make(), solution);
+  if (loss != Loss::kHuber) iterate(matrix, right_hand_side, *function, solution);
+  solution.least_squares.covariance =
+      robust_covariance(matrix, right_hand_side, plain, *function, solution);
   return solution;
 }
 

@@ -18,7 +18,8 @@ std::string_view to_string(Loss loss);
 Loss parse_loss(std::string_view word);
 
 struct RobustSolution {
-  /// Of the rows weighted as the loss weighs them in the end; its covariance is that of these least squares.
+  /// Of the rows weighted as the loss weighs them in the end; covariance of the M-estimate, scale^2 sum psi^2 / (n - p) / (mean psi')^2 (A^T A)^-1 (Huber
+  /// 1981, section 7.6), psi the loss's derivative.
   LeastSquaresSolution least_squares;
   Eigen::VectorXd row_weights;  ///< in ]0, 1]: 1 for every row with Loss::kSquared
   double scale =

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <type_traits>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/named.hpp"
@@ -53,9 +55,41 @@ Basis make_basis(std::string_view name, std::string_view terms) {
   return basis;
 }
 
+/// The formulas are known when this is compiled, so that all are expanded in place.
+template <Formula Term::*formula>
+double sum_of(std::span<const double> weights, double gap) {
+  const double log_gap = std::log(gap);
+  double total = 0;
+  const auto add = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
+    constexpr auto at = (kTerms[i].*formula).at;
+    if (weights[i] != 0) total += weights[i] * at(gap, log_gap);
+  };
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (add(std::integral_constant<std::size_t, i>()), ...);
+  }
+  (std::make_index_sequence<kTerms.size()>());
+  return total;
+}
+
 }  // namespace
 
 std::span<const Term> all_terms() { return kTerms; }
+
+double sum_values(std::span<const double> weights, double gap) {
+  return sum_of<&Term::value>(weights, gap);
+}
+
+double sum_log_slopes(std::span<const double> weights, double gap) {
+  return sum_of<&Term::log_slope>(weights, gap);
+}
+
+double sum_antiderivatives(std::span<const double> weights, double gap) {
+  return sum_of<&Term::antiderivative>(weights, gap);
+}
+
+std::size_t place_of(std::string_view term) {
+  return static_cast<std::size_t>(&require_named(kTerms, term, "term") - kTerms.data());
+}
 
 std::optional<Term> find_term(std::string_view name) {
   const auto* term = find_named(kTerms, name);

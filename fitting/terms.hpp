@@ -37,6 +37,15 @@ std::span<const Term> all_terms();
 /// The term of that name, or nothing.
 std::optional<Term> find_term(std::string_view name);
 
+/// Sum of weight * value over all_terms(), `weights` in their order; terms of weight 0 are not evaluated. For sums that are wanted often: one logarithm, no
+/// calls. The two others likewise.
+double sum_values(std::span<const double> weights, double gap);
+double sum_log_slopes(std::span<const double> weights, double gap);
+double sum_antiderivatives(std::span<const double> weights, double gap);
+
+/// The place of that term in all_terms().
+std::size_t place_of(std::string_view term);
+
 /// A list of terms.
 struct Basis {
   std::string_view name;

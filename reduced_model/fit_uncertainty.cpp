@@ -8,14 +8,9 @@
 
 #include "common/error.hpp"
 #include "common/file.hpp"
-#include "fitting/lubrication_force.hpp"
 
 namespace viscontact {
 namespace {
-
-LubricationForce with_limits(const Fit& fit) {
-  return LubricationForce(fit, BelowInterval::kLubricationLimit, AboveInterval::kStokesLimit);
-}
 
 /// L with L L^T = covariance, also where that is singular: by the eigenvectors of the correlations, as the coefficients' sizes differ by decades.
 Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
@@ -60,7 +55,9 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 }  // namespace
 
 FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
-                             std::size_t draws) {
+                             BelowInterval below, AboveInterval above, std::size_t draws) {
+  if (below == BelowInterval::kError) below = BelowInterval::kLubricationLimit;
+  if (above == AboveInterval::kError) above = AboveInterval::kStokesLimit;
   const auto instants = instants_of(motion, times);
   const auto gaps_with = [&](const LubricationForce& force, double share,
                              std::vector<double>& gaps) {
@@ -70,9 +67,11 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
   };
   FitUncertainty result;
   result.draws = draws;
-  result.misfit = fit.largest_relative_residual +
-                  (fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0);
-  const LubricationForce force = with_limits(fit);
+  const double residual =
+      fit.diagnostics ? fit.diagnostics->largest_inlier_residual : fit.largest_relative_residual;
+  const double estimate = fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0;
+  result.misfit = std::min(1.0, residual + estimate + residual * estimate);
+  const LubricationForce force(fit, below, above);
   std::vector<double> gaps(instants.size()), less(instants.size()), more(instants.size());
   gaps_with(force, 1, gaps);
   gaps_with(force, 1 - result.misfit, less);
@@ -91,7 +90,7 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
     for (std::size_t i = 0; i < one.terms.size(); ++i)
       one.terms[i].coefficient = fit.terms[i].coefficient + shift(static_cast<Eigen::Index>(i));
     try {
-      gaps_with(with_limits(one), 1, of_draw);
+      gaps_with(LubricationForce(one, below, above), 1, of_draw);
     } catch (const Error&) {
       ++result.refused;
       continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fitting/fit.hpp"
+#include "fitting/lubrication_force.hpp"
 #include "reduced_model/motion.hpp"
 
 namespace viscontact {
@@ -27,7 +28,7 @@ struct FitUncertainty {
   std::size_t refused =
       0;  ///< of these: a drag that is not positive, or that such a motion is impossible with
   double misfit =
-      0;  ///< largest relative residual and largest error estimate of the table, together
+      0;  ///< r + e + r e of the largest relative residual r (of no outlier) and the table's largest error estimate e; at most 1
   UncertainGap smallest;           ///< q_min
   std::vector<UncertainGap> gaps;  ///< over time
 };
@@ -38,10 +39,12 @@ inline constexpr std::size_t kDraws = 10000;
 ///   random  coefficients drawn from the normal distribution with the fit's covariance, which takes the misfit for independent noise;
 ///   misfit  as |R_fit/R - 1| <= misfit, Gamma_fit(q(t)) lies between Gamma_fit(q0) + (1 -+ misfit) int f_ext: a bound that no shape of the
 ///           misfit breaks, as far as it is known at the table's gaps.
-/// Outside the fit's interval the limits of LubricationForce stand in. q_min is sought at the starts and ends of the force's pieces.
+/// Outside the fit's interval the limits of LubricationForce stand in: those given, kLubricationLimit and kStokesLimit in place of kError. q_min is sought at the starts and ends of the force's pieces.
 /// `times`: how many instants from 0 to motion.end_time besides (0: q_min alone). The same numbers at each call.
 /// Throws Error as LubricationForce for the fit itself, Error(kNotConverged) if every draw is refused.
 FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
+                             BelowInterval below = BelowInterval::kError,
+                             AboveInterval above = AboveInterval::kError,
                              std::size_t draws = kDraws);
 
 /// The text of DIR/uncertainty.json.

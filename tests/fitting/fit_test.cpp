@@ -116,6 +116,23 @@ TEST(Fit, RecoversPlantedCoefficients) {
   }
 }
 
+TEST(Fit, WithEveryCoefficientHeldIsRefused) {
+  FitSettings settings;
+  settings.basis = parse_terms("1/q");
+  settings.hold_leading = true;
+  settings.leading_value = 56.5;
+  EXPECT_THAT(
+      bad_input([&] { fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), settings); }),
+      HasSubstr("nothing to fit"));
+}
+
+TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
+  auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  table.rows[3].force = 1e305;
+  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kAbsolute); }),
+              HasSubstr("too large or too different"));
+}
+
 TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
   // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact in doubles too.
   const auto one =

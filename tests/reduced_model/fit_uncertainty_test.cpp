@@ -45,6 +45,29 @@ TEST(FitUncertainty, ByTheMisfitScalesTheImpulse) {
   EXPECT_EQ(result.smallest.random[0], result.smallest.gap);  // no covariance
 }
 
+TEST(FitUncertainty, LeavesOutliersOutOfTheMisfitWhichIsOneAtMost) {
+  Fit fit = leading_term_fit(60);
+  fit.largest_relative_residual = 2;  // an outlier's
+  fit.diagnostics = FitDiagnostics();
+  fit.diagnostics->largest_inlier_residual = 0.01;
+  fit.diagnostics->largest_error_estimate = 0.02;
+  EXPECT_DOUBLE_EQ(propagate_fit(lecture_motion(), fit, 0).misfit, 0.01 + 0.02 + 0.01 * 0.02);
+  fit.diagnostics.reset();
+  const auto result = propagate_fit(lecture_motion(), fit, 0);
+  EXPECT_EQ(result.misfit, 1);
+  EXPECT_LE(result.smallest.misfit[1], 1 + 1e-12);  // a push never opens the gap
+}
+
+TEST(FitUncertainty, UsesTheLimitsThatTheMotionUses) {
+  Fit fit = brenner_fit("lecture", {0.02, 2});
+  fit.leading_coefficient = 56.548667764616276;
+  const auto below = BelowInterval::kTheoryLimit;
+  const LubricationForce force(fit, below);
+  const double expected = force.gap_of_impulse(force.impulse(1) - 400);
+  EXPECT_EQ(propagate_fit(lecture_motion(), fit, 0, below).smallest.gap, expected);
+  EXPECT_NE(propagate_fit(lecture_motion(), fit, 0).smallest.gap, expected);
+}
+
 TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
   const auto result = propagate_fit(lecture_motion(), lecture_fit(), 41);
   EXPECT_LT(result.smallest.misfit[0], kExactMinimalGap);
@@ -64,8 +87,10 @@ TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
 }
 
 TEST(FitUncertainty, IsTheSameAtEachCall) {
-  const auto one = propagate_fit(lecture_motion(), lecture_fit(), 3, 100);
-  const auto two = propagate_fit(lecture_motion(), lecture_fit(), 3, 100);
+  const auto one = propagate_fit(lecture_motion(), lecture_fit(), 3, BelowInterval::kError,
+                                 AboveInterval::kError, 100);
+  const auto two = propagate_fit(lecture_motion(), lecture_fit(), 3, BelowInterval::kError,
+                                 AboveInterval::kError, 100);
   EXPECT_EQ(write_uncertainty(one), write_uncertainty(two));
 }
 
@@ -78,7 +103,8 @@ TEST(FitUncertainty, CountsDrawsWhoseDragIsNotPositive) {
 
 TEST(FitUncertainty, IsReadBackAsItWasWritten) {
   const TemporaryFolder folder;
-  const auto written = propagate_fit(lecture_motion(), lecture_fit(), 5, 100);
+  const auto written = propagate_fit(lecture_motion(), lecture_fit(), 5, BelowInterval::kError,
+                                     AboveInterval::kError, 100);
   const auto read = read_uncertainty(folder.file("u.json", write_uncertainty(written)));
   EXPECT_EQ(write_uncertainty(read), write_uncertainty(written));
   const auto other = folder.file("other.json", "{\"draws\": 3}");
