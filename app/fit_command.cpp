@@ -84,7 +84,7 @@ void add_fit(CLI::App& app) {
     if (output->count() > 0) outputs.push_back(o->fit);
     if (o->compare_bases) outputs.push_back(plot.string());
     check_outputs(outputs);
-    if (output->count() > 0) refuse_other_kind(o->fit, "\"table_sha256\"", "fit");
+    if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
     if (o->compare_bases) {
       refuse_other_kind(plot.string(), "<svg", "picture");
       compare_bases_stage(o->table, settings, plot);

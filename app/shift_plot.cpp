@@ -39,7 +39,7 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
   residuals.y_label = "relative difference of drag";
   residuals.x_log = true;
   residuals.y_log = true;
-  residuals.settings = {"set yrange [*:*]", "set key bottom left", "set format x '1e%T'",
+  residuals.settings = {"set yrange [*:*]", "set key top right", "set format x '1e%T'",
                         "set format y '1e%T'"};
   residuals.curves = {residual, estimate};
   return draw_svg({shifts, residuals}, 860, 720);

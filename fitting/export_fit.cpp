@@ -196,7 +196,8 @@ std::string write_json(const Fit& fit) {
   json["formulas"] =
       "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
       "impulse_offset";
-  json["gap_interval"] = fit.gap_interval;
+  json["interval"] =
+      fit.gap_interval;  // no key of a fit file, which an export is not to be taken for
   json["radius"] = fit.radius;
   json["viscosity"] = fit.viscosity;
   json["largest_relative_residual"] = fit.largest_relative_residual;

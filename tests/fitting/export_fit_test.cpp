@@ -177,7 +177,7 @@ TEST_F(Export, CsvHasTheValuesAtTheReferenceVelocity) {
 TEST_F(Export, JsonHasTermsAndSamplesThatAgree) {
   const auto json = nlohmann::json::parse(export_fit(fit_, "json"));
   const LubricationForce force(fit_);
-  EXPECT_EQ(json.at("gap_interval"), fit_.gap_interval);
+  EXPECT_EQ(json.at("interval"), fit_.gap_interval);
   const auto& samples = json.at("samples");
   const auto gaps = samples.at("gap").get<std::vector<double>>();
   ASSERT_EQ(gaps.size(), 201U);
