@@ -76,6 +76,9 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
               true,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
+  // Of a long table every n-th row: a picture shows no more.
+  constexpr std::size_t kMostPoints = 2000;
+  const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;
   for (const auto& result : results) {
     const char* colour = kColours.at(place++ % kColours.size());
@@ -86,9 +89,6 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
         fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
                     colour),
         {}};
-    // Of a long table every n-th row: a picture shows no more.
-    constexpr std::size_t kMostPoints = 2000;
-    const std::size_t stride = 1 + table.rows.size() / kMostPoints;
     for (std::size_t i = 0; i < table.rows.size(); i += stride) {
       const auto& row = table.rows[i];
       double force = 0;
@@ -102,7 +102,7 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
   }
   Curve estimate{
       "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#000000'", {}};
-  for (std::size_t i = 0; i < table.rows.size(); i += 1 + table.rows.size() / 2000)
+  for (std::size_t i = 0; i < table.rows.size(); i += stride)
     if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);

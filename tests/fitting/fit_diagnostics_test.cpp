@@ -17,12 +17,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-double force_of(const Fit& fit, double gap) {
-  double force = 0;
-  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
-  return force;
-}
-
 FitSettings settings_of(std::string_view basis) {
   FitSettings settings;
   settings.basis = find_basis(basis);
@@ -59,7 +53,7 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
       others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
       const auto& row = table.rows[i];
       const double residual =
-          std::abs(force_of(fit_force_table(others, settings), row.gap) / row.force - 1);
+          std::abs(fitted_force(fit_force_table(others, settings), row.gap) / row.force - 1);
       squares += residual * residual;
       if (residual > largest) {
         largest = residual;
@@ -86,7 +80,7 @@ TEST(ChiSquared, IsTheSumOverTheRowsOfResidualOverEstimateSquared) {
   const Fit fit = fit_force_table(table, settings_of("lecture"));
   double sum = 0;
   for (const auto& row : table.rows)
-    sum += std::pow((force_of(fit, row.gap) / row.force - 1) / row.relative_error_estimate, 2);
+    sum += std::pow((fitted_force(fit, row.gap) / row.force - 1) / row.relative_error_estimate, 2);
   const auto& d = *fit.diagnostics;
   EXPECT_NEAR(d.chi_squared.value() / sum, 1, 1e-9);  // residuals of 1e-4, to round-off
   EXPECT_EQ(d.degrees_of_freedom, 45U);

@@ -18,12 +18,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-double fitted_force(const Fit& fit, double gap) {
-  double force = 0;
-  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
-  return force;
-}
-
 /// A figure of docs/theory.md, section 2, and half a unit of its last printed digit.
 struct Printed {
   const char* basis;

@@ -45,6 +45,13 @@ inline ForceTable exact_drag_table(const std::vector<double>& gaps,
 /// The 50 gaps of docs/theory.md's table of what the exact half-space drag allows (section 2).
 inline std::vector<double> fifty_gaps() { return log_spaced(1e-3, 1, 50); }
 
+/// F(q, u0) of a fit, term by term.
+inline double fitted_force(const Fit& fit, double gap) {
+  double force = 0;
+  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
+  return force;
+}
+
 struct NamedCoefficient {
   std::string term;
   double coefficient;
