@@ -40,21 +40,28 @@ bool up_to_date(const fs::path& path, const Test& test) {
 
 /// What identifies the inputs of a trajectory, in its "# key: value" lines.
 CsvComments trajectory_provenance(const Case& c, const std::string& fit_text) {
-  return {{"case", sha256(c.text)},
-          {"fit", sha256(fit_text)},
-          {"version of Viscontact", VISCONTACT_VERSION}};
+  CsvComments comments = {{"case", sha256(c.text)},
+                          {"fit", sha256(fit_text)},
+                          {"version of Viscontact", VISCONTACT_VERSION}};
+  std::string forces;
+  for (const auto& file : c.force_files) forces += read_file(file);
+  if (!c.force_files.empty()) comments["force"] = sha256(forces);
+  return comments;
 }
 
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
   if (asked.empty()) asked = c.models;
   if (asked.empty())
-    for (const auto& model : all_models()) asked.emplace_back(model.name);
+    for (const auto& model : default_models()) asked.emplace_back(model.name);
   return asked;
 }
 
 std::string time_step_of(std::string_view model, const Motion& motion) {
-  if (find_model(model).contact != nullptr) return format_number(motion.contact_time_step);
-  return model == "reference" ? format_number(motion.reference_time_step) : "variable";
+  const auto name = find_model(model).model->name;
+  if (name == "viscous_contact_exact") return "none";
+  if (find_model(model).model->contact != nullptr || name == "explicit_euler")
+    return format_number(motion.contact_time_step);
+  return name == "reference" ? format_number(motion.reference_time_step) : "variable";
 }
 
 /// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
@@ -211,8 +218,12 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
   for (const auto& trajectory : trajectories)
     write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
   write_file(run.case_file(), c.text);
+  for (const auto& file : c.force_files) write_file(run.beside_case(file), read_file(file));
   write_file(run.fit(), fit_text);
-  write_uncertainty_file(motion, fit, below, above, run.uncertainty());
+  if (fit.basis == kExactPlane)
+    fs::remove(run.uncertainty());
+  else
+    write_uncertainty_file(motion, fit, below, above, run.uncertainty());
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 
@@ -236,6 +247,9 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
   fs::path fit = run.fit();
   if (request.file) {
     fit = *request.file;
+  } else if (request.exact) {
+    const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
+    if (!up_to_date(fit, [&] { return read_file(fit) == text; })) write_file(fit, text);
   } else {
     (void)required_tabulation(c);
     tabulate_stage({{c, run.table()}}, jobs);
@@ -272,8 +286,11 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     // ones.
     fs::remove(run.comparison());
     fs::remove(run.report());
-    for (const auto& model : all_models()) fs::remove(run.trajectory(model.name));
-    simulate_stage(c, fit, folder, models, BelowInterval::kError);
+    for (const auto& model : all_models())
+      for (const auto& name :
+           {std::string(model.name), std::string(model.name).append(kExactDragSuffix)})
+        fs::remove(run.trajectory(name));
+    simulate_stage(c, fit, folder, models, request.below, request.above);
   }
   throw_if_interrupted();
   compare_stage(folder, {}, reference, run.comparison());

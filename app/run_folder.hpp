@@ -12,6 +12,10 @@ struct RunFolder {
   std::filesystem::path case_file() const {
     return path / "case.toml";
   }  ///< a copy of the case that was run
+  /// Where the copy of a file goes that the case names.
+  std::filesystem::path beside_case(const std::filesystem::path& file) const {
+    return path / file.filename();
+  }
   std::filesystem::path table() const { return path / "table.csv"; }
   std::filesystem::path fit() const { return path / "fit.json"; }
   std::filesystem::path trajectories() const { return path / "trajectories"; }

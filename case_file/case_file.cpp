@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
+#include <utility>
 
 #include "case_file/toml_section.hpp"
 #include "common/error.hpp"
@@ -134,10 +136,27 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   return tabulation;
 }
 
+/// The value that a word stands for.
+template <class Value>
+Value one_of(const TomlSection& section, std::string_view key,
+             std::initializer_list<std::pair<std::string_view, Value>> words) {
+  const std::string word = section.text(key);
+  std::string allowed;
+  for (const auto& [name, value] : words) {
+    if (name == word) return value;
+    allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : " or ", name);
+  }
+  section.fail(key, fmt::format("is '{}'; must be {}", word, allowed));
+}
+
 FitRequest read_fit_request(const TomlSection& section, const std::filesystem::path& case_folder) {
   FitRequest fit;
   if (section.has("file")) {
     fit.file = case_folder / section.text("file");
+  } else if (section.has("exact")) {
+    if (const auto wall = section.text("exact"); wall != "plane")
+      section.fail("exact", fmt::format("is '{}'; must be \"plane\"", wall));
+    fit.exact = true;
   } else {
     auto& settings = fit.settings;
     const std::string basis_key = section.has("terms") ? "terms" : "basis";
@@ -162,20 +181,70 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
                                         section.text("fix")));
     }
   }
+  if (section.has("below"))
+    fit.below = one_of<BelowInterval>(section, "below",
+                                      {{"lubrication_limit", BelowInterval::kLubricationLimit},
+                                       {"theory_limit", BelowInterval::kTheoryLimit}});
+  if (section.has("above"))
+    fit.above =
+        one_of<AboveInterval>(section, "above", {{"stokes_limit", AboveInterval::kStokesLimit}});
   section.finish();
   return fit;
 }
 
-ExternalForce read_external_force(const TomlSection& motion, double end_time) {
-  std::vector<ExternalForce::Piece> pieces;
-  for (const auto& piece : motion.sections("external_force")) {
-    pieces.push_back({piece.number("until", kPositive), piece.number("value", kFinite)});
-    piece.finish();
+/// One entry of external_force with `until`: a piece of a force that begins where the piece before ends.
+ExternalForce::Piece read_piece(const TomlSection& entry) {
+  ExternalForce::Piece piece{entry.number("until", kPositive), 0};
+  if (entry.has("polynomial")) {
+    if (entry.has("value"))
+      entry.fail("value", "must not be there beside polynomial, whose first coefficient it is");
+    auto coefficients = entry.numbers("polynomial", kFinite);
+    piece.value = coefficients.front();
+    piece.higher.assign(coefficients.begin() + 1, coefficients.end());
+  } else {
+    piece.value = entry.number("value", kFinite);
   }
-  auto force = at_key(motion, "external_force", [&] { return ExternalForce(pieces); });
-  if (pieces.back().until < end_time)
-    motion.fail("external_force", fmt::format("ends at {}; must reach motion.end_time, {}",
-                                              pieces.back().until, end_time));
+  return piece;
+}
+
+ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
+  return {entry.number("amplitude", kFinite), entry.number("angular_frequency", kPositive),
+          entry.has("phase") ? entry.number("phase", kFinite) : 0};
+}
+
+/// Where a file of the case is: at its path from the case's folder, or in that folder itself, where a run keeps its copies.
+std::filesystem::path force_file(const std::filesystem::path& folder,
+                                 const std::filesystem::path& file) {
+  const auto copy = folder / file.filename();
+  return !std::filesystem::exists(folder / file) && std::filesystem::exists(copy) ? copy
+                                                                                  : folder / file;
+}
+
+/// `external_force`: entries with `until` follow each other and make one force; each other entry, a sinusoid or a file, is added to it.
+ExternalForce read_forces(const TomlSection& motion, double end_time,
+                          const std::filesystem::path& case_folder,
+                          std::vector<std::filesystem::path>& files) {
+  std::vector<ExternalForce::Piece> pieces;
+  std::vector<ExternalForce> summands;
+  for (const auto& entry : motion.sections("external_force")) {
+    if (entry.has("file")) {
+      files.push_back(force_file(case_folder, entry.text("file")));
+      summands.push_back(read_external_force(files.back(), end_time));
+    } else if (entry.has("amplitude")) {
+      summands.push_back(ExternalForce::sinusoidal(read_sinusoid(entry)));
+    } else {
+      pieces.push_back(read_piece(entry));
+    }
+    entry.finish();
+  }
+  if (!pieces.empty()) {
+    summands.push_back(at_key(motion, "external_force", [&] { return ExternalForce(pieces); }));
+    if (pieces.back().until < end_time)
+      motion.fail("external_force", fmt::format("ends at {}; must reach motion.end_time, {}",
+                                                pieces.back().until, end_time));
+  }
+  ExternalForce force = summands.front();
+  for (std::size_t i = 1; i < summands.size(); ++i) force += summands[i];
   return force;
 }
 
@@ -196,12 +265,13 @@ std::vector<std::string> read_models(const TomlSection& section) {
   return models;
 }
 
-Motion read_motion(const TomlSection& root, const TomlSection& section, double mass,
-                   double radius) {
+Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius,
+                   const std::filesystem::path& case_folder,
+                   std::vector<std::filesystem::path>& force_files) {
   const double end_time = section.number("end_time", kPositive);
   Motion motion{mass, section.number("initial_gap", kPositive),
                 section.number("initial_velocity", kFinite), end_time,
-                read_external_force(section, end_time)};
+                read_forces(section, end_time, case_folder, force_files)};
 
   const auto reference = root.section("reference");
   motion.reference_time_step = read_time_step(reference, end_time);
@@ -223,6 +293,13 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
                  fmt::format("adds up to {}; must be less than the sphere's radius, {}",
                              roughness[0] + roughness[1], radius));
   contact.finish();
+
+  if (section.has("time_scale")) {
+    const double scale = section.number("time_scale", kPositive);
+    motion.external_force = motion.external_force.stretched(scale);
+    for (double* time : {&motion.end_time, &motion.reference_time_step, &motion.contact_time_step})
+      *time *= scale;
+  }
   return motion;
 }
 
@@ -258,7 +335,7 @@ Case read_case(const std::filesystem::path& path) {
   if (root.has("fit")) c.fit = read_fit_request(root.section("fit"), path.parent_path());
   if (root.has("motion")) {
     const auto section = root.section("motion");
-    c.motion = read_motion(root, section, mass, c.radius);
+    c.motion = read_motion(root, section, mass, c.radius, path.parent_path(), c.force_files);
     c.models = read_models(section);
     section.finish();
   }

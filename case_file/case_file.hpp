@@ -7,15 +7,19 @@
 #include <vector>
 
 #include "fitting/fit.hpp"
+#include "fitting/lubrication_force.hpp"
 #include "freefem_axi/tabulation.hpp"
 #include "reduced_model/motion.hpp"
 
 namespace viscontact {
 
-/// How the force is fitted, or the fit that stands in for tabulation and fitting.
+/// How the force is fitted, or what stands in for tabulation and fitting.
 struct FitRequest {
   FitSettings settings;
-  std::optional<std::filesystem::path> file;  ///< a fit file to use as it is
+  std::optional<std::filesystem::path> file;    ///< a fit file to use as it is
+  BelowInterval below = BelowInterval::kError;  ///< what the drag is beyond the fit's interval
+  AboveInterval above = AboveInterval::kError;
+  bool exact = false;  ///< no fit: the exact drag near a plane in a half-space
 };
 
 /// A minimal gap from the literature, to be shown beside the computed ones.
@@ -37,6 +41,7 @@ struct Case {
   std::vector<std::string> models;  ///< names of the models of motion to run; empty: all
   std::optional<PublishedGap> published;
   std::filesystem::path path;
+  std::vector<std::filesystem::path> force_files;  ///< that the external force was read from
 };
 
 /// Reads and checks a case file. Throws Error(kBadInput) with file, line, key, value and what is

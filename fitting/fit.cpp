@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/named.hpp"
+#include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
 namespace {
@@ -145,6 +146,31 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 }
 
 }  // namespace
+
+Fit exact_plane_fit(double viscosity, double radius) {
+  Fit fit;
+  fit.basis = kExactPlane;
+  fit.reference_velocity = -1;
+  fit.viscosity = viscosity;
+  fit.radius = radius;
+  fit.gap_interval = {1e-300, 1e300};
+  fit.geometry = "plane, unbounded";
+  fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;
+  return fit;
+}
+
+Fit with_viscosity(Fit fit, double viscosity) {
+  const double scale = viscosity / fit.viscosity;
+  fit.viscosity = viscosity;
+  for (auto& term : fit.terms) {
+    term.coefficient *= scale;
+    term.standard_error *= scale;
+  }
+  for (auto& row : fit.covariance)
+    for (auto& entry : row) entry *= scale * scale;
+  if (fit.leading_coefficient) *fit.leading_coefficient *= scale;
+  return fit;
+}
 
 Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   check_linearity(table);

@@ -67,6 +67,15 @@ struct Fit {
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
+/// The name of the basis that is none: the exact drag of a sphere near a plane in a half-space (plane_drag.hpp), for every gap > 0.
+inline constexpr std::string_view kExactPlane = "exact_plane";
+
+/// What stands for the exact drag where a fit is wanted: no terms, no misfit. Its interval says where the doubles end.
+Fit exact_plane_fit(double viscosity, double radius);
+
+/// The fit of the same flow in a fluid of another viscosity > 0: Stokes flow is linear in it.
+Fit with_viscosity(Fit fit, double viscosity);
+
 /// Fits a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes
 /// flow is linear. table_sha256 and versions are left to the caller.
 /// Throws Error(kBadInput) for fewer different gaps than free coefficients or than two, rows of equal gap whose F/u

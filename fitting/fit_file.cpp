@@ -34,7 +34,9 @@ Json parse(const std::string& file, const std::string& text) {
 std::vector<FitTerm> read_terms(const JsonObject& root) {
   std::vector<FitTerm> terms;
   const Json& array = root.array("terms");
-  if (array.empty()) root.fail("terms", "is empty");
+  const bool exact = root.text("basis") == kExactPlane;
+  if (array.empty() != exact)
+    root.fail("terms", exact ? "is not empty; the exact drag has no terms" : "is empty");
   for (std::size_t i = 0; i < array.size(); ++i) {
     const JsonObject object = root.element("terms", i);
     object.allow_only({"name", "coefficient", "standard_error", "held"});

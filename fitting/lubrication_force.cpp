@@ -3,14 +3,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "common/error.hpp"
+#include "fitting/plane_drag.hpp"
 #include "fitting/spread_gaps.hpp"
 #include "fitting/stokes_drag.hpp"
 
 namespace viscontact {
+namespace {
+
+// Gaps over radius between which lambda and its integral are numbers of full precision.
+constexpr std::array kExactRange = {1e-300, 1e300};
+
+}  // namespace
+
+LubricationForce::LubricationForce(double viscosity, double radius)
+    : exact_(true),
+      radius_(radius),
+      viscosity_(viscosity),
+      leading_(stokes_resistance(viscosity, radius) * radius),
+      fitted_interval_{kExactRange[0] * radius, kExactRange[1] * radius} {}
+
+LubricationForce LubricationForce::exact_plane(double viscosity, double radius) {
+  return {viscosity, radius};
+}
 
 LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInterval above)
     : radius_(fit.radius),
@@ -18,6 +37,10 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
       fitted_interval_(fit.gap_interval),
       below_(below),
       above_(above) {
+  if (fit.basis == kExactPlane) {
+    *this = exact_plane(fit.viscosity, fit.radius);
+    return;
+  }
   weights_.assign(all_terms().size(), 0.0);
   for (const auto& term : fit.terms)
     weights_[place_of(term.name)] = -term.coefficient / fit.reference_velocity;
@@ -64,6 +87,7 @@ void LubricationForce::check_gap(double gap) const {
                       : below_ != BelowInterval::kError && gap > 0;
   if (allowed) return;
   const char* remedy = "";
+  if (exact_) throw Error(ExitCode::kBadInput, fmt::format("gap {} is no number > 0", gap));
   if (gap < smallest && below_ == BelowInterval::kError)
     remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";
   if (gap > largest) remedy = ", or ask for Stokes' drag far above it (simulate --stokes-limit)";
@@ -88,14 +112,33 @@ LubricationForce::LubricationLimit LubricationForce::limit() const {
 }
 
 double LubricationForce::regular_resistance(double gap) const {
+  if (exact_)
+    return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
   const double from = std::max(gap, fitted_interval_[0]);
   check_gap(from);
   if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
   return sum_values(regular_weights_, from);
 }
 
+double LubricationForce::regular_impulse(double gap) const {
+  if (exact_)
+    return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
+                   : 0;
+  const auto [smallest, largest] = fitted_interval_;
+  if (gap <= smallest) return gap * regular_resistance(smallest);
+  check_gap(gap);
+  const double to_smallest = smallest * regular_resistance(smallest);
+  const double within = std::min(gap, largest);
+  const double in_interval = sum_antiderivatives(regular_weights_, within) -
+                             sum_antiderivatives(regular_weights_, smallest);
+  const double above =
+      gap > largest ? impulse(gap) - impulse(largest) - leading_ * std::log(gap / largest) : 0;
+  return to_smallest + in_interval + above;
+}
+
 double LubricationForce::resistance(double gap) const {
   check_gap(gap);
+  if (exact_) return leading_ / radius_ * plane_drag_factor(gap / radius_);
   if (gap < fitted_interval_[0]) return limit().k / gap + limit().constant;
   if (gap > fitted_interval_[1])
     return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
@@ -104,6 +147,7 @@ double LubricationForce::resistance(double gap) const {
 
 double LubricationForce::resistance_log_slope(double gap) const {
   check_gap(gap);
+  if (exact_) return leading_ / radius_ * plane_drag_factor_log_slope(gap / radius_);
   if (gap < fitted_interval_[0]) return -limit().k / gap;
   if (gap > fitted_interval_[1])
     return -stokes_resistance(viscosity_, radius_) * image_ * gap /
@@ -113,6 +157,7 @@ double LubricationForce::resistance_log_slope(double gap) const {
 
 double LubricationForce::impulse(double gap) const {
   check_gap(gap);
+  if (exact_) return leading_ * plane_drag_integral(gap / radius_);
   const auto [smallest, largest] = fitted_interval_;
   if (gap < smallest)
     return impulse(smallest) + limit().k * std::log(gap / smallest) +
@@ -131,7 +176,17 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const auto [smallest, largest] = fitted_interval_;
   const double low = std::log(smallest);
   const double high = std::log(largest);
+  if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
+    // lambda > 1/eps and > 1, so Gamma/k is below ln eps on this side of eps = 1, and above ln eps and eps - 1 on that side.
+    const double scaled = impulse_wanted / leading_;
+    const double at_radius = std::log(radius_);
+    if (scaled < 0) return {at_radius + std::max(scaled, low - at_radius), at_radius};
+    return {at_radius, at_radius + std::min(scaled, std::log1p(scaled))};
+  }
   if (impulse_wanted < impulse(smallest)) {
+    if (exact_)
+      throw Error(ExitCode::kNotConverged,
+                  "the film is thinner than the smallest number that a double can hold");
     if (below_ == BelowInterval::kError)
       throw Error(
           ExitCode::kBadInput,

@@ -1,4 +1,4 @@
-// The fitted lubrication force as a function: F_lub(q, u) = -R(q) u, its resistance R, and Gamma,
+// The lubrication force, fitted or exact, as a function: F_lub(q, u) = -R(q) u, its resistance R, and Gamma,
 // the impulse that the film has absorbed.
 #pragma once
 
@@ -32,8 +32,12 @@ class LubricationForce {
  public:
   /// Throws Error(kBadInput) if the fit's resistance is not positive at one of 201 gaps spread over its interval.
   /// Error(kBadInput) too if `below` asks for theory's k and the fit has none.
+  /// A fit of basis kExactPlane makes exact_plane().
   explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError,
                             AboveInterval above = AboveInterval::kError);
+
+  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every gap > 0.
+  static LubricationForce exact_plane(double viscosity, double radius);
 
   /// R(q) = -F_lub(q, u)/u [M/T], > 0.
   double resistance(double gap) const;
@@ -43,6 +47,9 @@ class LubricationForce {
 
   /// R(q) - k/q [M/T], k the fit's, for 0 <= q: below the interval, its value at the smallest fitted gap.
   double regular_resistance(double gap) const;
+
+  /// int_0^q (R(s) - k/s) ds [M L/T], for 0 <= q, with the same extension.
+  double regular_impulse(double gap) const;
 
   /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius; closed form, increasing in q.
   double impulse(double gap) const;
@@ -65,6 +72,7 @@ class LubricationForce {
   struct LubricationLimit {
     double k, constant;
   };
+  LubricationForce(double viscosity, double radius);
   void check_gap(double gap) const;
   void set_limits(const Fit& fit);
   /// Throws Error(kBadInput) if the fit has no k to go below its interval with.
@@ -72,16 +80,17 @@ class LubricationForce {
   /// ln q of two gaps with Gamma(q) = impulse between them.
   std::array<double, 2> bracket_of_impulse(double impulse) const;
 
+  bool exact_ = false;                   // Brenner's series; the fit's members are not used then
   std::vector<double> weights_;          // of all_terms() in R: coefficient / -u0
   std::vector<double> regular_weights_;  // the same without 1/q
   double radius_, viscosity_;
   double leading_ = 0;  // k
   std::array<double, 2> fitted_interval_;
-  BelowInterval below_;
-  AboveInterval above_;
+  BelowInterval below_ = BelowInterval::kError;
+  AboveInterval above_ = AboveInterval::kError;
   LubricationLimit limit_ = {};
-  double image_ = 0;          // c [L] of the Stokes limit
-  double impulse_at_radius_;  // of the bare antiderivatives
+  double image_ = 0;              // c [L] of the Stokes limit
+  double impulse_at_radius_ = 0;  // of the bare antiderivatives
 };
 
 }  // namespace viscontact

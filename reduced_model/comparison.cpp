@@ -81,7 +81,10 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
-std::optional<std::array<double, 2>> contact_interval(const std::vector<TrajectoryRow>& rows) {
+/// What the trajectory says itself; else what its rows show.
+std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajectory) {
+  if (trajectory.contact_interval) return trajectory.contact_interval;
+  const auto& rows = trajectory.rows;
   const auto in_contact = [](const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; };
   const auto first = std::ranges::find_if(rows, in_contact);
   if (first == rows.end()) return {};
@@ -114,7 +117,8 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.minimal_gap = lowest->gap;
     result.minimal_gap_time = lowest->time;
     result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
-    result.contact_interval = contact_interval(trajectory.rows);
+    result.contact_interval = contact_interval(trajectory);
+    result.books = trajectory.books;
     result.steps = trajectory.steps;
     result.seconds = trajectory.seconds;
     measure_distances(trajectory, *reference, result);
@@ -138,6 +142,10 @@ std::string write_comparison(const Comparison& comparison) {
     entry["sup_gap_distance"] = model.sup_gap_distance;
     entry["l1_gap_distance"] = model.l1_gap_distance;
     entry["l1_velocity_distance"] = model.l1_velocity_distance;
+    entry["books"] = Json();
+    if (model.books)
+      for (const auto& book : kBookEntries)
+        entry["books"][std::string(book.name)] = (*model.books).*book.value;
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
   }
@@ -161,6 +169,11 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.sup_gap_distance = entry.at("sup_gap_distance").get<double>();
       model.l1_gap_distance = entry.at("l1_gap_distance").get<double>();
       model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();
+      if (entry.contains("books") && !entry.at("books").is_null()) {
+        model.books.emplace();
+        for (const auto& book : kBookEntries)
+          (*model.books).*book.value = entry.at("books").at(std::string(book.name)).get<double>();
+      }
       model.steps = entry.at("steps").get<long>();
       model.seconds = entry.at("seconds").get<double>();
       comparison.models.push_back(model);

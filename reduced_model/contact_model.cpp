@@ -7,6 +7,118 @@
 #include "reduced_model/contact_step.hpp"
 
 namespace viscontact {
+namespace {
+
+/// ResolvedDrag at distances D from where contact is.
+class DragAtDistance {
+ public:
+  DragAtDistance(const ResolvedDrag& drag, double contact_gap)
+      : drag_(drag), contact_gap_(contact_gap) {}
+
+  double impulse(double from, double to) const {
+    return from == to ? 0 : drag_.impulse(contact_gap_ + to) - drag_.impulse(contact_gap_ + from);
+  }
+
+  double velocity(const ContactSetting& setting, double distance, double momentum) const {
+    // m v + G(D + h v) - G(D) increases with v, and is concave where the resistance falls with the gap: Newton's method from rest then comes
+    // to the root from below, and stays among the gaps between here and there. The bracket is for fits that are not so tame.
+    double low = -distance * setting.per_step;
+    double high = std::numeric_limits<double>::infinity();
+    double v = 0;
+    double excess = -momentum;
+    constexpr int kMaxSteps = 200;
+    for (int step = 0; step < kMaxSteps && excess != 0; ++step) {
+      (excess > 0 ? high : low) = v;
+      const double slope = setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
+                                                                          setting.step * v);
+      double next = v - excess / slope;
+      if (!(next > low && next < high))
+        next = std::isfinite(high) ? low + (high - low) / 2
+                                   : v + 2 * std::abs(v) + std::abs(momentum) / setting.mass;
+      // Below the rounding of the gap at the step's end nothing changes any more.
+      constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
+      const bool settled = std::abs(next - v) <= kRoundOff * std::abs(next);
+      v = next;
+      if (settled) break;
+      excess = setting.mass * v + impulse(distance, distance + setting.step * v) - momentum;
+    }
+    return v;
+  }
+
+ private:
+  const ResolvedDrag& drag_;
+  double contact_gap_;
+};
+
+/// The work of an impulse is the impulse times the mean velocity of the step: their sum is the change of kinetic energy, exactly.
+void book(double velocity_before, double push, const ContactStep& step, Books& books) {
+  const double velocity = (velocity_before + step.state.velocity) / 2;
+  books.external_work += velocity * push;
+  if (step.film != 0 || step.solid != 0) {
+    books.film_impulse += step.film;
+    books.film_work += velocity * step.film;
+    books.solid_impulse += step.solid;
+    books.solid_work += velocity * step.solid;
+  }
+  if (step.drag != 0) {
+    books.drag_impulse += step.drag;
+    books.drag_work += velocity * step.drag;
+  }
+}
+
+/// When contact begins and ends, within the steps.
+class ContactClock {
+ public:
+  explicit ContactClock(double mass) : mass_(mass) {}
+
+  void look_at(double time, double next, const ContactState& before, double push,
+               const ContactStep& step) {
+    const bool contact = step.state.gap == 0 && (step.film != 0 || step.solid != 0);
+    const double h = next - time;
+    if (contact && !touching_) {
+      // At the velocity of the step without contact it arrives after this share of it.
+      const double fall = -(before.velocity + push / mass_) * h;
+      if (!interval_) interval_ = {time + h * (before.gap < fall ? before.gap / fall : 0), next};
+    }
+    if (contact) {
+      (*interval_)[1] = next;
+    } else if (touching_) {
+      // The momentum that the step brings lifts gamma to 0 after this share of it.
+      const double share = before.gamma < 0 ? before.gamma / (-mass_ * before.velocity - push) : 0;
+      (*interval_)[1] = time + h * std::min(1.0, share);
+    }
+    touching_ = contact;
+  }
+  std::optional<std::array<double, 2>> interval() const { return interval_; }
+
+ private:
+  double mass_;
+  std::optional<std::array<double, 2>> interval_;
+  bool touching_ = false;
+};
+
+/// Steps from the start to the end, each handed to `add(time, next, step)`.
+template <class Drag, class Add>
+void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag, const Add& add) {
+  const double end = motion.end_time;
+  const double h = motion.contact_time_step;
+  const int steps = step_count(end, h);
+  ContactSetting setting(motion.mass, model.gamma_min, h);
+  ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
+  ForceWalk force(motion.external_force);
+  double t = 0;
+  for (int n = 0; n < steps; ++n) {
+    const double next = step_time(n + 1, steps, end, h);
+    if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
+    const double push = setting.step * force.mean(t, next);
+    const ContactStep step = contact_step(state, push, setting, drag);
+    add(t, next, setting, state, push, force.value(next), step);
+    state = step.state;
+    t = next;
+  }
+}
+
+}  // namespace
 
 ContactModel contact_with_leading_term(const Motion& motion, const LubricationForce& force) {
   const double k = force.leading_coefficient();
@@ -20,37 +132,36 @@ ContactModel contact_with_leading_term(const Motion& motion, const LubricationFo
 }
 
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
-  const double m = motion.mass;
-  const double end = motion.end_time;
-  const int steps = step_count(end, motion.contact_time_step);
-
   Trajectory trajectory;
-  trajectory.steps = steps;
-  trajectory.rows.reserve(static_cast<std::size_t>(steps) + 1);
-  ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
-  trajectory.rows.push_back({0, motion.initial_gap, state.velocity,
-                             -model.resolved_resistance(motion.initial_gap) * state.velocity,
-                             motion.external_force.value(0), state.gamma});
+  trajectory.steps = step_count(motion.end_time, motion.contact_time_step);
+  trajectory.rows.reserve(static_cast<std::size_t>(trajectory.steps) + 1);
+  const double drag_at_start =
+      model.drag ? -model.drag->resistance(motion.initial_gap) * motion.initial_velocity : 0;
+  trajectory.rows.push_back({0, motion.initial_gap, motion.initial_velocity, drag_at_start,
+                             motion.external_force.value(0), 0.0, 0.0});
+  Books books;
+  ContactClock clock(motion.mass);
   double lowest_gamma = 0;
-  for (int n = 0; n < steps; ++n) {
-    const double t = step_time(n, steps, end, motion.contact_time_step);
-    const double next = step_time(n + 1, steps, end, motion.contact_time_step);
-    const double h = next - t;
-    const double f = motion.external_force.mean(t, next);
-    const double resistance = model.resolved_resistance(model.contact_gap + state.gap);
-    // Drag implicit in the velocity after the projection: m (u^{n+1} - u^n)/h = f - R u^{n+1} + lambda. So without
-    // contact the velocity is the following, and what a contact has to change weighs m + h R.
-    const double inertia = m + h * resistance;
-    const double free_velocity = (m * state.velocity + h * f) / inertia;
-    const ContactState after = contact_step(state, free_velocity, inertia, model.gamma_min, h);
-    const double film_force = (state.gamma - after.gamma) / h;
-    trajectory.rows.push_back({next, model.contact_gap + after.gap, after.velocity,
-                               film_force - resistance * after.velocity,
-                               motion.external_force.value(next), after.gamma});
+  const auto add = [&](double t, double next, const ContactSetting& setting,
+                       const ContactState& before, double push, double force,
+                       const ContactStep& step) {
+    const auto& after = step.state;
+    trajectory.rows.emplace_back(next, model.contact_gap + after.gap, after.velocity,
+                                 (step.film + step.drag) * setting.per_step, force, after.gamma,
+                                 step.solid * setting.per_step);
+    book(before.velocity, push, step, books);
+    clock.look_at(t, next, before, push, step);
     lowest_gamma = std::min(lowest_gamma, after.gamma);
-    state = after;
-  }
-  if (lowest_gamma < 0) trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
+  };
+  if (model.drag)
+    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), add);
+  else
+    run_steps(motion, model, NoDrag(), add);
+  if (lowest_gamma < 0 && model.film_thickness)
+    trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
+  trajectory.contact_interval = clock.interval();
+  books.external_impulse = motion.external_force.impulse(motion.end_time);
+  trajectory.books = books;
   return trajectory;
 }
 

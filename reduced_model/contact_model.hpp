@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "fitting/lubrication_force.hpp"
 #include "reduced_model/motion.hpp"
@@ -10,21 +11,27 @@
 
 namespace viscontact {
 
+/// Drag that acts at a distance, as functions of the gap q [L].
+struct ResolvedDrag {
+  std::function<double(double gap)> resistance;  ///< [M/T]
+  std::function<double(double gap)> impulse;     ///< its primitive [M L/T]
+};
+
 struct ContactModel {
   double contact_gap = 0;  ///< q at which the sphere is in contact [L], >= 0
-  double gamma_min = 0;    ///< solid contact [M L/T], <= 0; -infinity: none
-  std::function<double(double gap)>
-      resolved_resistance;  ///< drag over velocity that acts at a distance [M/T], >= 0 in effect
+  double gamma_min =
+      0;  ///< solid contact [M L/T], <= 0; -infinity: none; 0: no film, plain inelastic contact
+  std::optional<ResolvedDrag> drag;                    ///< none: only f_ext acts at a distance
   std::function<double(double gamma)> film_thickness;  ///< the gap that gamma stands for [L]
 };
 
 /// Contact at q = 0 of which the film remembers k ln q: gamma = k ln(film/r), gamma_min = k ln((r1
-/// + r2)/r). The resolved resistance is left to the caller. Throws Error(kBadInput) if the fit has
+/// + r2)/r). The resolved drag is left to the caller. Throws Error(kBadInput) if the fit has
 /// no positive k.
 ContactModel contact_with_leading_term(const Motion& motion, const LubricationForce& force);
 
-/// Steps of contact_step.hpp from the motion's start to its end, drag implicit in the velocity. A
-/// row's lubrication force is the mean over the step before it, film and resolved drag together.
+/// Steps of contact_step.hpp from the motion's start to its end. A row's lubrication and solid forces are means over the step before it, film
+/// and resolved drag together. The contact interval is found within the steps of impact and release, the force taken as constant in each.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 }  // namespace viscontact

@@ -23,20 +23,18 @@ constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back wi
 
 }  // namespace
 
-Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_tolerance,
-             std::span<const double> absolute_tolerances)
+Cvode::Cvode(StiffSystem system, std::span<const double> state)
     : system_(std::move(system)),
       state_(N_VNew_Serial(system_.dimension, context_)),
-      weights_(N_VClone(state_.get())),
+      interpolated_(N_VClone(state_.get())),
       matrix_(SUNDenseMatrix(system_.dimension, system_.dimension, context_)),
       solver_(SUNLinSol_Dense(state_.get(), matrix_.get(), context_)),
       memory_(CVodeCreate(CV_BDF, context_)) {
-  if (!state_ || !weights_ || !matrix_ || !solver_ || memory_ == nullptr) throw std::bad_alloc();
+  if (!state_ || !interpolated_ || !matrix_ || !solver_ || memory_ == nullptr)
+    throw std::bad_alloc();
   std::ranges::copy(state, values(state_.get()).begin());
   check(CVodeInit(memory_, evaluate_derivative, 0, state_.get()), "CVodeInit");
-  const Owned<N_Vector> tolerances(N_VClone(state_.get()));
-  std::ranges::copy(absolute_tolerances, values(tolerances.get()).begin());
-  check(CVodeSVtolerances(memory_, relative_tolerance, tolerances.get()), "CVodeSVtolerances");
+  check(CVodeWFtolerances(memory_, evaluate_weights), "CVodeWFtolerances");
   check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
   check(CVodeSetErrFile(memory_, nullptr),
         "CVodeSetErrFile");  // failures come as Error, not as text on stderr
@@ -47,11 +45,6 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state, double relative_
   // vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
   check(CVodeSetLSetupFrequency(memory_, 1), "CVodeSetLSetupFrequency");
   check(CVodeSetJacEvalFrequency(memory_, 1), "CVodeSetJacEvalFrequency");
-  check(CVodeSetProjFn(memory_, project), "CVodeSetProjFn");
-  check(CVodeSetProjErrEst(memory_, SUNFALSE), "CVodeSetProjErrEst");
-  check(CVodeRootInit(memory_, 1, evaluate_event), "CVodeRootInit");
-  check(CVodeSetNoInactiveRootWarn(memory_), "CVodeSetNoInactiveRootWarn");
-  check(CVodeSetMaxNumSteps(memory_, 1000000), "CVodeSetMaxNumSteps");
 }
 
 Cvode::~Cvode() { CVodeFree(&memory_); }
@@ -68,16 +61,24 @@ long Cvode::steps() const {
   return steps_before_restart_ + steps;
 }
 
-void Cvode::restart(double time, double stop_time) {
+void Cvode::restart(double time, double stop_time, double first_step) {
   steps_before_restart_ = steps();
   time_ = time;
   check(CVodeReInit(memory_, time, state_.get()), "CVodeReInit");
   // A stop time outlives CVodeReInit, so a new one is set each time.
   check(CVodeSetStopTime(memory_, stop_time), "CVodeSetStopTime");
+  check(CVodeSetInitStep(memory_, first_step), "CVodeSetInitStep");
+  stop_time_ = stop_time;
+  steps_since_restart_ = 0;
 }
 
-Cvode::Stop Cvode::advance(double until) {
-  const int code = CVode(memory_, until, state_.get(), &time_, CV_NORMAL);
+void Cvode::step() {
+  const double before = time_;
+  int code = CVode(memory_, stop_time_, state_.get(), &time_, CV_ONE_STEP);
+  // A solution that runs away makes it creep for ever.
+  constexpr long kMostSteps = 1'000'000;
+  if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
+    code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
     // Whatever CVODE gave up at in the end: it made no way beyond the time at which the system was asked where it is not defined.
     constexpr double kNoWay = 1e-9;
@@ -86,7 +87,11 @@ Cvode::Stop Cvode::advance(double until) {
     if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);
   }
   check(code, "CVode");
-  return code == CV_ROOT_RETURN ? Stop::kAtEvent : Stop::kAtTime;
+}
+
+double Cvode::at(double time, std::size_t i) const {
+  check(CVodeGetDky(memory_, time, 0, interpolated_.get()), "CVodeGetDky");
+  return values(interpolated_.get())[i];
 }
 
 void Cvode::check(int code, const char* call) const {
@@ -114,6 +119,18 @@ int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, voi
   return 0;
 }
 
+int Cvode::evaluate_weights(N_Vector y, N_Vector weights, void* self) {
+  auto& cvode = *static_cast<Cvode*>(self);
+  const auto weight = values(weights);
+  try {
+    cvode.system_.tolerance(cvode.time_, values(y), weight);
+  } catch (const Error&) {
+    return cvode.keep_error(cvode.time_);
+  }
+  for (double& w : weight) w = 1 / w;
+  return 0;
+}
+
 int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
                              N_Vector, N_Vector, N_Vector) {
   auto& cvode = *static_cast<Cvode*>(self);
@@ -124,46 +141,6 @@ int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobi
   } catch (const Error&) {
     return cvode.keep_error(time);
   }
-  return 0;
-}
-
-int Cvode::project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector,
-                   void* self) {
-  auto& cvode = *static_cast<Cvode*>(self);
-  const auto size = static_cast<std::size_t>(cvode.system_.dimension);
-  if (CVodeGetErrWeights(cvode.memory_, cvode.weights_.get()) != CV_SUCCESS) return kTryAgain;
-  const auto weight = values(cvode.weights_.get());
-  const auto total = values(correction);
-  const auto from = values(y);
-  std::vector<double> moved(from.begin(), from.end());
-  std::vector<double> gradient(size);
-  std::ranges::fill(total, 0);
-  // The smallest correction in the norm in which CVODE measures errors, by Newton's method on the
-  // linearised invariant.
-  constexpr int kMaxIterations = 10;
-  try {
-    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-      const double residual = cvode.system_.invariant(time, moved, gradient);
-      double scale = 0;
-      for (std::size_t i = 0; i < size; ++i)
-        scale += gradient[i] * gradient[i] / (weight[i] * weight[i]);
-      double length = 0;
-      for (std::size_t i = 0; i < size; ++i) {
-        const double change = -residual / scale * gradient[i] / (weight[i] * weight[i]);
-        length = std::max(length, std::abs(change * weight[i]));
-        total[i] += change;
-        moved[i] += change;
-      }
-      if (length <= tolerance) return 0;
-    }
-  } catch (const Error&) {
-    return cvode.keep_error(time);
-  }
-  return kTryAgain;
-}
-
-int Cvode::evaluate_event(double, N_Vector y, double* value, void* self) {
-  *value = static_cast<Cvode*>(self)->system_.event(values(y));
   return 0;
 }
 

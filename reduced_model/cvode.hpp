@@ -12,31 +12,23 @@
 
 namespace viscontact {
 
-/// A stiff system y' = f(t, y) with its Jacobian, and one function of y whose zeros are of
-/// interest.
+/// A stiff system y' = f(t, y) with its Jacobian.
 struct StiffSystem {
   int dimension = 0;
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
   /// Column-major, entry (i, j) = d f_i / d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  std::function<double(std::span<const double> y)> event;
-  /// A function that is 0 along every solution, and its gradient by y: each step is projected back
-  /// onto it.
-  std::function<double(double time, std::span<const double> y, std::span<double> gradient)>
-      invariant;
+  /// For each component, by how much it may be off in a step, > 0.
+  std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
 };
 
 /// BDF of variable order and step with Newton's method and dense linear algebra.
 /// An Error thrown by the system (a state that it cannot judge) makes CVODE try a
-/// smaller step; if it persists, it is thrown on from advance().
+/// smaller step; if it persists, it is thrown on from step().
 class Cvode {
  public:
-  enum class Stop { kAtTime, kAtEvent };
-
-  /// `relative_tolerance` > 0 for all components, `absolute_tolerances` > 0 for each.
-  Cvode(StiffSystem system, std::span<const double> state, double relative_tolerance,
-        std::span<const double> absolute_tolerances);
+  Cvode(StiffSystem system, std::span<const double> state);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
   ~Cvode();
@@ -45,12 +37,14 @@ class Cvode {
   void set_state(std::span<const double> state);
 
   /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may
-  /// change there.
-  void restart(double time, double stop_time);
+  /// change there. `first_step` > 0 is where CVODE's own guess would be too careful; 0 leaves it to CVODE.
+  void restart(double time, double stop_time, double first_step = 0);
 
-  /// Integrates to `until` or to the next event, whichever is first. Throws Error(kNotConverged) if
-  /// CVODE gives up.
-  Stop advance(double until);
+  /// One step of CVODE's own choice, no further than the stop time. Throws Error(kNotConverged) if CVODE gives up.
+  void step();
+
+  /// The state at a time within the last step, by CVODE's own polynomial. Component `i`.
+  double at(double time, std::size_t i = 0) const;
 
   double time() const { return time_; }
   std::span<const double> state() const;
@@ -70,20 +64,20 @@ class Cvode {
   static int evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self);
   static int evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
                                N_Vector, N_Vector, N_Vector);
-  static int project(double time, N_Vector y, N_Vector correction, double tolerance, N_Vector error,
-                     void* self);
-  static int evaluate_event(double time, N_Vector y, double* value, void* self);
+  static int evaluate_weights(N_Vector y, N_Vector weights, void* self);
   void check(int code, const char* call) const;
 
   sundials::Context context_;
   StiffSystem system_;
   Owned<N_Vector> state_;
-  Owned<N_Vector> weights_;
+  Owned<N_Vector> interpolated_;
   Owned<SUNMatrix> matrix_;
   Owned<SUNLinearSolver> solver_;
   void* memory_ = nullptr;
   double time_ = 0;
+  double stop_time_ = 0;
   long steps_before_restart_ = 0;
+  long steps_since_restart_ = 0;
   std::exception_ptr system_error_;  // the last one that the system threw
   double system_error_time_ = 0;     // and when
 };

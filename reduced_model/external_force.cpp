@@ -3,46 +3,321 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
 
+#include "common/csv.hpp"
 #include "common/error.hpp"
 
 namespace viscontact {
+namespace {
 
-ExternalForce::ExternalForce(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
-  if (pieces_.empty())
+double at(std::span<const double> coefficients, double tau) {
+  double value = 0;
+  for (std::size_t k = coefficients.size(); k-- > 0;) value = value * tau + coefficients[k];
+  return value;
+}
+
+double slope_at(std::span<const double> coefficients, double tau) {
+  double slope = 0;
+  for (std::size_t k = coefficients.size(); k-- > 1;)
+    slope = slope * tau + static_cast<double>(k) * coefficients[k];
+  return slope;
+}
+
+/// int_0^tau.
+double integral(std::span<const double> coefficients, double tau) {
+  double value = 0;
+  for (std::size_t k = coefficients.size(); k-- > 0;)
+    value = value * tau + coefficients[k] / static_cast<double>(k + 1);
+  return value * tau;
+}
+
+/// int_0^tau int_0^s.
+double double_integral(std::span<const double> coefficients, double tau) {
+  double value = 0;
+  for (std::size_t k = coefficients.size(); k-- > 0;)
+    value = value * tau + coefficients[k] / static_cast<double>((k + 1) * (k + 2));
+  return value * tau * tau;
+}
+
+/// Mean over [a, b], 0 <= a < b: (b^{k+1} - a^{k+1})/(b - a) as a sum of products, so that a short interval loses no digit.
+double mean_of(std::span<const double> coefficients, double a, double b) {
+  double mean = 0;
+  double sum = 1;    // of b^i a^(k-i), i = 0..k
+  double power = 1;  // a^k
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    mean += coefficients[k] / static_cast<double>(k + 1) * sum;
+    power *= a;
+    sum = sum * b + power;
+  }
+  return mean;
+}
+
+/// The same polynomial in powers of tau - shift.
+std::vector<double> shifted(std::vector<double> coefficients, double shift) {
+  if (shift == 0) return coefficients;
+  for (std::size_t i = 0; i + 1 < coefficients.size(); ++i)  // Horner's scheme, again and again
+    for (std::size_t k = coefficients.size() - 1; k-- > i;)
+      coefficients[k] += shift * coefficients[k + 1];
+  return coefficients;
+}
+
+double sine(const ExternalForce::Sinusoid& s, double time) {
+  return s.amplitude * std::sin(s.angular_frequency * time + s.phase);
+}
+
+double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
+
+/// x - sin x without cancellation.
+double argument_minus_sine(double x) {
+  if (std::abs(x) > 1) return x - std::sin(x);
+  double term = x, sum = 0;
+  for (int k = 1; k < 10; ++k) {  // x^21/21! < 1e-19
+    term *= -x * x / ((2 * k) * (2 * k + 1));
+    sum -= term;
+  }
+  return sum;
+}
+
+double sine_mean(const ExternalForce::Sinusoid& s, double a, double b) {
+  return sine(s, a + (b - a) / 2) * sinc(s.angular_frequency * (b - a) / 2);
+}
+
+}  // namespace
+
+ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
+  if (pieces.empty())
     throw Error(ExitCode::kBadInput, "external_force has no piece; needs at least one");
   double from = 0;
-  for (const auto& piece : pieces_) {
+  for (const auto& piece : pieces) {
     if (!(piece.until > from))
       throw Error(
           ExitCode::kBadInput,
           fmt::format("external_force: until = {} must be greater than {}, where the piece begins",
                       piece.until, from));
+    Polynomial polynomial{from, {piece.value}};
+    polynomial.coefficients.insert(polynomial.coefficients.end(), piece.higher.begin(),
+                                   piece.higher.end());
+    pieces_.push_back(std::move(polynomial));
     from = piece.until;
   }
+  sum_up();
+}
+
+ExternalForce ExternalForce::sinusoidal(const Sinusoid& sinusoid) {
+  if (!(sinusoid.angular_frequency > 0))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("external_force: angular_frequency is {}; must be > 0",
+                            sinusoid.angular_frequency));
+  ExternalForce force({{1, 0}});
+  force.sinusoids_.push_back(sinusoid);
+  return force;
+}
+
+ExternalForce& ExternalForce::operator+=(const ExternalForce& other) {
+  std::vector<double> starts;
+  for (const auto* pieces : {&std::as_const(pieces_), &other.pieces_})
+    for (const auto& piece : *pieces) starts.push_back(piece.from);
+  std::ranges::sort(starts);
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+  std::vector<Polynomial> sum;
+  for (const double from : starts) {
+    const auto& a = piece_at(from);
+    const auto& b = other.piece_at(from);
+    auto coefficients = shifted(a.coefficients, from - a.from);
+    const auto more = shifted(b.coefficients, from - b.from);
+    coefficients.resize(std::max(coefficients.size(), more.size()));
+    for (std::size_t k = 0; k < more.size(); ++k) coefficients[k] += more[k];
+    sum.push_back({from, std::move(coefficients)});
+  }
+  pieces_ = std::move(sum);
+  sinusoids_.insert(sinusoids_.end(), other.sinusoids_.begin(), other.sinusoids_.end());
+  sum_up();
+  return *this;
+}
+
+ExternalForce ExternalForce::stretched(double factor) const {
+  ExternalForce force = *this;
+  for (auto& piece : force.pieces_) {
+    piece.from *= factor;
+    double power = 1;
+    for (auto& coefficient : piece.coefficients) {
+      coefficient /= power;
+      power *= factor;
+    }
+  }
+  for (auto& s : force.sinusoids_) s.angular_frequency /= factor;
+  force.sum_up();
+  return force;
+}
+
+void ExternalForce::sum_up() {
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    const auto& before = pieces_[i - 1];
+    const double length = pieces_[i].from - before.from;
+    pieces_[i].impulse = before.impulse + integral(before.coefficients, length);
+    pieces_[i].impulse_integral = before.impulse_integral + before.impulse * length +
+                                  double_integral(before.coefficients, length);
+  }
+}
+
+const ExternalForce::Polynomial& ExternalForce::piece_at(double time) const {
+  const auto next = std::ranges::upper_bound(pieces_, time, {}, &Polynomial::from);
+  return next == pieces_.begin() ? pieces_.front() : *std::prev(next);
 }
 
 double ExternalForce::value(double time) const {
-  const auto piece = std::ranges::upper_bound(pieces_, time, {}, &Piece::until);
-  return piece == pieces_.end() ? pieces_.back().value : piece->value;
+  const auto& piece = piece_at(time);
+  double value = at(piece.coefficients, time - piece.from);
+  for (const auto& s : sinusoids_) value += sine(s, time);
+  return value;
+}
+
+double ExternalForce::slope(double time) const {
+  const auto& piece = piece_at(time);
+  double slope = slope_at(piece.coefficients, time - piece.from);
+  for (const auto& s : sinusoids_)
+    slope += s.amplitude * s.angular_frequency * std::cos(s.angular_frequency * time + s.phase);
+  return slope;
 }
 
 double ExternalForce::impulse(double time) const {
-  double total = 0;
-  double from = 0;
-  for (const auto& piece : pieces_) {
-    if (time <= piece.until) return total + piece.value * (time - from);
-    total += piece.value * (piece.until - from);
-    from = piece.until;
+  const auto& piece = piece_at(time);
+  double impulse = piece.impulse + integral(piece.coefficients, time - piece.from);
+  for (const auto& s : sinusoids_) impulse += time * sine_mean(s, 0, time);
+  return impulse;
+}
+
+double ExternalForce::impulse_integral(double time) const {
+  const auto& piece = piece_at(time);
+  const double tau = time - piece.from;
+  double total =
+      piece.impulse_integral + piece.impulse * tau + double_integral(piece.coefficients, tau);
+  for (const auto& s : sinusoids_) {
+    const double x = s.angular_frequency * time;
+    const double half = std::sin(x / 2);
+    total += s.amplitude / (s.angular_frequency * s.angular_frequency) *
+             (std::cos(s.phase) * argument_minus_sine(x) + std::sin(s.phase) * 2 * half * half);
   }
-  return total + pieces_.back().value * (time - from);
+  return total;
+}
+
+double ExternalForce::mean(double from, double to) const {
+  const auto* piece = &piece_at(from);
+  const auto* last = &pieces_.back();
+  double mean = 0;
+  if (piece == last || to <= piece[1].from) {
+    mean = mean_of(piece->coefficients, from - piece->from, to - piece->from);
+  } else {
+    for (double begin = from; begin < to; ++piece) {
+      const double end = piece == last ? to : std::min(to, piece[1].from);
+      mean += (end - begin) / (to - from) *
+              mean_of(piece->coefficients, begin - piece->from, end - piece->from);
+      begin = end;
+    }
+  }
+  for (const auto& s : sinusoids_) mean += sine_mean(s, from, to);
+  return mean;
 }
 
 std::vector<double> ExternalForce::jumps() const {
   std::vector<double> times;
-  for (std::size_t i = 0; i + 1 < pieces_.size(); ++i)
-    if (pieces_[i].value != pieces_[i + 1].value) times.push_back(pieces_[i].until);
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    const auto& before = pieces_[i - 1].coefficients;
+    const auto& after = pieces_[i].coefficients;
+    const double length = pieces_[i].from - pieces_[i - 1].from;
+    if (at(before, length) != after[0] || slope_at(before, length) != slope_at(after, 0))
+      times.push_back(pieces_[i].from);
+  }
   return times;
+}
+
+std::vector<double> ExternalForce::sign_changes(double end) const {
+  std::vector<double> changes;
+  double fastest = 0;
+  for (const auto& s : sinusoids_) fastest = std::max(fastest, s.angular_frequency);
+  double last_sign = 0;
+  const auto look_at = [&](double time, double value) {
+    const double sign = value > 0 ? 1 : value < 0 ? -1 : 0;
+    if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
+    if (sign != 0) last_sign = sign;
+  };
+  for (std::size_t i = 0; i < pieces_.size() && pieces_[i].from < end; ++i) {
+    const double from = pieces_[i].from;
+    const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
+    const auto& coefficients = pieces_[i].coefficients;
+    // Of this piece alone, also at its right end.
+    const auto value_at = [&](double t) {
+      double value = at(coefficients, t - from);
+      for (const auto& s : sinusoids_) value += sine(s, t);
+      return value;
+    };
+    look_at(from, value_at(from));
+    if (coefficients.size() == 1 && sinusoids_.empty()) continue;
+    const int samples =
+        32 + static_cast<int>(std::min(1e7, 32 * (to - from) * fastest / (2 * std::numbers::pi)));
+    double a = from;
+    for (int n = 1; n <= samples; ++n) {
+      const double b = n == samples ? to : from + (to - from) * n / samples;
+      double low = a, high = b;
+      if (last_sign * value_at(b) < 0) {
+        // Bisection, to neighbouring numbers.
+        for (double middle = low + (high - low) / 2; low < middle && middle < high;
+             middle = low + (high - low) / 2)
+          (value_at(middle) * last_sign > 0 ? low : high) = middle;
+      }
+      look_at(high, value_at(b));
+      a = b;
+    }
+  }
+  std::erase_if(changes, [&](double t) { return t >= end; });
+  return changes;
+}
+
+void ForceWalk::enter(std::size_t piece) {
+  const auto& pieces = force_.pieces_;
+  piece_ = piece;
+  end_ =
+      piece + 1 < pieces.size() ? pieces[piece + 1].from : std::numeric_limits<double>::infinity();
+  constant_ = pieces[piece].coefficients.size() == 1 && force_.sinusoids_.empty();
+  level_ = pieces[piece].coefficients.front();
+}
+
+ExternalForce read_external_force(const std::filesystem::path& path, double end) {
+  const std::array<std::string, 2> columns = {"time", "force"};
+  const std::string file = path.string();
+  const auto csv = read_csv(path, columns, columns.size());
+  std::vector<ExternalForce::Piece> pieces;
+  double from = 0, value = 0;
+  bool jumped = false;
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const auto& row = csv.rows[i];
+    const FilePosition here{file, row.line};
+    const double time = required_field(row, columns, 0, file);
+    const double force = required_field(row, columns, 1, file);
+    if (i == 0 && time != 0)
+      throw_bad_input(here, fmt::format("the first time is {}; must be 0", time));
+    if (time < from)
+      throw_bad_input(here, fmt::format("time is {} after {}; must not decrease", time, from));
+    if (i > 0 && time == from) {
+      if (jumped)
+        throw_bad_input(here,
+                        fmt::format("time {} is there more than twice; twice is a jump", time));
+      jumped = true;
+    } else if (i > 0) {
+      pieces.push_back({time, value, {(force - value) / (time - from)}});
+      jumped = false;
+    }
+    from = time;
+    value = force;
+  }
+  if (csv.rows.empty() || from < end)
+    throw_bad_input({file}, fmt::format("ends at time {}; must reach {}", from, end));
+  return ExternalForce(pieces);
 }
 
 }  // namespace viscontact

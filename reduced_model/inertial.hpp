@@ -7,23 +7,21 @@
 
 namespace viscontact {
 
-/// Problem (M), m d^2q/dt^2 = -R(q) dq/dt + f_ext(t), in the variables s = ln q, w = ds/dt = u/q:
+/// Problem (M), m d^2q/dt^2 = -R(q) dq/dt + f_ext(t), by way of its first integral (I), which is exact and leaves one equation of first order, in s = ln q:
 ///
-///     ds/dt = w,    dw/dt = f/(m q) - R(q) w/m - w^2,    q = e^s, u = q w.
+///     m u + Gamma(q) = P(t) := m v0 + Gamma(q0) + int_0^t f_ext,
+///     ds/dt = (P(t) - Gamma(q))/(m q),    q = e^s.
 ///
-/// It is as stiff as in q (the film damps at the rate R/m), but no error can push q below 0, and w stays of
-/// order f/k however thin the film. Each step is projected onto the first integral (I),
+/// It is stiff (the film damps at the rate R/m), but no error can push q below 0, an error of s dies out in the film instead of adding up, and P is continuous where f_ext jumps. As
+/// (I) holds by construction it is no check of this model; those are exact states (data/reference/limit_case_states.csv) and an integration of (M) in extended precision.
 ///
-///     m u + Gamma(q) = P(t) := m v0 + Gamma(q0) + int_0^t f_ext.
+/// The velocity of a row is (P - Gamma)/m, or, where that cancels (a film so thin that m/R is short beside all else), the balance with the drag and its first correction for inertia,
+/// u = u_0 - (m/R) du_0/dt, u_0 = f/R, if the two agree to within the former's error.
 ///
-/// so (I) holds by construction, to the tolerance of the projection: it is no check of this model. (Those are
-/// the exact states of data/reference/limit_case_states.csv.)
+/// A fall so fast that the film of thickness Gamma^{-1}(P) takes all of its momentum within 1e-12 of t, which no step can resolve, ends in that film at once.
 ///
-/// f_ext is constant between its jumps: CVODE stops at each and restarts. Where the film damps within less than
-/// 1e-12 of the time of a jump, which no step can resolve, w is set to its balance f/(R q) there; (I) is off by
-/// m times the change of u, at most. Rows: every motion.reference_time_step, the jumps, and the instants where
-/// u = 0 (extrema of q). motion.inertial_relative_tolerance bounds the errors of ln q (absolute and relative)
-/// and of w in each step, with a tenth of it to spare for their sum.
+/// CVODE stops where f_ext or its slope jumps, and restarts. Rows: every motion.reference_time_step, those times, and the instants where
+/// u = 0 (extrema of q). A tenth of motion.inertial_relative_tolerance bounds the error of ln q in each step, which leaves room for their sum.
 /// Throws Error(kNotConverged) if CVODE gives up, Error(kBadInput) when the motion leaves the fit's interval.
 Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force);
 

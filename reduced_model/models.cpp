@@ -8,43 +8,90 @@
 
 #include "common/error.hpp"
 #include "common/named.hpp"
+#include "reduced_model/explicit_euler.hpp"
+#include "reduced_model/inelastic_contact.hpp"
 #include "reduced_model/inertial.hpp"
 #include "reduced_model/reference.hpp"
 #include "reduced_model/reference_exact.hpp"
 #include "reduced_model/viscous_contact.hpp"
+#include "reduced_model/viscous_contact_exact.hpp"
 #include "reduced_model/viscous_contact_regular_drag.hpp"
 #include "reduced_model/viscous_contact_threshold.hpp"
 
 namespace viscontact {
 namespace {
 
+constexpr bool kByDefault = true;
+constexpr bool kOnRequest = false;
+constexpr bool kNoInertia = false;
+
 constexpr std::array kModels = {
-    Model{"reference", "no inertia, explicit Euler (the lecture's)", simulate_reference},
-    Model{"reference_exact", "no inertia, first integral", simulate_reference_exact},
+    Model{"reference", "no inertia, explicit Euler (the lecture's)", simulate_reference, nullptr,
+          kByDefault, kNoInertia},
+    Model{"reference_exact", "no inertia, first integral", simulate_reference_exact, nullptr,
+          kByDefault, kNoInertia},
     Model{"inertial", "with inertia, CVODE", simulate_inertial},
     Model{"viscous_contact", "viscous contact", simulate_viscous_contact, viscous_contact},
     Model{"viscous_contact_regular_drag", "viscous contact and regular drag",
           simulate_viscous_contact_regular_drag, viscous_contact_regular_drag},
     Model{"viscous_contact_threshold", "whole drag down to a threshold gap, viscous contact there",
           simulate_viscous_contact_threshold, viscous_contact_threshold},
+    Model{"viscous_contact_exact", "viscous contact from event to event, no time step",
+          simulate_viscous_contact_exact, viscous_contact, kOnRequest},
+    Model{"inelastic_contact", "plain inelastic contact", simulate_inelastic_contact,
+          inelastic_contact, kOnRequest},
+    Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
+          kOnRequest},
 };
+
+/// The books of a model whose film is all of the drag: what the force does not explain is the film's. The force is taken as constant, its mean, between two rows.
+Books books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion, bool inertia) {
+  Books books;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    books.external_work += motion.external_force.mean(rows[i - 1].time, rows[i].time) *
+                           (rows[i].gap - rows[i - 1].gap);
+  const auto& first = rows.front();
+  const auto& last = rows.back();
+  const double m = inertia ? motion.mass : 0;
+  books.external_impulse = motion.external_force.impulse(last.time);
+  books.film_impulse = m * (last.velocity - first.velocity) - books.external_impulse;
+  books.film_work = m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) -
+                    books.external_work;
+  return books;
+}
 
 }  // namespace
 
 std::span<const Model> all_models() { return kModels; }
 
-const Model& find_model(std::string_view name) { return require_named(kModels, name, "model"); }
+ModelChoice find_model(std::string_view name) {
+  ModelChoice choice{std::string(name)};
+  if (find_named(kModels, name) == nullptr && name.ends_with(kExactDragSuffix)) {
+    name.remove_suffix(kExactDragSuffix.size());
+    choice.exact_drag = true;
+  }
+  choice.model = &require_named(kModels, name, "model");
+  return choice;
+}
 
-Trajectory simulate(const Model& model, const Motion& motion, const LubricationForce& force) {
+LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force) {
+  return choice.exact_drag ? LubricationForce::exact_plane(force.viscosity(), force.radius())
+                           : force;
+}
+
+Trajectory simulate(const ModelChoice& choice, const Motion& motion,
+                    const LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    Trajectory trajectory = model.simulate(motion, force);
-    trajectory.model = model.name;
+    Trajectory trajectory = choice.model->simulate(motion, drag_of(choice, force));
+    trajectory.model = choice.name;
+    if (!trajectory.books)
+      trajectory.books = books_of_drag(trajectory.rows, motion, choice.model->inertia);
     trajectory.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;
   } catch (const Error& error) {
-    throw Error(error.exit_code(), fmt::format("model {}: {}", model.name, error.what()));
+    throw Error(error.exit_code(), fmt::format("model {}: {}", choice.name, error.what()));
   }
 }
 

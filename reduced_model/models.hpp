@@ -2,7 +2,9 @@
 // (models.cpp).
 #pragma once
 
+#include <ranges>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "reduced_model/contact_model.hpp"
@@ -14,17 +16,41 @@ struct Model {
   std::string_view description;  ///< a line for --help and legends
   Trajectory (*simulate)(const Motion&, const LubricationForce&);
   ContactModel (*contact)(const Motion&, const LubricationForce&) =
-      nullptr;  ///< of a contact model: what gamma stands for
+      nullptr;             ///< of a contact model: what gamma stands for
+  bool by_default = true;  ///< runs where a case names no models
+  bool inertia = true;     ///< the mass matters
 };
 
 /// Every model there is.
 std::span<const Model> all_models();
 
-/// The model of that name. Throws Error(kBadInput) that lists the names there are.
-const Model& find_model(std::string_view name);
+/// Those that run where a case names none.
+inline auto default_models() { return all_models() | std::views::filter(&Model::by_default); }
 
-/// Runs a model and fills in its name and the wall time. An Error carries the model's name in
+/// What ends the name of a model that is to run with the exact drag (fitting/plane_drag.hpp) in place of the fitted one: inertial_brenner.
+inline constexpr std::string_view kExactDragSuffix = "_brenner";
+
+/// A model with the drag that it is to run with.
+struct ModelChoice {
+  std::string name;  ///< that of the model, with the suffix if exact
+  const Model* model = nullptr;
+  bool exact_drag = false;
+};
+
+/// The model of that name, which may have the suffix. Throws Error(kBadInput) that lists the names there are.
+ModelChoice find_model(std::string_view name);
+
+/// The drag that it runs with: `force`, or the exact one of the same viscosity and radius.
+LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force);
+
+/// Runs a model and fills in its name, its books and the wall time. An Error carries the model's name in
 /// front.
-Trajectory simulate(const Model& model, const Motion& motion, const LubricationForce& force);
+Trajectory simulate(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
+
+/// The same with `force` as it is.
+inline Trajectory simulate(const Model& model, const Motion& motion,
+                           const LubricationForce& force) {
+  return simulate(ModelChoice{std::string(model.name), &model}, motion, force);
+}
 
 }  // namespace viscontact

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/error.hpp"
 
@@ -20,24 +21,29 @@ int step_count(double end, double step) {
   return std::max(1, static_cast<int>(steps));
 }
 
-double step_time(int index, int count, double end, double step) {
-  return index == count ? end : index * step;
+std::vector<double> row_times(const Motion& motion, double spacing) {
+  const int steps = step_count(motion.end_time, spacing);
+  auto jumps = motion.external_force.jumps();
+  std::erase_if(jumps, [&](double t) { return t >= motion.end_time; });
+  // A row that round-off alone sets apart from a jump gives way to it.
+  const auto is_a_jump = [&](double t) {
+    const auto next = std::ranges::lower_bound(jumps, t);
+    const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };
+    return (next != jumps.end() && close(*next)) ||
+           (next != jumps.begin() && close(*std::prev(next)));
+  };
+  std::vector<double> grid;
+  for (int n = 0; n <= steps; ++n) {
+    const double t = step_time(n, steps, motion.end_time, spacing);
+    if (n == 0 || n == steps || !is_a_jump(t)) grid.push_back(t);
+  }
+  std::vector<double> times;
+  std::ranges::merge(grid, jumps, std::back_inserter(times));
+  return times;
 }
 
 std::vector<double> row_times(const Motion& motion) {
-  const double h = motion.reference_time_step;
-  const int steps = step_count(motion.end_time, h);
-  std::vector<double> times;
-  for (int n = 0; n <= steps; ++n) times.push_back(step_time(n, steps, motion.end_time, h));
-  for (const double jump : motion.external_force.jumps()) {
-    if (jump >= motion.end_time) break;
-    // A row that round-off alone sets apart from a jump gives way to it.
-    std::erase_if(times, [&](double t) {
-      return std::abs(t - jump) < 1e-6 * h && t > 0 && t < motion.end_time;
-    });
-    times.insert(std::ranges::upper_bound(times, jump), jump);
-  }
-  return times;
+  return row_times(motion, motion.reference_time_step);
 }
 
 }  // namespace viscontact

@@ -21,7 +21,7 @@ struct Motion {
   double reference_time_step = 0;  ///< h of `reference` [T], > 0; also the spacing of the rows of
                                    ///< `reference_exact` and `inertial`
   double inertial_relative_tolerance = 0;  ///< of ln q and dq/dt / q; in [1e-13, 1e-2]
-  double contact_time_step = 0;            ///< h of the contact models [T], > 0
+  double contact_time_step = 0;  ///< h of the contact models and `explicit_euler` [T], > 0
   std::array<double, 2> roughness =
       {};  ///< r1, r2: roughness heights of sphere and plane [L], >= 0; both 0: smooth
   double threshold_gap = 0;  ///< q_c of `viscous_contact_threshold` [L], > 0
@@ -32,10 +32,14 @@ struct Motion {
 int step_count(double end, double step);
 
 /// The time after `index` of those steps, `end` at the last.
-double step_time(int index, int count, double end, double step);
+inline double step_time(int index, int count, double end, double step) {
+  return index == count ? end : index * step;
+}
 
-/// The times of the rows of a model that needs no fixed step: 0, every reference_time_step, the
-/// force's jumps, end_time.
+/// The times of the rows of a model that needs no fixed step: 0, every `spacing`, the force's jumps, end_time.
+std::vector<double> row_times(const Motion& motion, double spacing);
+
+/// With spacing reference_time_step.
 std::vector<double> row_times(const Motion& motion);
 
 }  // namespace viscontact

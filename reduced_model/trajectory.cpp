@@ -9,13 +9,12 @@
 namespace viscontact {
 namespace {
 
-const std::array<std::string, 6> kColumns = {
-    "time", "gap", "velocity", "lubrication_force", "external_force", "gamma"};
+const std::array<std::string, 7> kColumns = {
+    "time", "gap", "velocity", "lubrication_force", "external_force", "gamma", "solid_force"};
+const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 constexpr std::size_t kRequiredColumns = 3;
 
-std::string optional_number(const std::optional<double>& value) {
-  return value ? format_number(*value) : "";
-}
+std::string optional_number(const Maybe& value) { return value ? format_number(*value) : ""; }
 
 }  // namespace
 
@@ -37,6 +36,17 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     trajectory.steps = static_cast<long>(csv_comment_number(csv.comments, "steps", file));
   if (csv.comments.contains("seconds"))
     trajectory.seconds = csv_comment_number(csv.comments, "seconds", file);
+  if (csv.comments.contains(kContactKeys[0]))
+    trajectory.contact_interval = {csv_comment_number(csv.comments, kContactKeys[0], file),
+                                   csv_comment_number(csv.comments, kContactKeys[1], file)};
+  for (const auto& key : kContactKeys) take(key);
+  for (const auto& entry : kBookEntries) {
+    const std::string key(entry.name);
+    if (!csv.comments.contains(key)) continue;
+    if (!trajectory.books) trajectory.books.emplace();
+    (*trajectory.books).*entry.value = csv_comment_number(csv.comments, key, file);
+    take(key);
+  }
   for (const char* key : {"viscontact", "recovered_minimal_gap", "steps", "seconds", "rows"})
     take(key);
   trajectory.rows.reserve(csv.rows.size());
@@ -45,9 +55,10 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     row.time = required_field(fields, kColumns, 0, file);
     row.gap = required_field(fields, kColumns, 1, file);
     row.velocity = required_field(fields, kColumns, 2, file);
-    row.lubrication_force = fields.fields[3];
-    row.external_force = fields.fields[4];
-    row.gamma = fields.fields[5];
+    if (fields.fields[3]) row.lubrication_force = *fields.fields[3];
+    if (fields.fields[4]) row.external_force = *fields.fields[4];
+    if (fields.fields[5]) row.gamma = *fields.fields[5];
+    if (fields.fields[6]) row.solid_force = *fields.fields[6];
     const FilePosition here{file, fields.line};
     if (row.gap < 0) throw_bad_input(here, fmt::format("gap is {}; must be >= 0", row.gap));
     if (!trajectory.rows.empty() && !(row.time > trajectory.rows.back().time))
@@ -68,13 +79,19 @@ std::string write_trajectory(const Trajectory& trajectory) {
   comments["seconds"] = format_number(trajectory.seconds);
   if (trajectory.recovered_minimal_gap)
     comments["recovered_minimal_gap"] = format_number(*trajectory.recovered_minimal_gap);
+  if (trajectory.contact_interval)
+    for (std::size_t i = 0; i < kContactKeys.size(); ++i)
+      comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
+  if (trajectory.books)
+    for (const auto& entry : kBookEntries)
+      comments[std::string(entry.name)] = format_number((*trajectory.books).*entry.value);
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& row : trajectory.rows)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(row.time),
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", format_number(row.time),
                    format_number(row.gap), format_number(row.velocity),
                    optional_number(row.lubrication_force), optional_number(row.external_force),
-                   optional_number(row.gamma));
+                   optional_number(row.gamma), optional_number(row.solid_force));
   return text;
 }
 

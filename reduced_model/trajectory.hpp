@@ -1,22 +1,27 @@
 // A trajectory, as a model computes it and as a file holds it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/maybe.hpp"
+#include "reduced_model/books.hpp"
+
 namespace viscontact {
 
-/// One instant. Dimensions: [T], [L], [L/T], [M L/T^2], [M L/T^2], [M L/T].
+/// One instant. Dimensions: [T], [L], [L/T], [M L/T^2], [M L/T^2], [M L/T], [M L/T^2].
 struct TrajectoryRow {
   double time = 0;
   double gap = 0;       ///< q, >= 0
   double velocity = 0;  ///< dq/dt
-  std::optional<double> lubrication_force;
-  std::optional<double> external_force;
-  std::optional<double> gamma;  ///< adhesion potential of a contact model, <= 0
+  Maybe lubrication_force{};
+  Maybe external_force{};
+  Maybe gamma{};        ///< adhesion potential of a contact model, <= 0
+  Maybe solid_force{};  ///< of the solids on each other, a contact model's, >= 0
 };
 
 /// Rows in strictly increasing time, at least one, and what is known of how they were made.
@@ -25,8 +30,11 @@ struct Trajectory {
   std::vector<TrajectoryRow> rows;
   std::optional<double> recovered_minimal_gap;  ///< film thickness that gamma stands for at its
                                                 ///< lowest [L]; contact models only
-  long steps = 0;                               ///< of the integrator
-  double seconds = 0;                           ///< wall time
+  std::optional<std::array<double, 2>>
+      contact_interval;  ///< first landing, last release (or the end) [T]; contact models only
+  std::optional<Books> books;  ///< not of a user's own
+  long steps = 0;              ///< of the integrator
+  double seconds = 0;          ///< wall time
   std::map<std::string, std::string>
       provenance;  ///< further "# key: value" lines: fit, case, time step
 };

@@ -3,9 +3,7 @@
 namespace viscontact {
 
 ContactModel viscous_contact(const Motion& motion, const LubricationForce& force) {
-  ContactModel model = contact_with_leading_term(motion, force);
-  model.resolved_resistance = [](double) { return 0.0; };
-  return model;
+  return contact_with_leading_term(motion, force);
 }
 
 Trajectory simulate_viscous_contact(const Motion& motion, const LubricationForce& force) {

@@ -4,7 +4,8 @@ namespace viscontact {
 
 ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force) {
   ContactModel model = contact_with_leading_term(motion, force);
-  model.resolved_resistance = [&force](double q) { return force.regular_resistance(q); };
+  model.drag = ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
+                            [&force](double q) { return force.regular_impulse(q); }};
   return model;
 }
 

@@ -6,13 +6,13 @@
 namespace viscontact {
 
 /// The lecture's splitting ("Methode de splitting") where the fluid solver resolves all of the drag but its
-/// singular part k/q. With the drag implicit, each step is
+/// singular part k/q. Each step is that of contact_step.hpp,
 ///
-///     m (u^{n+1} - u^n)/h = f^n - (R(q^n) - k/q^n) u^{n+1} + lambda,
+///     m (u^{n+1} - u^n) = h f^n - (G(q^{n+1}) - G(q^n)) + h lambda,     G(q) = int_0^q (R(s) - k/s) ds.
 ///
-/// lambda from the projection of viscous_contact.hpp: the velocity is that of the lecture's scheme, which projects
-/// the u^{n+1/2} of lambda = 0, but drag acts on the velocity that is left. (Taken on u^{n+1/2} it would act on a
-/// sphere at rest in contact, and gamma would lack the share h (R - k/q)/m of each step's load.)
+/// The lecture projects u^{n+1/2}, the velocity after a step with drag and lambda = 0. Drag then acts even on a sphere that contact holds at
+/// rest, and gamma lacks the share h (R - k/q)/m of each step's load. Here the drag acts on the way that the sphere goes, by its impulse, so
+/// that film and gamma agree with the first integral whatever the step: m u + G(q) + gamma = P(t).
 /// Below the fit's interval R - k/q is held at its value there.
 /// `force` must outlive the model. Throws Error(kBadInput) if the fit's resistance has no positive coefficient
 /// of 1/q, or when the motion leaves the fit's interval upwards.

@@ -27,7 +27,8 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   model.contact_gap = q_c;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, force.impulse(solid_gap) - impulse_at_contact);
-  model.resolved_resistance = [&force](double q) { return force.resistance(q); };
+  model.drag = ResolvedDrag{[&force](double q) { return force.resistance(q); },
+                            [&force](double q) { return force.impulse(q); }};
   model.film_thickness = [&force, impulse_at_contact](double gamma) {
     return force.gap_of_impulse(impulse_at_contact + gamma);
   };

@@ -58,7 +58,7 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   std::vector<std::string> expected = {"case.toml",       "table.csv",   "fit.json",
                                        "comparison.json", "report.html", "uncertainty.json",
                                        "trajectories"};
-  for (const auto& model : all_models())
+  for (const auto& model : default_models())
     expected.push_back("trajectories/" + std::string(model.name) + ".csv");
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))

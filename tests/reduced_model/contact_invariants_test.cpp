@@ -88,24 +88,30 @@ TEST_P(ContactInvariants, NeverOverlapNeverPullAtADistanceNeverForgetMoreThanThe
 }
 
 TEST_P(ContactInvariants, BalanceTheMomentumOfEveryStep) {
-  // m (u^{n+1} - u^n) = h (f^n + F_lub): the film gives h lambda = gamma^n - gamma^{n+1}, the resolved drag the rest. Only a solid contact
-  // may push beyond that, and never pull.
+  // m (u^{n+1} - u^n) = h (f^n + F_lub + F_solid): the film gives h lambda = gamma^n - gamma^{n+1}, the resolved drag its impulse. A solid contact
+  // pushes where gamma is at its least, and never pulls.
   for_each_step([](const Motion& motion, const ContactModel& model, const TrajectoryRow& before,
                    const TrajectoryRow& after) {
     const double m = motion.mass;
     const double h = after.time - before.time;
     const double push = h * motion.external_force.mean(before.time, after.time);
     const double drag = h * *after.lubrication_force;
-    const double solid = m * (after.velocity - before.velocity) - push - drag;
-    // The mean of f is a difference of impulses since t = 0, of at most 1e3 m each; then some ten roundings.
-    const double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) +
-                         std::abs(push) + std::abs(drag) + std::abs(*before.gamma) +
-                         std::abs(*after.gamma);
-    const double round_off = kEpsilon * (16 * scale + 1e3 * m);
-    if (*after.gamma == model.gamma_min) {
-      EXPECT_GE(solid, -round_off);
-    } else {
-      EXPECT_NEAR(solid, 0, round_off);
+    const double solid = h * *after.solid_force;
+    // Times of up to 10 are subtracted and multiplied with forces of up to 100 m; drag is a difference of impulses; then some ten roundings.
+    double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) + std::abs(push) +
+                   std::abs(drag) + solid + std::abs(*before.gamma) + std::abs(*after.gamma);
+    // Of the gap and of the velocity that Newton's method finds, what a rounding of each does to the drag's impulse.
+    if (model.drag)
+      scale +=
+          std::abs(model.drag->impulse(before.gap)) + std::abs(model.drag->impulse(after.gap)) +
+          std::abs(model.drag->resistance(after.gap)) * (after.gap + h * std::abs(after.velocity));
+    // The step as the difference of two rows' times of up to 10.
+    const double of_step = 20 / h * (std::abs(drag) + solid);
+    const double round_off = kEpsilon * (16 * scale + 1e4 * m + of_step);
+    EXPECT_NEAR(m * (after.velocity - before.velocity) - push - drag - solid, 0, round_off);
+    EXPECT_GE(solid, 0);
+    if (*after.gamma != model.gamma_min) {
+      EXPECT_EQ(solid, 0);
     }
   });
 }

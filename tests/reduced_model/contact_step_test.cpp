@@ -12,6 +12,14 @@ constexpr double kSmooth = -std::numeric_limits<double>::infinity();
 constexpr double kMass = 4;
 constexpr double kStep = 0.5;
 
+/// One step without drag, from the velocity that it would have without contact.
+ContactState contact_step(const ContactState& state, double free_velocity, double mass,
+                          double gamma_min, double step) {
+  return viscontact::contact_step(state, mass * (free_velocity - state.velocity),
+                                  ContactSetting(mass, gamma_min, step), NoDrag())
+      .state;
+}
+
 void expect_state(const ContactState& state, double gap, double velocity, double gamma) {
   EXPECT_EQ(state.gap, gap);
   EXPECT_EQ(state.velocity, velocity);

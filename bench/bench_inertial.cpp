@@ -1,0 +1,102 @@
+// Time and true error of `inertial` on the lecture's case with the shipped fit; a file to put SciPy's Radau beside it (radau.py). Run by bench/run.
+//
+// usage: bench_inertial [STATES.csv]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fitting/fit.hpp"
+#include "fitting/lubrication_force.hpp"
+#include "reduced_model/inertial.hpp"
+#include "tests/oracles/inertial_motion.hpp"
+
+namespace viscontact {
+namespace {
+
+const std::string kSource = VISCONTACT_SOURCE_FOLDER;
+
+/// The lecture's case (data/cases/lecture.toml).
+Motion lecture_motion(double tolerance) {
+  Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
+  motion.reference_time_step = 1e-3;
+  motion.inertial_relative_tolerance = tolerance;
+  return motion;
+}
+
+/// R of a fit of the lecture's basis.
+InertialProblem::Function resistance(const Fit& fit) {
+  return [fit](long double q) {
+    long double force = 0;
+    const auto add = [&](const FitTerm& term) -> long double {
+      if (term.name == "1/q") return 1 / q;
+      if (term.name == "1") return 1;
+      if (term.name == "q") return q;
+      if (term.name == "q^2") return q * q;
+      if (term.name == "q^3") return q * q * q;
+      throw std::invalid_argument(term.name);
+    };
+    for (const auto& term : fit.terms) force += term.coefficient * add(term);
+    return -force / fit.reference_velocity;
+  };
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const auto fit = read_fit(kSource + "/data/fits/lecture.json");
+  const LubricationForce force(fit);
+  InertialMotion oracle(
+      {20, 1, 0, resistance(fit), {{2, [](long double) { return -200.0L; }}, {4, [](long double) {
+                                                                                return 200.0L;
+                                                                              }}}});
+  constexpr int kTimes = 400;
+  std::vector<double> times, exact;
+  for (int i = 1; i <= kTimes; ++i) {
+    times.push_back(i == kTimes ? 4.0 : 10 * i * 1e-3);  // times of rows
+    oracle.advance(times.back());
+    exact.push_back(static_cast<double>(oracle.gap()));
+  }
+
+  for (const double tolerance : {1e-7, 1e-9, 1e-11}) {
+    const Motion motion = lecture_motion(tolerance);
+    std::vector<double> milliseconds;
+    Trajectory trajectory;
+    for (int i = 0; i < 101; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      trajectory = simulate_inertial(motion, force);
+      milliseconds.push_back(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+              .count());
+    }
+    std::ranges::nth_element(milliseconds, milliseconds.begin() + 50);
+    double error = 0;
+    std::size_t compared = 0;
+    for (const auto& row : trajectory.rows) {
+      // A row's time may be another rounding of the same decimal.
+      if (compared < times.size() && std::abs(row.time - times[compared]) < 1e-12)
+        error = std::max(error, std::abs(row.gap / exact[compared++] - 1));
+    }
+    if (compared != times.size()) throw std::logic_error("a time has no row");
+    fmt::print(
+        "inertial at {:.0e}: {:.3f} ms (median of 101, least {:.3f}), {} steps, {} rows, "
+        "error of the gap {:.2g}\n",
+        tolerance, milliseconds[50], std::ranges::min(milliseconds), trajectory.steps,
+        trajectory.rows.size(), error);
+    if (tolerance != 1e-9 || arguments.empty()) continue;
+    std::ofstream file(arguments[0]);
+    file << fmt::format("# gap_error: {:.6g}\n# milliseconds: {:.6g}\ntime,gap\n", error,
+                        milliseconds[50]);
+    for (std::size_t i = 0; i < times.size(); ++i)
+      file << fmt::format("{:.17g},{:.17g}\n", times[i], exact[i]);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace viscontact
+
+int main(int argc, char** argv) { return viscontact::run({argv + 1, argv + argc}); }

@@ -1,0 +1,36 @@
+// Momentum and energy books of a motion: who gave the sphere what.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace viscontact {
+
+/// Impulses on the sphere along the outward normal [M L/T] and work done on it [M L^2/T^2], from the motion's start to its end:
+///
+///     m u(end) - m v0                  = sum of the impulses,
+///     m u(end)^2 / 2 - m v0^2 / 2      = sum of the works
+///
+/// (the left sides are 0 for a model without inertia). What the film absorbed is -film_work, what drag dissipated -drag_work, what was lost on the
+/// solid -solid_work.
+struct Books {
+  double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
+  double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;
+};
+
+/// The entries by name, for files.
+struct BookEntry {
+  std::string_view name;
+  double Books::* value;
+};
+inline constexpr std::array kBookEntries = {
+    BookEntry{"external_impulse", &Books::external_impulse},
+    BookEntry{"film_impulse", &Books::film_impulse},
+    BookEntry{"drag_impulse", &Books::drag_impulse},
+    BookEntry{"solid_impulse", &Books::solid_impulse},
+    BookEntry{"external_work", &Books::external_work},
+    BookEntry{"film_work", &Books::film_work},
+    BookEntry{"drag_work", &Books::drag_work},
+    BookEntry{"solid_work", &Books::solid_work}};
+
+}  // namespace viscontact
