@@ -15,6 +15,7 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
+#include "app/sweep_command.hpp"
 #include "app/tabulate_command.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
@@ -162,6 +163,7 @@ int run(int argc, char** argv) {
   add_export(app);
   add_shift(app);
   add_simulate(app);
+  add_sweep(app);
   add_compare(app);
   add_report(app);
   add_doctor(app, healthy);

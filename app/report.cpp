@@ -51,7 +51,8 @@ std::string parameters(const Case& c, const Fit& fit) {
       "{}.</p>\n",
       c.radius, motion.mass, c.viscosity, motion.initial_gap, motion.initial_velocity,
       motion.end_time,
-      fit.table_sha256.empty() ? "a given fit"
+      fit.terms.empty()          ? "Brenner's exact series"
+      : fit.table_sha256.empty() ? "a given fit"
                                : fmt::format("a fit for gaps from {:.4g} to {:.4g}",
                                              fit.gap_interval[0], fit.gap_interval[1]));
 }
@@ -125,6 +126,22 @@ std::string model_table(const Comparison& comparison) {
       rows, escaped(comparison.reference_model));
 }
 
+std::string books_table(const Comparison& comparison) {
+  std::string rows;
+  for (const auto& model : comparison.models) {
+    if (!model.books) continue;
+    rows += fmt::format("<tr><td>{}</td>", escaped(model.model));
+    for (const auto& entry : kBookEntries)
+      rows += fmt::format("<td>{:.5g}</td>", (*model.books).*entry.value);
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<div class=scroll><table><tr><th>model</th><th colspan=4>impulse on the sphere</th>"
+      "<th colspan=4>work done on it</th></tr>\n<tr><th></th>{0}{0}</tr>\n{1}</table></div>\n",
+      "<th>external</th><th>film</th><th>drag</th><th>solid</th>", rows);
+}
+
 std::string versions(const Fit& fit, const std::optional<ForceTable>& table) {
   auto all = library_versions();
   all.insert(fit.versions.begin(), fit.versions.end());
@@ -161,22 +178,38 @@ void write_report(const std::filesystem::path& folder) {
       "<title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
       escaped(c.title), kStyle);
   page += parameters(c, fit);
-  page += section("Thinnest film", plot_minimal_gaps(comparison, c.published));
-  page += section("Models", model_table(comparison));
-  page +=
-      section("Trajectories", plot_gaps(trajectories) +
-                                  plot_gaps_logarithmic(trajectories, required_motion(c), force));
-  page += section("Contact", plot_gamma(trajectories));
+  // Each plot is a file of its own too, for talks and papers.
+  std::vector<std::pair<std::string, std::string>> plots;
+  const auto plot = [&](const std::string& name, const std::string& svg) {
+    if (!svg.empty()) plots.emplace_back(name, svg);
+    return svg;
+  };
+  const auto& motion = required_motion(c);
+  page += section("Thinnest film",
+                  plot("thinnest_film", plot_minimal_gaps(comparison, c.published)));
+  page += section("Models", model_table(comparison) + books_table(comparison));
+  page += section(
+      "Trajectories",
+      plot("gap", plot_gaps(trajectories)) +
+          plot("gap_logarithmic", plot_gaps_logarithmic(trajectories, motion, force)) +
+          plot("external_force", plot_external_force(motion.external_force, motion.end_time)));
+  page += section("Contact", plot("gamma", plot_gamma(trajectories)) +
+                                 plot("solid_force", plot_solid_force(trajectories)));
   page += section("Lubrication force and fit",
-                  (table ? plot_fit(*table, fit) : "") + coefficients(fit) +
+                  (table ? plot("fit", plot_fit(*table, fit)) : "") +
+                      (fit.terms.empty() ? "<p>The exact drag of a sphere near a plane in a half-space "
+                                           "(Brenner 1961): nothing is fitted.</p>\n"
+                                         : coefficients(fit)) +
                       (fit.diagnostics ? trust(*fit.diagnostics) : ""));
   if (std::filesystem::exists(run.uncertainty())) {
     const auto uncertainty = read_uncertainty(run.uncertainty());
     page += section("What the fit does to the answer",
-                    uncertainty_table(uncertainty) + plot_uncertainty(uncertainty));
+                    uncertainty_table(uncertainty) +
+                        plot("uncertainty", plot_uncertainty(uncertainty)));
   }
   page += fmt::format("<footer>Made by Viscontact {}. {}.</footer>\n</body></html>\n",
                       VISCONTACT_VERSION, versions(fit, table));
+  for (const auto& [name, svg] : plots) write_file(run.plot(name), svg);
   write_file(run.report(), page);
   say(fmt::format("report: {}", run.report().string()));
 }

@@ -21,24 +21,37 @@ constexpr const char* kKeyBelow = "set key below Left reverse noopaque\nset xlab
 constexpr const char* kDecades = "set format y '1e%T'";
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
 
+/// The model of that name; nothing for a user's own.
+std::optional<ModelChoice> known_model(std::string_view name) {
+  try {
+    return find_model(name);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 /// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of
 /// models; curves that lie on each other differ in dash and width too.
-std::string line_style(std::string_view model, bool dashed = false) {
-  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00",
-                                   "#009E73", "#CC79A7", "#D55E00"};
-  constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 2.0};
-  const auto models = all_models();
-  const auto* found = find_named(models, model);
-  const auto place =
-      found == nullptr ? models.size() : static_cast<std::size_t>(found - models.data());
+std::string line_style(std::string_view model, bool film = false) {
+  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73",
+                                   "#CC79A7", "#D55E00", "#7F7F7F", "#8C564B", "#B8A100"};
+  constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 1.6, 2.0, 1.6, 2.0};
+  const auto choice = known_model(model);
+  const auto place = choice ? static_cast<std::size_t>(choice->model - all_models().data())
+                            : kColours.size() - 1;
   const auto i = std::min(place, kColours.size() - 1);
+  const char* dash = film                           ? "(8,5)"
+                     : choice && choice->exact_drag ? "(2,4)"
+                     : choice && choice->smooth     ? "(12,3,2,3)"
+                     : place == 2                   ? "(10,4)"
+                                                    : "1";
   return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
-                     dashed ? "(8,5)" : (place == 2 ? "(10,4)" : "1"));
+                     dash);
 }
 
 std::string legend_of(std::string_view model) {
-  const auto* found = find_named(all_models(), model);
-  return std::string(found == nullptr ? model : found->description);
+  const auto choice = known_model(model);
+  return choice ? description_of(*choice) : std::string(model);
 }
 
 /// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
@@ -134,9 +147,10 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
   for (const auto& trajectory : trajectories) {
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     Curve film{"", line_style(trajectory.model, true), {}};
-    const auto* model = find_named(all_models(), trajectory.model);
-    const auto contact = model != nullptr && model->contact != nullptr
-                             ? std::optional(model->contact(motion, force))
+    const auto choice = known_model(trajectory.model);
+    const LubricationForce own_force = choice ? drag_of(*choice, force) : force;
+    const auto contact = choice && choice->model->contact != nullptr
+                             ? std::optional(choice->model->contact(motion, own_force))
                              : std::nullopt;
     for (const auto* row : thinned(trajectory.rows, gap_of)) {
       const bool in_contact = row->gamma && *row->gamma < 0;
@@ -144,7 +158,7 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
       if (!contact) continue;
       double thickness = kGap;
       try {
-        if (in_contact) thickness = contact->film_thickness(*row->gamma);
+        if (in_contact && contact->film_thickness) thickness = contact->film_thickness(*row->gamma);
       } catch (const Error&) {
         // Thinner than the fit knows: not drawn.
       }
@@ -176,11 +190,46 @@ std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
     if (!trajectory.rows.back().gamma) continue;
     Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     for (const auto* row :
-         thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma.value_or(0); }))
-      curve.points.emplace_back(row->time, row->gamma.value_or(kGap));
+         thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma ? *r.gamma : 0; }))
+      curve.points.emplace_back(row->time, row->gamma ? *row->gamma : kGap);
     panel.curves.push_back(curve);
   }
   return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
+}
+
+std::string plot_solid_force(const std::vector<Trajectory>& trajectories) {
+  Panel panel{"What the solid carries", "time t", "force of the solids", false, false, {kKeyBelow}, {}};
+  const auto solid_of = [](const TrajectoryRow& row) { return row.solid_force ? *row.solid_force : 0; };
+  for (const auto& trajectory : trajectories) {
+    if (std::ranges::none_of(trajectory.rows, [&](const auto& row) { return solid_of(row) > 0; }))
+      continue;
+    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, solid_of))
+      curve.points.emplace_back(row->time, solid_of(*row));
+    panel.curves.push_back(curve);
+  }
+  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
+}
+
+std::string plot_external_force(const ExternalForce& force, double end_time) {
+  // Steps are drawn as such: two points at each jump.
+  Panel panel{"External force", "time t", "f", false, false, {"set offsets graph 0, 0, 0.05, 0.05"}, {}};
+  Curve curve{"", "lines linecolor rgb '#000000' linewidth 2", {}};
+  auto stops = force.jumps();
+  std::erase_if(stops, [&](double t) { return t >= end_time; });
+  stops.push_back(end_time);
+  constexpr int kPoints = 2000;
+  double from = 0;
+  for (const double to : stops) {
+    const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);
+    for (int i = 0; i <= points; ++i) {
+      const double t = from + (to - from) * i / points;
+      curve.points.emplace_back(t, force.value(i == points ? std::nextafter(to, from) : t));
+    }
+    from = to;
+  }
+  panel.curves.push_back(curve);
+  return draw_svg({panel}, kWidth, 260);
 }
 
 std::string plot_minimal_gaps(const Comparison& comparison,

@@ -27,6 +27,12 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
 /// gamma(t) of the contact models; empty if there is none.
 std::string plot_gamma(const std::vector<Trajectory>& trajectories);
 
+/// What the solids carry over time; empty if they carry nothing.
+std::string plot_solid_force(const std::vector<Trajectory>& trajectories);
+
+/// f_ext(t) from 0 to the end.
+std::string plot_external_force(const ExternalForce& force, double end_time);
+
 /// The thinnest film of each model, recovered from gamma for contact models, beside the published
 /// value if the case has one.
 std::string plot_minimal_gaps(const Comparison& comparison,

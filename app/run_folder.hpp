@@ -24,6 +24,9 @@ struct RunFolder {
   }
   std::filesystem::path comparison() const { return path / "comparison.json"; }
   std::filesystem::path uncertainty() const { return path / "uncertainty.json"; }
+  std::filesystem::path plot(const std::string& name) const {
+    return path / "plots" / (name + ".svg");
+  }
   std::filesystem::path report() const { return path / "report.html"; }
 };
 

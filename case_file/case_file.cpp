@@ -311,13 +311,30 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
   return *part;
 }
 
-}  // namespace
+SweepRequest read_sweep(const TomlSection& section) {
+  SweepRequest sweep;
+  sweep.vary = section.texts("vary");
+  if (section.has("models")) {
+    sweep.models = section.texts("models");
+    for (const auto& model : sweep.models)
+      at_key(section, "models", [&] { return find_model(model); });
+  }
+  const auto optional_text = [&](std::string_view key) {
+    return section.has(key) ? section.text(key) : "";
+  };
+  sweep.reference = optional_text("reference");
+  sweep.x = optional_text("x");
+  sweep.y = optional_text("y");
+  if (section.has("plot")) sweep.plot = section.texts("plot");
+  if (section.has("samples")) sweep.samples = section.number("samples", kPositive);
+  section.finish();
+  return sweep;
+}
 
-Case read_case(const std::filesystem::path& path) {
+Case read_case(const TomlSection& root, std::string text, const std::filesystem::path& path) {
   Case c;
   c.path = path;
-  c.text = read_file(path);
-  const auto root = TomlSection::parse(c.text, path.string());
+  c.text = std::move(text);
   c.title = root.text("title");
 
   const auto fluid = root.section("fluid");
@@ -345,10 +362,26 @@ Case read_case(const std::filesystem::path& path) {
         PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
     published.finish();
   }
+  if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
   // Without [motion] these are not read, but they are no strangers.
   for (const auto* key : {"reference", "inertial", "viscous_contact"}) (void)root.has(key);
   root.finish();
   return c;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& path) {
+  std::string text = read_file(path);
+  const auto root = TomlSection::parse(text, path.string());
+  return read_case(root, std::move(text), path);
+}
+
+CaseTemplate::CaseTemplate(const std::filesystem::path& path)
+    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {}
+
+Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers) const {
+  return read_case(root_.with_numbers(numbers), text_, path_);
 }
 
 const Tabulation& required_tabulation(const Case& c) {

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "case_file/toml_section.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/lubrication_force.hpp"
 #include "freefem_axi/tabulation.hpp"
@@ -28,6 +31,16 @@ struct PublishedGap {
   std::string source;
 };
 
+/// What `viscontact sweep` varies; its command line may say otherwise.
+struct SweepRequest {
+  std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
+  std::vector<std::string> models;  ///< names; empty: the command's default
+  std::string reference;            ///< empty: the command's default
+  std::string x, y;                 ///< keys of the plot's axes; may be empty
+  std::vector<std::string> plot;    ///< columns to draw
+  double samples = 0;               ///< random samples; 0: the whole grid
+};
+
 struct Case {
   std::string title;
   double viscosity = 0;  ///< mu [M/(L T)], > 0
@@ -40,6 +53,7 @@ struct Case {
   std::optional<Motion> motion;
   std::vector<std::string> models;  ///< names of the models of motion to run; empty: all
   std::optional<PublishedGap> published;
+  std::optional<SweepRequest> sweep;
   std::filesystem::path path;
   std::vector<std::filesystem::path> force_files;  ///< that the external force was read from
 };
@@ -47,6 +61,22 @@ struct Case {
 /// Reads and checks a case file. Throws Error(kBadInput) with file, line, key, value and what is
 /// allowed.
 Case read_case(const std::filesystem::path& path);
+
+/// A case to be read again and again with other numbers.
+class CaseTemplate {
+ public:
+  /// Reads and parses the file. Throws as read_case.
+  explicit CaseTemplate(const std::filesystem::path& path);
+
+  /// The case with these numbers at these keys, such as "fluid.viscosity" or "motion.external_force[0].value". Throws Error(kBadInput) as
+  /// read_case does, and for a key that leads nowhere.
+  Case with(std::span<const std::pair<std::string, double>> numbers) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string text_;
+  TomlSection root_;
+};
 
 /// The parts of a case that a command cannot do without. Throw Error(kBadInput) naming the missing
 /// section.

@@ -43,6 +43,44 @@ TomlSection TomlSection::parse(const std::string& text, const std::string& file)
   }
 }
 
+TomlSection TomlSection::with_numbers(
+    std::span<const std::pair<std::string, double>> numbers) const {
+  auto root = std::make_shared<toml::table>(*node_->root);
+  for (const auto& [path, value] : numbers) {
+    const auto refuse = [&](const std::string& what) {
+      throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
+    };
+    auto* place = root->at_path(path).node();
+    if (place == nullptr) {
+      const auto dot = path.rfind('.');
+      auto* parent = dot == std::string::npos
+                         ? root.get()
+                         : root->at_path(path.substr(0, dot)).as_table();
+      if (parent == nullptr) refuse("is no key of this case");
+      parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
+    } else if (auto* number = place->as_floating_point()) {
+      **number = value;
+    } else if (place->is_integer()) {
+      // An integer's node holds no fraction; its place is taken by another one.
+      const auto dot = path.rfind('.');
+      const auto bracket = path.rfind('[');
+      if (bracket != std::string::npos && path.back() == ']') {
+        auto* array = root->at_path(path.substr(0, bracket)).as_array();
+        const auto index = static_cast<std::size_t>(std::stoul(path.substr(bracket + 1)));
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), value);
+      } else {
+        auto* parent = dot == std::string::npos ? root.get()
+                                                : root->at_path(path.substr(0, dot)).as_table();
+        parent->insert_or_assign(path.substr(dot + 1), value);
+      }
+    } else {
+      refuse("is no number in this case");
+    }
+  }
+  const auto* table = root.get();
+  return TomlSection(std::make_shared<Node>(Node{std::move(root), table, node_->file, "", {}}));
+}
+
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   const auto* node = node_->table->get(key);
   const int line = node != nullptr ? line_of(*node) : line_of(*node_->table);

@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/allowed.hpp"
@@ -19,6 +21,10 @@ class TomlSection {
   /// The root table of a text; `file` is for messages. Throws Error(kBadInput) with the line where
   /// the text is no TOML.
   static TomlSection parse(const std::string& text, const std::string& file);
+
+  /// A root table like this root, with other numbers: each at a path such as "motion.external_force[0].value". Of a path only its last key may be
+  /// new. Throws Error(kBadInput) if it leads nowhere or to something that is no number.
+  TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key is there and holds text

@@ -66,12 +66,30 @@ std::span<const Model> all_models() { return kModels; }
 
 ModelChoice find_model(std::string_view name) {
   ModelChoice choice{std::string(name)};
-  if (find_named(kModels, name) == nullptr && name.ends_with(kExactDragSuffix)) {
-    name.remove_suffix(kExactDragSuffix.size());
-    choice.exact_drag = true;
+  const auto take = [&](std::string_view suffix) {
+    const bool has_it = find_named(kModels, name) == nullptr && name.ends_with(suffix);
+    if (has_it) name.remove_suffix(suffix.size());
+    return has_it;
+  };
+  for (int i = 0; i < 2; ++i) {  // in either order
+    choice.exact_drag = take(kExactDragSuffix) || choice.exact_drag;
+    choice.smooth = take(kSmoothSuffix) || choice.smooth;
   }
-  choice.model = &require_named(kModels, name, "model");
+  const auto* found = find_named(kModels, name);
+  if (found != nullptr && choice.smooth && found->contact == nullptr) found = nullptr;
+  choice.model = found != nullptr ? found : &require_named(kModels, choice.name, "model");
   return choice;
+}
+
+Motion motion_of(const ModelChoice& choice, const Motion& motion) {
+  Motion result = motion;
+  if (choice.smooth) result.roughness = {0, 0};
+  return result;
+}
+
+std::string description_of(const ModelChoice& choice) {
+  return fmt::format("{}{}{}", choice.model->description, choice.exact_drag ? ", exact drag" : "",
+                     choice.smooth ? ", smooth" : "");
 }
 
 LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force) {
@@ -83,7 +101,9 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    Trajectory trajectory = choice.model->simulate(motion, drag_of(choice, force));
+    const Motion own_motion = motion_of(choice, motion);
+    const LubricationForce own_force = drag_of(choice, force);
+    Trajectory trajectory = choice.model->simulate(own_motion, own_force);
     trajectory.model = choice.name;
     if (!trajectory.books)
       trajectory.books = books_of_drag(trajectory.rows, motion, choice.model->inertia);

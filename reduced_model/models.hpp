@@ -27,21 +27,31 @@ std::span<const Model> all_models();
 /// Those that run where a case names none.
 inline auto default_models() { return all_models() | std::views::filter(&Model::by_default); }
 
-/// What ends the name of a model that is to run with the exact drag (fitting/plane_drag.hpp) in place of the fitted one: inertial_brenner.
+/// What may end the name of a model that is to run with the exact drag (fitting/plane_drag.hpp) in place of the fitted one: inertial_brenner.
 inline constexpr std::string_view kExactDragSuffix = "_brenner";
 
-/// A model with the drag that it is to run with.
+/// What may end the name of a contact model whose surfaces are to be smooth, whatever the case's roughness: viscous_contact_smooth.
+inline constexpr std::string_view kSmoothSuffix = "_smooth";
+
+/// A model with the drag and the surfaces that it is to run with.
 struct ModelChoice {
-  std::string name;  ///< that of the model, with the suffix if exact
+  std::string name;  ///< that of the model, with its suffixes
   const Model* model = nullptr;
   bool exact_drag = false;
+  bool smooth = false;
 };
 
-/// The model of that name, which may have the suffix. Throws Error(kBadInput) that lists the names there are.
+/// The model of that name, which may have suffixes. Throws Error(kBadInput) that lists the names there are.
 ModelChoice find_model(std::string_view name);
 
 /// The drag that it runs with: `force`, or the exact one of the same viscosity and radius.
 LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force);
+
+/// The motion that it runs: `motion`, without roughness if its surfaces are to be smooth.
+Motion motion_of(const ModelChoice& choice, const Motion& motion);
+
+/// A line for legends.
+std::string description_of(const ModelChoice& choice);
 
 /// Runs a model and fills in its name, its books and the wall time. An Error carries the model's name in
 /// front.

@@ -1,4 +1,5 @@
 // `viscontact run`: the whole pipeline with FreeFEM, once, then what it makes again and what not.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +58,9 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
 
   std::vector<std::string> expected = {"case.toml",       "table.csv",   "fit.json",
                                        "comparison.json", "report.html", "uncertainty.json",
-                                       "trajectories"};
+                                       "trajectories",    "plots"};
+  for (const auto* plot : {"thinnest_film", "gap", "gap_logarithmic", "external_force", "gamma", "fit", "uncertainty"})
+    expected.push_back(fmt::format("plots/{}.svg", plot));
   for (const auto& model : default_models())
     expected.push_back("trajectories/" + std::string(model.name) + ".csv");
   std::vector<std::string> found;

@@ -121,6 +121,7 @@ TEST(ShippedCases, AreAllRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(
            std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases")) {
+    if (entry.is_directory()) continue;  // forces that cases name
     EXPECT_NO_THROW(read_case(entry.path())) << entry.path();
     ++count;
   }

@@ -1,6 +1,8 @@
 // What a case file may hold besides the lecture's: other forms of its values, and parts left out.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include <string>
 
 #include "tests/case_file/edited_case.hpp"
@@ -91,6 +93,79 @@ TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
   EXPECT_THAT(required_motion(read_text(text)).external_force.jumps(), ElementsAre(1));
 }
 
+TEST(ExternalForceOfACase, MayBePolynomialsSinusoidsAndFilesInSum) {
+  const TemporaryFolder folder;
+  folder.file("rig.csv", "time,force\n0,1\n5,6\n");
+  const auto text = with_value(kForce,
+                               "[ { until = 1, polynomial = [ 2, 3 ] }, { until = 4, value = -1 }, "
+                               "{ amplitude = 10, angular_frequency = 2, phase = 0.5 }, { file = \"rig.csv\" } ]")
+                        .text;
+  const Case c = read_case(folder.file("case.toml", text));
+  const auto& force = required_motion(c).external_force;
+  // Sums of four terms of size 10.
+  EXPECT_NEAR(force.value(0.5), 3.5 + 10 * std::sin(1.5) + 1.5, 1e-14);
+  EXPECT_NEAR(force.value(3), -1 + 10 * std::sin(6.5) + 4, 1e-14);
+  EXPECT_THAT(c.force_files, ElementsAre(folder.path() / "rig.csv"));
+}
+
+TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
+  const TemporaryFolder folder;
+  folder.file("rig.csv", "time,force\n0,1\n5,6\n");
+  const auto text = with_value(kForce, "[ { file = \"../forces/rig.csv\" } ]").text;
+  EXPECT_EQ(required_motion(read_case(folder.file("case.toml", text))).external_force.value(1), 2);
+}
+
+TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
+  const std::string entry = std::string(kForce.path) + "[0]";
+  expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"), entry + ".value",
+                 "must not be there beside polynomial");
+  expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
+                 entry + ".angular_frequency", "> 0");
+  expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
+                 entry + ".until", "not a key");
+  expect_refused(with_value(kForce, "[ { until = 4, polynomial = [] } ]"), entry + ".polynomial",
+                 "list of numbers");
+}
+
+TEST(TimeScale, DrawsOutForceEndAndSteps) {
+  const auto text = with_text("end_time = 4.0", "end_time = 4.0\ntime_scale = 2.5").text;
+  const Case c = read_text(text);
+  const auto& motion = required_motion(c);
+  EXPECT_EQ(motion.end_time, 10);
+  EXPECT_EQ(motion.reference_time_step, 2.5e-3);
+  EXPECT_EQ(motion.contact_time_step, 2.5e-3);
+  EXPECT_EQ(motion.external_force.value(4.9), -200);
+  EXPECT_EQ(motion.external_force.value(5.1), 200);
+  EXPECT_EQ(motion.external_force.impulse(10), 0);
+}
+
+TEST(FitOfACase, MayBeTheExactDrag) {
+  const Case c = read_text(with_text(kFitKeys, "exact = \"plane\"\n").text);
+  EXPECT_TRUE(required_fit(c).exact);
+  expect_refused(with_text(kFitKeys, "exact = \"sphere\"\n"), "fit.exact", "must be \"plane\"");
+}
+
+TEST(FitOfACase, MayReachBeyondItsInterval) {
+  const auto with_limits = [](const std::string& keys) {
+    return with_text(kFitKeys, "file = \"a.json\"\n" + keys);
+  };
+  const Case c = read_text(
+      with_limits("below = \"theory_limit\"\nabove = \"stokes_limit\"\n").text);
+  EXPECT_EQ(required_fit(c).below, BelowInterval::kTheoryLimit);
+  EXPECT_EQ(required_fit(c).above, AboveInterval::kStokesLimit);
+  auto refused = with_limits("below = \"no\"\n");
+  ++refused.line;
+  expect_refused(refused, "fit.below", "\"lubrication_limit\" or \"theory_limit\"");
+}
+
+TEST(SweepOfACase, IsRead) {
+  const auto text = with_text("[published]", "[sweep]\nvary = [\"sphere.mass=1:2:3\"]\nmodels = [\"inertial\"]\n[published]").text;
+  const Case c = read_text(text);
+  ASSERT_TRUE(c.sweep.has_value());
+  EXPECT_THAT(c.sweep->vary, ElementsAre("sphere.mass=1:2:3"));
+  EXPECT_THAT(c.sweep->models, ElementsAre("inertial"));
+}
+
 TEST(Roughness, MayBeAnythingBelowTheRadius) {
   EXPECT_THAT(required_motion(read_text(with_value(kRoughness, "[0.25, 0.5]").text)).roughness,
               ElementsAre(0.25, 0.5));
@@ -116,7 +191,7 @@ TEST(FitOfACase, MayBeAFileElsewhere) {
 
 TEST(FitOfACase, IsEitherAFileOrABasis) {
   expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis",
-                 "there are: file");
+                 "there are: above, below, file");
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {

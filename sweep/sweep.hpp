@@ -1,0 +1,62 @@
+// A sweep: one case run with many numbers, a row of figures each.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "case_file/case_file.hpp"
+#include "fitting/fit.hpp"
+#include "sweep/variation.hpp"
+
+namespace viscontact {
+
+/// What is run at each point.
+struct SweepPlan {
+  std::filesystem::path case_path;
+  Fit fit;  ///< scaled to each point's viscosity
+  BelowInterval below = BelowInterval::kError;
+  AboveInterval above = AboveInterval::kError;
+  std::vector<Variation> variations;  ///< at least one
+  std::uint64_t samples = 0;          ///< random points; 0: the whole grid
+  std::uint64_t seed = 1;
+  std::vector<std::string> models;  ///< at least one
+  std::string reference;            ///< one of them: what the others' distances are to
+};
+
+/// Number of points.
+std::uint64_t sweep_size(const SweepPlan& plan);
+
+/// Names of a row's columns: the keys; for each model MODEL.minimal_gap, MODEL.minimal_gap_time, MODEL.film (recovered from gamma), MODEL.contact_from,
+/// MODEL.contact_until, MODEL.sup_gap_distance, MODEL.l1_gap_distance, MODEL.l1_velocity_distance, MODEL.film_ratio (thinnest film over the
+/// reference's), MODEL.steps; failure.
+std::vector<std::string> sweep_columns(const SweepPlan& plan);
+
+/// Computes rows, any of them, on any thread.
+class Sweep {
+ public:
+  /// Reads the case. Throws Error(kBadInput) if the first or the last point of the plan is no case, has another radius than the fit, or the
+  /// case has no [motion]; Error(kWrongUsage) if the reference is none of the models or a key or model is there twice.
+  explicit Sweep(SweepPlan plan);
+
+  const SweepPlan& plan() const { return plan_; }
+
+  /// The row of that point as a line of CSV. A model that fails leaves its fields and those of its distances empty, and says why in `failure`.
+  std::string row(std::uint64_t index) const;
+
+ private:
+  Case case_at(std::uint64_t index) const;
+  std::vector<std::pair<std::string, double>> point(std::uint64_t index) const;
+
+  SweepPlan plan_;
+  CaseTemplate case_;
+};
+
+/// Computes the rows from `begin` on, on `jobs` threads, and hands them over in order; stops when interrupted() or when `take` throws, which it throws on.
+/// Memory does not grow with the number of rows. Returns the number of the row after the last that was taken.
+std::uint64_t run_sweep(const Sweep& sweep, std::uint64_t begin, int jobs,
+                        const std::function<void(std::uint64_t index, const std::string& row)>& take);
+
+}  // namespace viscontact

@@ -1,0 +1,121 @@
+#include "sweep/variation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr double kMostValues = 1e9;
+constexpr double kMostPoints = 1e12;
+
+[[noreturn]] void refuse(std::string_view text, const std::string& what) {
+  throw Error(ExitCode::kWrongUsage,
+              fmt::format("--vary {}: {}; must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
+                          "KEY=VALUE,VALUE,...",
+                          text, what));
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const auto end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014): one number from another, all bits mixed.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+}  // namespace
+
+double Variation::value(std::uint64_t i) const {
+  if (!values.empty()) return values[i];
+  if (i == 0) return first;
+  if (i + 1 == count) return last;
+  return at(static_cast<double>(i) / static_cast<double>(count - 1));
+}
+
+double Variation::at(double share) const {
+  if (!values.empty())
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+  return logarithmic ? first * std::pow(last / first, share) : std::lerp(first, last, share);
+}
+
+Variation parse_variation(std::string_view text) {
+  Variation variation;
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0) refuse(text, "there is no KEY=");
+  variation.key = text.substr(0, equals);
+  if (variation.key == "motion.mass") variation.key = "sphere.mass";
+  const auto number = [&](std::string_view part) {
+    const auto value = parse_number(part);
+    if (!value) refuse(text, fmt::format("'{}' is no finite number", part));
+    return *value;
+  };
+  const auto range = split(text.substr(equals + 1), ':');
+  if (range.size() == 1) {
+    for (const auto part : split(range[0], ',')) variation.values.push_back(number(part));
+    variation.count = variation.values.size();
+    return variation;
+  }
+  variation.logarithmic = range.size() == 4;
+  if (range.size() != 3 && !(range.size() == 4 && range[2] == "log"))
+    refuse(text, "the range is not understood");
+  variation.first = number(range[0]);
+  variation.last = number(range[1]);
+  const double count = number(range.back());
+  if (!(count >= 1 && count <= kMostValues && count == std::floor(count)))
+    refuse(text, fmt::format("COUNT is {}, must be a whole number from 1 to 1e9", range.back()));
+  variation.count = static_cast<std::uint64_t>(count);
+  if (variation.logarithmic && !(variation.first * variation.last > 0))
+    refuse(text, "a logarithmic range must not reach 0 or change sign");
+  return variation;
+}
+
+std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
+                                                       std::uint64_t index) {
+  std::vector<std::pair<std::string, double>> point(variations.size());
+  for (std::size_t i = variations.size(); i-- > 0;) {
+    point[i] = {variations[i].key, variations[i].value(index % variations[i].count)};
+    index /= variations[i].count;
+  }
+  return point;
+}
+
+std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
+                                                         std::uint64_t index, std::uint64_t seed) {
+  std::vector<std::pair<std::string, double>> point;
+  for (std::size_t i = 0; i < variations.size(); ++i) {
+    const std::uint64_t bits = mixed(mixed(mixed(seed) + index) + i);
+    point.emplace_back(variations[i].key,
+                       variations[i].at(std::ldexp(static_cast<double>(bits >> 11), -53)));
+  }
+  return point;
+}
+
+std::uint64_t grid_size(const std::vector<Variation>& variations) {
+  double size = 1;
+  for (const auto& variation : variations) size *= static_cast<double>(variation.count);
+  if (size > kMostPoints)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("the grid has {:.3g} points; at most {:.0e} are allowed", size,
+                            kMostPoints));
+  std::uint64_t points = 1;
+  for (const auto& variation : variations) points *= variation.count;
+  return points;
+}
+
+}  // namespace viscontact
