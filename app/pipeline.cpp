@@ -93,6 +93,25 @@ void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
   }
 }
 
+/// The place of a trajectory's model in the table of models; beyond it for a user's own.
+std::ptrdiff_t rank_of(const fs::path& file) {
+  try {
+    return find_model(file.stem().string()).model - all_models().data();
+  } catch (const Error&) {
+    return std::ssize(all_models());
+  }
+}
+
+/// The files of a folder, if it is there, that are named after models.
+std::vector<fs::path> files_of_models(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".csv" && rank_of(entry.path()) < std::ssize(all_models()))
+      files.push_back(entry.path());
+  return files;
+}
+
 /// The trajectory files of a folder: those in trajectories/ if it is a run's folder, else its own
 /// .csv files.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
@@ -105,12 +124,8 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
     if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
       files.push_back(entry.path());
   // In the order of the table of models, then by name.
-  const auto rank = [](const fs::path& file) {
-    const auto models = all_models();
-    const auto* model = find_named(models, file.stem().string());
-    return model == nullptr ? models.size() : static_cast<std::size_t>(model - models.data());
-  };
-  std::ranges::sort(files, {}, [&](const fs::path& file) { return std::pair(rank(file), file); });
+  std::ranges::sort(files, {},
+                    [&](const fs::path& file) { return std::pair(rank_of(file), file); });
   return files;
 }
 
@@ -286,10 +301,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     // ones.
     fs::remove(run.comparison());
     fs::remove(run.report());
-    for (const auto& model : all_models())
-      for (const auto& name :
-           {std::string(model.name), std::string(model.name).append(kExactDragSuffix)})
-        fs::remove(run.trajectory(name));
+    for (const auto& file : files_of_models(run.trajectories())) fs::remove(file);
     simulate_stage(c, fit, folder, models, request.below, request.above);
   }
   throw_if_interrupted();

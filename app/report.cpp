@@ -53,8 +53,8 @@ std::string parameters(const Case& c, const Fit& fit) {
       motion.end_time,
       fit.terms.empty()          ? "Brenner's exact series"
       : fit.table_sha256.empty() ? "a given fit"
-                               : fmt::format("a fit for gaps from {:.4g} to {:.4g}",
-                                             fit.gap_interval[0], fit.gap_interval[1]));
+                                 : fmt::format("a fit for gaps from {:.4g} to {:.4g}",
+                                               fit.gap_interval[0], fit.gap_interval[1]));
 }
 
 std::string coefficients(const Fit& fit) {
@@ -185,8 +185,8 @@ void write_report(const std::filesystem::path& folder) {
     return svg;
   };
   const auto& motion = required_motion(c);
-  page += section("Thinnest film",
-                  plot("thinnest_film", plot_minimal_gaps(comparison, c.published)));
+  page +=
+      section("Thinnest film", plot("thinnest_film", plot_minimal_gaps(comparison, c.published)));
   page += section("Models", model_table(comparison) + books_table(comparison));
   page += section(
       "Trajectories",
@@ -195,20 +195,25 @@ void write_report(const std::filesystem::path& folder) {
           plot("external_force", plot_external_force(motion.external_force, motion.end_time)));
   page += section("Contact", plot("gamma", plot_gamma(trajectories)) +
                                  plot("solid_force", plot_solid_force(trajectories)));
-  page += section("Lubrication force and fit",
-                  (table ? plot("fit", plot_fit(*table, fit)) : "") +
-                      (fit.terms.empty() ? "<p>The exact drag of a sphere near a plane in a half-space "
-                                           "(Brenner 1961): nothing is fitted.</p>\n"
-                                         : coefficients(fit)) +
-                      (fit.diagnostics ? trust(*fit.diagnostics) : ""));
+  page +=
+      section("Lubrication force and fit",
+              (table ? plot("fit", plot_fit(*table, fit)) : "") +
+                  (fit.terms.empty() ? "<p>The exact drag of a sphere near a plane in a half-space "
+                                       "(Brenner 1961): nothing is fitted.</p>\n"
+                                     : coefficients(fit)) +
+                  (fit.diagnostics ? trust(*fit.diagnostics) : ""));
   if (std::filesystem::exists(run.uncertainty())) {
     const auto uncertainty = read_uncertainty(run.uncertainty());
-    page += section("What the fit does to the answer",
-                    uncertainty_table(uncertainty) +
-                        plot("uncertainty", plot_uncertainty(uncertainty)));
+    page += section(
+        "What the fit does to the answer",
+        uncertainty_table(uncertainty) +
+            (uncertainty.misfit > 0 ? plot("uncertainty", plot_uncertainty(uncertainty)) : ""));
   }
   page += fmt::format("<footer>Made by Viscontact {}. {}.</footer>\n</body></html>\n",
                       VISCONTACT_VERSION, versions(fit, table));
+  for (const auto* name : {"thinnest_film", "gap", "gap_logarithmic", "external_force", "gamma",
+                           "solid_force", "fit", "uncertainty"})
+    std::filesystem::remove(run.plot(name));  // of an earlier report
   for (const auto& [name, svg] : plots) write_file(run.plot(name), svg);
   write_file(run.report(), page);
   say(fmt::format("report: {}", run.report().string()));

@@ -17,7 +17,7 @@ namespace viscontact {
 namespace {
 
 constexpr int kWidth = 860;
-constexpr const char* kKeyBelow = "set key below Left reverse noopaque\nset xlabel offset 0,0.4";
+constexpr const char* kKeyBelow = "set key below Left reverse noopaque\nset xlabel offset 0,0.9";
 constexpr const char* kDecades = "set format y '1e%T'";
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
 
@@ -35,16 +35,17 @@ std::optional<ModelChoice> known_model(std::string_view name) {
 std::string line_style(std::string_view model, bool film = false) {
   constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73",
                                    "#CC79A7", "#D55E00", "#7F7F7F", "#8C564B", "#B8A100"};
-  constexpr std::array kWidths = {5.0, 2.0, 1.6, 2.2, 2.2, 2.2, 1.6, 2.0, 1.6, 2.0};
+  constexpr std::array kWidths = {5.0, 2.0, 1.6, 3.4, 2.2, 2.2, 1.4, 2.0, 1.6, 2.0};
   const auto choice = known_model(model);
-  const auto place = choice ? static_cast<std::size_t>(choice->model - all_models().data())
-                            : kColours.size() - 1;
+  const auto place =
+      choice ? static_cast<std::size_t>(choice->model - all_models().data()) : kColours.size() - 1;
   const auto i = std::min(place, kColours.size() - 1);
-  const char* dash = film                           ? "(8,5)"
-                     : choice && choice->exact_drag ? "(2,4)"
-                     : choice && choice->smooth     ? "(12,3,2,3)"
-                     : place == 2                   ? "(10,4)"
-                                                    : "1";
+  const char* dash = film && choice && choice->smooth ? "(8,3,2,3)"
+                     : film                           ? "(8,5)"
+                     : choice && choice->exact_drag   ? "(2,4)"
+                     : choice && choice->smooth       ? "(12,3,2,3)"
+                     : place == 2                     ? "(10,4)"
+                                                      : "1";
   return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
                      dash);
 }
@@ -135,13 +136,8 @@ std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
 
 std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
                                   const LubricationForce& force) {
-  Panel panel{"Gap, logarithmic; dashed: film recovered from gamma",
-              "time t",
-              "gap q",
-              false,
-              true,
-              {kDecades, kKeyBelow},
-              {}};
+  Panel panel{"Gap, logarithmic", "time t", "gap q", false, true, {kDecades, kKeyBelow}, {}};
+  std::vector<std::pair<double, double>> through;
   double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a
                                                               // released sphere's first step
   for (const auto& trajectory : trajectories) {
@@ -166,15 +162,26 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
     }
     if (!contact)
-      thinnest = std::min(thinnest,
-                          std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap)->gap);
+      for (const auto& row : trajectory.rows)
+        if (row.gap > 0) thinnest = std::min(thinnest, row.gap);
+    // A model without contact that goes through the plane all the same: a cross at the lower edge.
+    if (!contact && trajectory.rows.back().gap == 0)
+      through.emplace_back(trajectory.rows.back().time, 0);
     panel.curves.push_back(curve);
     if (std::ranges::any_of(film.points,
-                            [](const auto& point) { return std::isfinite(point.second); }))
+                            [](const auto& point) { return std::isfinite(point.second); })) {
       panel.curves.push_back(film);
+      panel.title = "Gap, logarithmic; broken lines: film recovered from gamma";
+    }
   }
-  if (thinnest > 0 && std::isfinite(thinnest))
+  if (thinnest > 0 && std::isfinite(thinnest)) {
     panel.settings.push_back(fmt::format("set yrange [{}:*]", thinnest / 2));
+    for (auto& [time, gap] : through) gap = thinnest;
+  }
+  if (!through.empty())
+    panel.curves.push_back(
+        {"goes through the plane",
+         "points pointtype 2 pointsize 1.6 linewidth 2.5 linecolor rgb '#D00000'", through});
   return draw_svg({panel}, kWidth, 560);
 }
 
@@ -198,8 +205,17 @@ std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
 }
 
 std::string plot_solid_force(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"What the solid carries", "time t", "force of the solids", false, false, {kKeyBelow}, {}};
-  const auto solid_of = [](const TrajectoryRow& row) { return row.solid_force ? *row.solid_force : 0; };
+  Panel panel{"What the solid carries; impacts are cut off",
+              "time t",
+              "force of the solids",
+              false,
+              false,
+              {kKeyBelow},
+              {}};
+  double load = 0;
+  const auto solid_of = [](const TrajectoryRow& row) {
+    return row.solid_force ? *row.solid_force : 0;
+  };
   for (const auto& trajectory : trajectories) {
     if (std::ranges::none_of(trajectory.rows, [&](const auto& row) { return solid_of(row) > 0; }))
       continue;
@@ -207,13 +223,16 @@ std::string plot_solid_force(const std::vector<Trajectory>& trajectories) {
     for (const auto* row : thinned(trajectory.rows, solid_of))
       curve.points.emplace_back(row->time, solid_of(*row));
     panel.curves.push_back(curve);
+    for (const auto& row : trajectory.rows)
+      if (row.external_force) load = std::max(load, std::abs(*row.external_force));
   }
+  if (load > 0) panel.settings.push_back(fmt::format("set yrange [0:{}]", 1.3 * load));
   return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
 }
 
 std::string plot_external_force(const ExternalForce& force, double end_time) {
   // Steps are drawn as such: two points at each jump.
-  Panel panel{"External force", "time t", "f", false, false, {"set offsets graph 0, 0, 0.05, 0.05"}, {}};
+  Panel panel{"External force", "time t", "f", false, false, {}, {}};
   Curve curve{"", "lines linecolor rgb '#000000' linewidth 2", {}};
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
@@ -228,8 +247,15 @@ std::string plot_external_force(const ExternalForce& force, double end_time) {
     }
     from = to;
   }
+  double low = 0, high = 0;
+  for (const auto& [t, f] : curve.points) {
+    low = std::min(low, f);
+    high = std::max(high, f);
+  }
+  const double margin = 0.08 * std::max(high - low, 1e-300);
+  panel.settings.push_back(fmt::format("set yrange [{}:{}]", low - margin, high + margin));
   panel.curves.push_back(curve);
-  return draw_svg({panel}, kWidth, 260);
+  return draw_svg({panel}, kWidth, 320);
 }
 
 std::string plot_minimal_gaps(const Comparison& comparison,
@@ -242,9 +268,10 @@ std::string plot_minimal_gaps(const Comparison& comparison,
   for (int i = 0; i < rows; ++i) {
     const auto& model = comparison.models[static_cast<std::size_t>(i)];
     const double y = rows - i;
-    ticks += fmt::format("{}'{}' {}", ticks.empty() ? "" : ", ", model.model, y);
     const bool recovered = model.recovered_minimal_gap.has_value();
     const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
+    ticks += fmt::format("{}'{}{}' {}", ticks.empty() ? "" : ", ", model.model,
+                         gap > 0 ? "" : " (0)", y);
     if (!(gap > 0)) continue;
     all.push_back(gap);
     panel.curves.push_back({"",
@@ -262,11 +289,15 @@ std::string plot_minimal_gaps(const Comparison& comparison,
   const auto [low, high] = std::ranges::minmax(all);
   constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
   panel.x_log = high / low > kManyDecades;
-  panel.settings = {"set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6),
-                    "set lmargin 32",
-                    panel.x_log ? fmt::format("set xrange [{}:{}]", low / 3, high * 3)
-                                : fmt::format("set xrange [0:{}]", high * 1.15),
-                    kKeyBelow};
+  constexpr double kClose = 1.3;  // an axis from 0 would hide the difference
+  const bool close = high < kClose * low;
+  const double span = std::max(high - low, 0.05 * high);
+  panel.settings = {
+      "set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6), "set lmargin 38",
+      panel.x_log ? fmt::format("set xrange [{}:{}]\nset format x '1e%T'", low / 3, high * 3)
+      : close     ? fmt::format("set xrange [{}:{}]", low - span, high + span)
+                  : fmt::format("set xrange [0:{}]", high * 1.15),
+      kKeyBelow};
   panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
   return draw_svg({panel}, kWidth, 160 + 34 * rows);
 }
@@ -274,7 +305,7 @@ std::string plot_minimal_gaps(const Comparison& comparison,
 std::string plot_uncertainty(const FitUncertainty& uncertainty) {
   Panel panel{"Gap without inertia: intervals around the fit's, relative",
               "time t",
-              "q / q_{fit} - 1",
+              "q / q of the fit - 1",
               false,
               false,
               {kKeyBelow},

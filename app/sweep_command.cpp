@@ -97,7 +97,8 @@ class Remaining {
     if (!first_) first_ = done;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
     if (done <= *first_) return "";
-    const double left = spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
+    const double left =
+        spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
     return left > 90 ? fmt::format(", about {:.0f} min left", left / 60)
                      : fmt::format(", about {:.0f} s left", left);
   }
@@ -127,27 +128,39 @@ void run(const Options& o) {
       });
   clear_progress();
   const auto size = sweep_size(sweep.plan());
-  say(computed == 0 ? fmt::format("sweep: {} is up to date", o.output)
-                    : fmt::format("sweep: {} rows in {}{}", size, o.output,
-                                  computed < size ? fmt::format(", {} of them from before", size - computed) : ""));
+  say(computed == 0
+          ? fmt::format("sweep: {} is up to date", o.output)
+          : fmt::format(
+                "sweep: {} rows in {}{}", size, o.output,
+                computed < size ? fmt::format(", {} of them from before", size - computed) : ""));
   if (!o.plot.empty()) write_file(o.plot, plot_sweep(o.output, picture));
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app) {
-  auto* command = app.add_subcommand("sweep", "a case run with many numbers: a row of figures each");
+  auto* command =
+      app.add_subcommand("sweep", "a case run with many numbers: a row of figures each");
   auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML); its [sweep] holds defaults for what follows")
+  command
+      ->add_option("CASE", o->case_file,
+                   "case file (TOML); its [sweep] holds defaults for what follows")
       ->required();
-  command->add_option("-o,--output", o->output, "rows to write (CSV); an interrupted sweep goes on with the same command")->required();
-  command->add_option("--vary", o->vary,
-                      "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
-                      "sphere.mass, motion.external_force[0].value; may be repeated: the grid of all")
+  command
+      ->add_option("-o,--output", o->output,
+                   "rows to write (CSV); an interrupted sweep goes on with the same command")
+      ->required();
+  command
+      ->add_option(
+          "--vary", o->vary,
+          "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
+          "sphere.mass, motion.external_force[0].value; may be repeated: the grid of all")
       ->type_name("KEY=RANGE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--samples", o->samples, "so many random points of the ranges instead of the grid")
+  command
+      ->add_option("--samples", o->samples,
+                   "so many random points of the ranges instead of the grid")
       ->check(CLI::Range(1.0, 1e12))
       ->type_name("N");
   command->add_option("--seed", o->seed, "of the random points")->capture_default_str();
@@ -155,12 +168,17 @@ void add_sweep(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--reference", o->reference,
                       "model that the others are compared with; default: inertial, or the first");
-  command->add_option("--fit", o->fit, "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
-  command->add_option("--plot", o->plot, "picture to write (SVG): lines over one key, or a map over two");
+  command->add_option(
+      "--fit", o->fit,
+      "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
+  command->add_option("--plot", o->plot,
+                      "picture to write (SVG): lines over one key, or a map over two");
   command->add_option("--x", o->x, "key along the picture; default: the first varied");
   command->add_option("--y", o->y, "key up the picture, for a map");
-  command->add_option("--column", o->columns,
-                      "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
+  command
+      ->add_option(
+          "--column", o->columns,
+          "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
       ->delimiter(',');
   add_jobs(*command, o->jobs, "points at once");
   command->callback([o] { run(*o); });

@@ -90,20 +90,23 @@ bool is_logarithmic(const std::vector<double>& values) {
 }
 
 constexpr int kWidth = 860;
-constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                 "#E69F00", "#56B4E9", "#000000"};
 
 std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x);
   std::vector<SweepRows::Place> places;
   for (const auto& column : plot.columns) places.push_back(rows.find(column));
-  Panel panel{"", plot.x, plot.columns.size() == 1 ? plot.columns[0] : "", false, false,
-              {"set key below Left reverse noopaque"}, {}};
+  Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
+              false, false,  {"set key below Left reverse noopaque"},
+              {}};
   for (std::size_t i = 0; i < places.size(); ++i)
-    panel.curves.push_back({plot.columns.size() == 1 ? "" : plot.columns[i],
-                            fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
-                                        kColours[i % kColours.size()]),
-                            {}});
+    panel.curves.push_back(
+        {plot.columns.size() == 1 ? "" : plot.columns[i],
+         fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
+                     kColours[i % kColours.size()]),
+         {}});
   std::vector<double> xs, ys;
   while (rows.next())
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -114,7 +117,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
   if (std::ranges::none_of(ys, [](double y) { return std::isfinite(y); }))
     throw_bad_input({path.string()}, "has no value to draw in these columns");
   // Random samples come in no order.
-  for (auto& curve : panel.curves) std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
+  for (auto& curve : panel.curves)
+    std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.x_log = is_logarithmic(xs);
   panel.y_log = is_logarithmic(ys);
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
@@ -172,7 +176,11 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   const auto label = [](const std::string& name, bool logarithmic) {
     return logarithmic ? fmt::format("log10 {}", name) : name;
   };
-  Panel panel{label(plot.columns[0], log_value), label(plot.x, log_x), label(plot.y, log_y), false, false,
+  Panel panel{label(plot.columns[0], log_value),
+              label(plot.x, log_x),
+              label(plot.y, log_y),
+              false,
+              false,
               {fmt::format("set xrange [{}:{}]", field.left, field.right),
                fmt::format("set yrange [{}:{}]", field.bottom, field.top), "unset key"},
               {}};
@@ -184,7 +192,8 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   } else {
     // Dark to bright in lightness too (cividis, Nunez et al. 2018): also for colour-blind readers and in print.
     panel.settings.emplace_back(
-        "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78', 0.75 '#bcae6c', 1 '#fee838')");
+        "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78', 0.75 '#bcae6c', 1 "
+        "'#fee838')");
   }
   panel.field = std::move(field);
   return draw_svg({panel}, kWidth, 620);

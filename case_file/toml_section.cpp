@@ -53,9 +53,8 @@ TomlSection TomlSection::with_numbers(
     auto* place = root->at_path(path).node();
     if (place == nullptr) {
       const auto dot = path.rfind('.');
-      auto* parent = dot == std::string::npos
-                         ? root.get()
-                         : root->at_path(path.substr(0, dot)).as_table();
+      auto* parent =
+          dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
       if (parent == nullptr) refuse("is no key of this case");
       parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
     } else if (auto* number = place->as_floating_point()) {
@@ -69,8 +68,8 @@ TomlSection TomlSection::with_numbers(
         const auto index = static_cast<std::size_t>(std::stoul(path.substr(bracket + 1)));
         array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), value);
       } else {
-        auto* parent = dot == std::string::npos ? root.get()
-                                                : root->at_path(path.substr(0, dot)).as_table();
+        auto* parent =
+            dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
         parent->insert_or_assign(path.substr(dot + 1), value);
       }
     } else {

@@ -11,7 +11,8 @@ namespace viscontact {
 class Maybe {
  public:
   constexpr Maybe() = default;
-  constexpr Maybe(double value) : value_(value) {}  // NOLINT(google-explicit-constructor): as std::optional
+  constexpr Maybe(double value)
+      : value_(value) {}  // NOLINT(google-explicit-constructor): as std::optional
 
   bool has_value() const { return !std::isnan(value_); }
   explicit operator bool() const { return has_value(); }

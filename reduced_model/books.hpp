@@ -21,16 +21,15 @@ struct Books {
 /// The entries by name, for files.
 struct BookEntry {
   std::string_view name;
-  double Books::* value;
+  double Books::*value;
 };
-inline constexpr std::array kBookEntries = {
-    BookEntry{"external_impulse", &Books::external_impulse},
-    BookEntry{"film_impulse", &Books::film_impulse},
-    BookEntry{"drag_impulse", &Books::drag_impulse},
-    BookEntry{"solid_impulse", &Books::solid_impulse},
-    BookEntry{"external_work", &Books::external_work},
-    BookEntry{"film_work", &Books::film_work},
-    BookEntry{"drag_work", &Books::drag_work},
-    BookEntry{"solid_work", &Books::solid_work}};
+inline constexpr std::array kBookEntries = {BookEntry{"external_impulse", &Books::external_impulse},
+                                            BookEntry{"film_impulse", &Books::film_impulse},
+                                            BookEntry{"drag_impulse", &Books::drag_impulse},
+                                            BookEntry{"solid_impulse", &Books::solid_impulse},
+                                            BookEntry{"external_work", &Books::external_work},
+                                            BookEntry{"film_work", &Books::film_work},
+                                            BookEntry{"drag_work", &Books::drag_work},
+                                            BookEntry{"solid_work", &Books::solid_work}};
 
 }  // namespace viscontact

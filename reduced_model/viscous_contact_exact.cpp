@@ -31,8 +31,8 @@ class EventDriven {
 
   double gap(double t) const {
     if (contact_) return 0;
-    const double by_force = f_.impulse_integral(t) - f_.impulse_integral(from_) -
-                            (t - from_) * f_.impulse(from_);
+    const double by_force =
+        f_.impulse_integral(t) - f_.impulse_integral(from_) - (t - from_) * f_.impulse(from_);
     return gap_ + (t - from_) * velocity_ + by_force / m_;
   }
   double velocity(double t) const { return contact_ ? 0 : velocity_ + push_until(t) / m_; }

@@ -18,15 +18,21 @@
 namespace viscontact {
 namespace {
 
-constexpr std::array kModelColumns = {
-    "minimal_gap",      "minimal_gap_time", "film",
-    "contact_from",     "contact_until",    "sup_gap_distance",
-    "l1_gap_distance",  "l1_velocity_distance", "film_ratio",
-    "steps"};
+constexpr std::array kModelColumns = {"minimal_gap",
+                                      "minimal_gap_time",
+                                      "film",
+                                      "contact_from",
+                                      "contact_until",
+                                      "sup_gap_distance",
+                                      "l1_gap_distance",
+                                      "l1_velocity_distance",
+                                      "film_ratio",
+                                      "steps"};
 
 /// Text that is one field of a CSV file.
 std::string as_field(std::string text) {
-  std::ranges::replace_if(text, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ';');
+  std::ranges::replace_if(
+      text, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ';');
   return text;
 }
 
@@ -89,10 +95,11 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
     const Case c = case_at(index);
     (void)required_motion(c);
     if (plan_.fit.basis != kExactPlane && c.radius != plan_.fit.radius)
-      throw_bad_input({plan_.case_path.string()},
-                      fmt::format("sphere.radius is {}, the fit's {}: a fit is of one radius; vary it with "
-                                  "the exact drag",
-                                  c.radius, plan_.fit.radius));
+      throw_bad_input(
+          {plan_.case_path.string()},
+          fmt::format("sphere.radius is {}, the fit's {}: a fit is of one radius; vary it with "
+                      "the exact drag",
+                      c.radius, plan_.fit.radius));
   }
 }
 
@@ -142,8 +149,8 @@ std::string Sweep::row(std::uint64_t index) const {
   const bool referred = has(plan_.reference);
   std::optional<Comparison> comparison;
   if (!trajectories.empty())
-    comparison = compare_trajectories(trajectories,
-                                      referred ? plan_.reference : trajectories.front().model);
+    comparison =
+        compare_trajectories(trajectories, referred ? plan_.reference : trajectories.front().model);
   for (const auto& model : plan_.models)
     text += has(model) ? model_fields(*of_model(*comparison, model),
                                       referred ? of_model(*comparison, plan_.reference) : nullptr)
@@ -184,7 +191,8 @@ std::uint64_t run_sweep(
       }
       finished.emplace(index, std::move(row));
       try {
-        for (auto first = finished.begin(); first != finished.end() && first->first == taken && !error;
+        for (auto first = finished.begin();
+             first != finished.end() && first->first == taken && !error;
              first = finished.erase(first)) {
           take(taken, first->second);
           ++taken;

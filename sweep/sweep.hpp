@@ -56,7 +56,8 @@ class Sweep {
 
 /// Computes the rows from `begin` on, on `jobs` threads, and hands them over in order; stops when interrupted() or when `take` throws, which it throws on.
 /// Memory does not grow with the number of rows. Returns the number of the row after the last that was taken.
-std::uint64_t run_sweep(const Sweep& sweep, std::uint64_t begin, int jobs,
-                        const std::function<void(std::uint64_t index, const std::string& row)>& take);
+std::uint64_t run_sweep(
+    const Sweep& sweep, std::uint64_t begin, int jobs,
+    const std::function<void(std::uint64_t index, const std::string& row)>& take);
 
 }  // namespace viscontact

@@ -14,8 +14,8 @@ namespace viscontact {
 /// finds them again: rows of the same case, fit, plan and version are kept, others thrown away. A file that is finished and the same is left as it is.
 /// `progress(done, size)` is called now and then. Throws Error(kInterrupted) when interrupted(), Error(kBadInput) if a file cannot be written.
 /// Returns the number of rows that were computed.
-std::uint64_t write_sweep(const Sweep& sweep, const std::filesystem::path& path, int jobs,
-                          const std::string& version,
-                          const std::function<void(std::uint64_t done, std::uint64_t size)>& progress);
+std::uint64_t write_sweep(
+    const Sweep& sweep, const std::filesystem::path& path, int jobs, const std::string& version,
+    const std::function<void(std::uint64_t done, std::uint64_t size)>& progress);
 
 }  // namespace viscontact

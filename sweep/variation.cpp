@@ -110,9 +110,9 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
   double size = 1;
   for (const auto& variation : variations) size *= static_cast<double>(variation.count);
   if (size > kMostPoints)
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("the grid has {:.3g} points; at most {:.0e} are allowed", size,
-                            kMostPoints));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("the grid has {:.3g} points; at most {:.0e} are allowed", size, kMostPoints));
   std::uint64_t points = 1;
   for (const auto& variation : variations) points *= variation.count;
   return points;

@@ -11,7 +11,7 @@ namespace viscontact {
 
 /// One key and its values. A range has `count` values from `first` to `last`, equally spaced or in geometric progression.
 struct Variation {
-  std::string key;             ///< as in a case file: "fluid.viscosity", "motion.external_force[0].value"
+  std::string key;  ///< as in a case file: "fluid.viscosity", "motion.external_force[0].value"
   std::vector<double> values;  ///< a list; empty: a range
   double first = 0, last = 0;
   bool logarithmic = false;

@@ -264,7 +264,7 @@ TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {
     EXPECT_EQ(model.sup_gap_distance == 0, model.model == "reference_exact") << model.model;
 }
 
-TEST_F(Stages, ReportIsOneSelfContainedPageWithSixPlots) {
+TEST_F(Stages, ReportIsOneSelfContainedPageWithSevenPlots) {
   put("case.toml", replaced(lecture_case_text(), "title = \"Sphere", "title = \"<script>&"));
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
@@ -275,7 +275,9 @@ TEST_F(Stages, ReportIsOneSelfContainedPageWithSixPlots) {
   const std::regex svg("<svg[ >]");
   EXPECT_EQ(
       std::distance(std::sregex_iterator(page.begin(), page.end(), svg), std::sregex_iterator()),
-      6);
+      7);
+  // Each is a file of its own too.
+  EXPECT_EQ(files_below(path("run/plots")).size(), 7U);
   const std::string rest = std::regex_replace(page, std::regex("xmlns(:[a-z]+)?=\"[^\"]*\""), "");
   EXPECT_THAT(rest,
               AllOf(Not(HasSubstr("http:")), Not(HasSubstr("https:")), Not(HasSubstr("@import")),

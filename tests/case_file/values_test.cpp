@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-
 #include <string>
 
 #include "tests/case_file/edited_case.hpp"
@@ -96,10 +95,11 @@ TEST(ExternalForceOfACase, MayBeWrittenAsTables) {
 TEST(ExternalForceOfACase, MayBePolynomialsSinusoidsAndFilesInSum) {
   const TemporaryFolder folder;
   folder.file("rig.csv", "time,force\n0,1\n5,6\n");
-  const auto text = with_value(kForce,
-                               "[ { until = 1, polynomial = [ 2, 3 ] }, { until = 4, value = -1 }, "
-                               "{ amplitude = 10, angular_frequency = 2, phase = 0.5 }, { file = \"rig.csv\" } ]")
-                        .text;
+  const auto text =
+      with_value(kForce,
+                 "[ { until = 1, polynomial = [ 2, 3 ] }, { until = 4, value = -1 }, "
+                 "{ amplitude = 10, angular_frequency = 2, phase = 0.5 }, { file = \"rig.csv\" } ]")
+          .text;
   const Case c = read_case(folder.file("case.toml", text));
   const auto& force = required_motion(c).external_force;
   // Sums of four terms of size 10.
@@ -117,8 +117,8 @@ TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
 
 TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   const std::string entry = std::string(kForce.path) + "[0]";
-  expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"), entry + ".value",
-                 "must not be there beside polynomial");
+  expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"),
+                 entry + ".value", "must not be there beside polynomial");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
                  entry + ".angular_frequency", "> 0");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
@@ -149,8 +149,8 @@ TEST(FitOfACase, MayReachBeyondItsInterval) {
   const auto with_limits = [](const std::string& keys) {
     return with_text(kFitKeys, "file = \"a.json\"\n" + keys);
   };
-  const Case c = read_text(
-      with_limits("below = \"theory_limit\"\nabove = \"stokes_limit\"\n").text);
+  const Case c =
+      read_text(with_limits("below = \"theory_limit\"\nabove = \"stokes_limit\"\n").text);
   EXPECT_EQ(required_fit(c).below, BelowInterval::kTheoryLimit);
   EXPECT_EQ(required_fit(c).above, AboveInterval::kStokesLimit);
   auto refused = with_limits("below = \"no\"\n");
@@ -159,7 +159,10 @@ TEST(FitOfACase, MayReachBeyondItsInterval) {
 }
 
 TEST(SweepOfACase, IsRead) {
-  const auto text = with_text("[published]", "[sweep]\nvary = [\"sphere.mass=1:2:3\"]\nmodels = [\"inertial\"]\n[published]").text;
+  const auto text =
+      with_text("[published]",
+                "[sweep]\nvary = [\"sphere.mass=1:2:3\"]\nmodels = [\"inertial\"]\n[published]")
+          .text;
   const Case c = read_text(text);
   ASSERT_TRUE(c.sweep.has_value());
   EXPECT_THAT(c.sweep->vary, ElementsAre("sphere.mass=1:2:3"));

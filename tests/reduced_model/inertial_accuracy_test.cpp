@@ -91,8 +91,9 @@ struct Worst {
   }
 };
 
-constexpr Real kGapBar = 1e-8L;       // what `inertial` is to reach at both tolerances, relative
-constexpr Real kVelocityBar = 1e-5L;  // (P - Gamma)/m has the error of ln q times k/m: three digits less than the gap in these cases
+constexpr Real kGapBar = 1e-8L;  // what `inertial` is to reach at both tolerances, relative
+constexpr Real kVelocityBar =
+    1e-5L;  // (P - Gamma)/m has the error of ln q times k/m: three digits less than the gap in these cases
 
 /// f at `time`; at a jump, before it, as the oracle has its state there.
 Real force_at(const Push& push, Real time) {

@@ -42,10 +42,12 @@ TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
   Motion motion{1, 0.25, 0, 6, ExternalForce({{3, -2}, {6, 2}})};
   motion.contact_time_step = 0.01;
   motion.roughness = {std::exp(-2.0), 0};
-  const auto trajectory = simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(k)));
+  const auto trajectory =
+      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(k)));
   EXPECT_NEAR((*trajectory.contact_interval)[0], 0.5, 1e-15);
   EXPECT_NEAR((*trajectory.contact_interval)[1], 4, 1e-14);
-  const auto touches = std::ranges::find_if(trajectory.rows, [](const auto& row) { return *row.solid_force > 0; });
+  const auto touches =
+      std::ranges::find_if(trajectory.rows, [](const auto& row) { return *row.solid_force > 0; });
   ASSERT_NE(touches, trajectory.rows.end());
   EXPECT_NEAR(touches->time, 1, 1e-14);
   EXPECT_EQ(*touches->solid_force, 2);
@@ -63,7 +65,8 @@ TEST(ViscousContactExact, SharesAHardImpactBetweenFilmAndSolid) {
   Motion motion{1, 1, -10, 1, ExternalForce({{1, 0}})};
   motion.contact_time_step = 0.01;
   motion.roughness = {std::exp(-4.0), 0};
-  const auto books = simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(1))).books.value();
+  const auto books =
+      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(1))).books.value();
   EXPECT_NEAR(books.film_impulse, 4, 1e-13);
   EXPECT_NEAR(books.solid_impulse, 6, 1e-13);
   EXPECT_NEAR(books.film_work, -20, 1e-12);
@@ -74,14 +77,17 @@ TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
   // Random pushes that jump; the scheme's error in gap, velocity and gamma is of first order where the contact times are not shifted by a landing
   // that one has and the other not; the sup over a whole motion is bounded by C h with C from the forces.
   std::mt19937_64 generator(5);
-  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(generator); };
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(generator);
+  };
   int halved = 0, cases = 0;
   for (int i = 0; i < 100; ++i) {
     std::vector<ExternalForce::Piece> pieces;
     double until = 0;
     for (int j = 0; j < 5; ++j) pieces.push_back({until += uniform(0.5, 1.5), uniform(-3, 3)});
     Motion motion{1, uniform(0.1, 1), uniform(-1, 1), 4, ExternalForce(pieces)};
-    motion.external_force += ExternalForce::sinusoidal({uniform(0, 2), uniform(1, 10), uniform(0, 6)});
+    motion.external_force +=
+        ExternalForce::sinusoidal({uniform(0, 2), uniform(1, 10), uniform(0, 6)});
     if (i % 2 == 0) motion.roughness = {std::exp(-uniform(0.2, 2)), 0};
     const LubricationForce force(leading_term_fit(1));
     const auto distance = [&](double h) {

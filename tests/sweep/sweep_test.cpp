@@ -1,0 +1,552 @@
+// Rows of a sweep, one by one and on several threads; and what the shipped sweeps (docs/studies.md) show.
+#include "sweep/sweep.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "common/file.hpp"
+#include "common/number.hpp"
+#include "fitting/lubrication_force.hpp"
+#include "reduced_model/comparison.hpp"
+#include "reduced_model/models.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+std::filesystem::path data(const std::string& name) {
+  return std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data" / name;
+}
+
+/// A shipped study's text, that runs from any folder, with `from` (there once) replaced.
+std::string study_text(const std::string& name,
+                       const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string text = read_file(data("cases/" + name));
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    if (at == std::string::npos || text.find(from, at + 1) != std::string::npos)
+      throw std::logic_error("not once in " + name + ": " + from);
+    text.replace(at, from.size(), to);
+  };
+  for (const auto& [from, to] : changes) replace(from, to);
+  if (text.find("\"../fits/") != std::string::npos)
+    replace("\"../fits/", "\"" + data("fits").string() + "/");
+  return text;
+}
+
+/// The sweep that a case asks for, as `viscontact sweep` plans it.
+SweepPlan plan_of(const std::filesystem::path& path) {
+  const Case c = read_case(path);
+  SweepPlan plan;
+  plan.case_path = path;
+  const auto& fit = required_fit(c);
+  plan.fit = fit.exact ? exact_plane_fit(c.viscosity, c.radius) : read_fit(fit.file.value());
+  const auto& request = c.sweep.value();
+  for (const auto& text : request.vary) plan.variations.push_back(parse_variation(text));
+  plan.models = request.models;
+  plan.reference = request.reference;
+  return plan;
+}
+
+SweepPlan shipped(const std::string& name) { return plan_of(data("cases/" + name)); }
+
+SweepPlan varied(SweepPlan plan, const std::vector<std::string>& vary) {
+  plan.variations.clear();
+  for (const auto& text : vary) plan.variations.push_back(parse_variation(text));
+  return plan;
+}
+
+SweepPlan with_models(SweepPlan plan, std::vector<std::string> models,
+                      const std::string& reference) {
+  plan.models = std::move(models);
+  plan.reference = reference;
+  return plan;
+}
+
+/// The fields of a row by their columns; a failure of the test if there are more or fewer.
+std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::string& row) {
+  EXPECT_TRUE(row.ends_with('\n') && std::ranges::count(row, '\n') == 1) << row;
+  std::vector<std::string> values(1);
+  for (const char c : row.substr(0, row.size() - 1))
+    if (c == ',')
+      values.emplace_back();
+    else
+      values.back() += c;
+  const auto columns = sweep_columns(plan);
+  EXPECT_EQ(values.size(), columns.size()) << row;
+  std::map<std::string, std::string> fields;
+  for (std::size_t i = 0; i < std::min(values.size(), columns.size()); ++i)
+    fields[columns[i]] = values[i];
+  return fields;
+}
+
+std::map<std::string, std::string> row_of(const SweepPlan& plan, std::uint64_t index) {
+  return fields_of(plan, Sweep(plan).row(index));
+}
+
+double number(const std::map<std::string, std::string>& fields, const std::string& column) {
+  const auto value = parse_number(fields.at(column));
+  EXPECT_TRUE(value) << column << " is '" << fields.at(column) << "'";
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// All rows, none of which may have failed.
+std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan) {
+  std::vector<std::map<std::string, std::string>> rows;
+  run_sweep(Sweep(plan), 0, 2, [&](std::uint64_t, const std::string& row) {
+    rows.push_back(fields_of(plan, row));
+    EXPECT_EQ(rows.back().at("failure"), "");
+  });
+  EXPECT_EQ(rows.size(), sweep_size(plan));
+  return rows;
+}
+
+std::vector<double> column(const std::vector<std::map<std::string, std::string>>& rows,
+                           const std::string& name) {
+  std::vector<double> values;
+  for (const auto& row : rows) values.push_back(number(row, name));
+  return values;
+}
+
+/// Expects of a row the digits that simulate and compare_trajectories give for a case.
+void expect_row_of(const SweepPlan& plan, std::uint64_t index, const std::string& case_text,
+                   const LubricationForce& force) {
+  const TemporaryFolder folder;
+  const Case c = read_case(folder.file("case.toml", case_text));
+  std::vector<Trajectory> trajectories;
+  for (const auto& model : plan.models)
+    trajectories.push_back(simulate(find_model(model), required_motion(c), force));
+  const auto comparison = compare_trajectories(trajectories, plan.reference);
+  const auto& reference =
+      *std::ranges::find(comparison.models, plan.reference, &ModelComparison::model);
+  const auto thinnest = [](const ModelComparison& m) {
+    return m.recovered_minimal_gap ? *m.recovered_minimal_gap : m.minimal_gap;
+  };
+  const auto row = row_of(plan, index);
+  for (const auto& m : comparison.models) {
+    const auto expect = [&](const std::string& name, const std::optional<double>& value) {
+      EXPECT_EQ(row.at(m.model + "." + name), value ? format_number(*value) : "")
+          << m.model << "." << name;
+    };
+    const auto contact = [&](std::size_t i) {
+      return m.contact_interval ? std::optional(m.contact_interval->at(i)) : std::nullopt;
+    };
+    expect("minimal_gap", m.minimal_gap);
+    expect("minimal_gap_time", m.minimal_gap_time);
+    expect("film", m.recovered_minimal_gap);
+    expect("contact_from", contact(0));
+    expect("contact_until", contact(1));
+    expect("sup_gap_distance", m.sup_gap_distance);
+    expect("l1_gap_distance", m.l1_gap_distance);
+    expect("l1_velocity_distance", m.l1_velocity_distance);
+    expect("film_ratio", thinnest(m) / thinnest(reference));
+    expect("steps", static_cast<double>(m.steps));
+  }
+  EXPECT_EQ(row.at("failure"), "");
+}
+
+TEST(SweepRow, IsTheRunOfTheCaseWrittenByHand) {
+  const auto plan =
+      with_models(varied(shipped("vanishing_viscosity.toml"),
+                         {"fluid.viscosity=0.5,0.1", "motion.external_force[0].value=-3,-1"}),
+                  {"viscous_contact_exact", "inertial", "viscous_contact"}, "inertial");
+  const TemporaryFolder folder;
+  auto fit = read_file(data("fits/leading_term.json"));
+  for (const auto& [from, to] : {std::pair("\"viscosity\": 1.0", "\"viscosity\": 0.1"),
+                                 std::pair("\"coefficient\": 1.0", "\"coefficient\": 0.1")}) {
+    ASSERT_NE(fit.find(from), std::string::npos);
+    fit.replace(fit.find(from), std::string(from).size(), to);
+  }
+  const LubricationForce force(read_fit(folder.file("fit.json", fit)));
+  const auto text = [&](const std::string& push) {
+    return study_text("vanishing_viscosity.toml", {{"viscosity = 1.0", "viscosity = 0.1"},
+                                                   {"value = -2.0", "value = " + push}});
+  };
+  expect_row_of(plan, 2, text("-3"), force);
+  expect_row_of(plan, 3, text("-1"), force);
+}
+
+TEST(SweepRow, WithTheExactDragTooAndTimesDrawnOut) {
+  const auto plan = varied(shipped("regime_map.toml"),
+                           {"motion.mass=0.5", "motion.time_scale=2.5", "sphere.radius=1,2"});
+  expect_row_of(plan, 1,
+                study_text("regime_map.toml", {{"mass = 1.0 ", "mass = 0.5 "},
+                                               {"time_scale = 1.0", "time_scale = 2.5"},
+                                               {"radius = 1.0", "radius = 2.0"}}),
+                LubricationForce::exact_plane(0.05305164769729845, 2));
+}
+
+TEST(SweepRow, BeginsWithTheNumbersThatWereVaried) {
+  const auto plan =
+      varied(shipped("time_step.toml"), {"fluid.viscosity=0.1,0.7", "motion.initial_gap=1,0.3"});
+  const auto row = row_of(plan, 2);
+  EXPECT_EQ(row.at("fluid.viscosity"), "0.7");
+  EXPECT_EQ(row.at("motion.initial_gap"), "1");
+  const auto columns = sweep_columns(plan);
+  EXPECT_EQ(columns.front(), "fluid.viscosity");
+  EXPECT_EQ(columns.at(1), "motion.initial_gap");
+  EXPECT_EQ(columns.at(2), "viscous_contact_exact.minimal_gap");
+  EXPECT_EQ(columns.back(), "failure");
+}
+
+TEST(SweepRow, ViscosityScalesTheFit) {
+  const auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.25,0.5,1,2"});
+  constexpr double kRadius = 0.23032943298089034;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    const auto row = row_of(plan, i);
+    // gamma = -4 to round-off at the end of the push, k = mu: r exp(-4/mu), -4/mu being 16 at most.
+    EXPECT_NEAR(number(row, "viscous_contact_exact.film") /
+                    (kRadius * std::exp(-4 / number(row, "fluid.viscosity"))),
+                1, 64 * kEpsilon);
+  }
+}
+
+TEST(SweepRow, RandomSamplesHaveTheirOwnNumbers) {
+  auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.1:1:log:2"});
+  plan.samples = 3;
+  plan.seed = 7;
+  ASSERT_EQ(sweep_size(plan), 3U);
+  for (std::uint64_t i = 0; i < 3; ++i)
+    EXPECT_EQ(number(row_of(plan, i), "fluid.viscosity"),
+              random_point(plan.variations, i, 7).at(0).second);
+}
+
+/// The leading term alone, for gaps down to 1e-3 only.
+SweepPlan plan_of_short_fit() {
+  auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.5"});
+  plan.fit.gap_interval = {1e-3, 10};
+  return plan;
+}
+
+/// What the inertial model says to that fit: its film is exp(-4/mu), 3.4e-4.
+std::string failure_of_inertial(const SweepPlan& plan) {
+  const auto c =
+      CaseTemplate(plan.case_path).with(std::array{std::pair(std::string("fluid.viscosity"), 0.5)});
+  const LubricationForce force(with_viscosity(plan.fit, 0.5));
+  return bad_input([&] { simulate(find_model("inertial"), *c.motion, force); });
+}
+
+std::string without_commas(std::string text) {
+  std::ranges::replace(text, ',', ';');
+  return text;
+}
+
+TEST(SweepRow, ModelThatLeavesTheFitsIntervalLeavesItsFieldsEmptyAndSaysWhy) {
+  const auto plan = plan_of_short_fit();
+  ASSERT_EQ(plan.reference, "viscous_contact_exact");
+  const auto row = row_of(plan, 0);
+  const auto message = failure_of_inertial(plan);
+  ASSERT_THAT(message, AllOf(HasSubstr("model inertial: "), HasSubstr(",")));
+  EXPECT_EQ(row.at("failure"), without_commas(message));
+  const auto alone = row_of(with_models(plan, {"viscous_contact_exact"}, plan.reference), 0);
+  for (const auto& [name, value] : row) {
+    if (name.starts_with("inertial.")) {
+      EXPECT_EQ(value, "") << name;
+    } else if (name.starts_with("viscous_contact_exact.")) {
+      EXPECT_EQ(value, alone.at(name)) << name;
+    }
+  }
+  EXPECT_EQ(alone.at("viscous_contact_exact.minimal_gap"), "0");
+}
+
+TEST(SweepRow, WithoutItsReferenceAModelKeepsWhatIsItsOwn) {
+  const auto plan =
+      with_models(plan_of_short_fit(), {"viscous_contact_exact", "inertial"}, "inertial");
+  const auto row = row_of(plan, 0);
+  const auto alone =
+      row_of(with_models(plan, {"viscous_contact_exact"}, "viscous_contact_exact"), 0);
+  for (const std::string name :
+       {"minimal_gap", "minimal_gap_time", "film", "contact_from", "contact_until", "steps"}) {
+    EXPECT_EQ(row.at("viscous_contact_exact." + name), alone.at("viscous_contact_exact." + name));
+    EXPECT_NE(row.at("viscous_contact_exact." + name), "") << name;
+  }
+  for (const std::string name :
+       {"sup_gap_distance", "l1_gap_distance", "l1_velocity_distance", "film_ratio"})
+    EXPECT_EQ(row.at("viscous_contact_exact." + name), "") << name;
+}
+
+TEST(SweepRow, AllFailuresAreNamed) {
+  const auto plan = with_models(plan_of_short_fit(), {"inertial", "reference_exact"}, "inertial");
+  EXPECT_THAT(row_of(plan, 0).at("failure"),
+              AllOf(HasSubstr("model inertial: "), HasSubstr(" | model reference_exact: ")));
+}
+
+TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
+  const Sweep sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=1,-1,2"}));
+  const auto row = fields_of(sweep.plan(), sweep.row(1));
+  EXPECT_EQ(row.at("fluid.viscosity"), "-1");
+  EXPECT_THAT(row.at("failure"), HasSubstr("fluid.viscosity is -1; must be a number > 0"));
+  for (const auto& [name, value] : row) {
+    if (name != "fluid.viscosity" && name != "failure") {
+      EXPECT_EQ(value, "") << name;
+    }
+  }
+  EXPECT_EQ(fields_of(sweep.plan(), sweep.row(2)).at("failure"), "");
+}
+
+TEST(SweepRow, HasNumbersThatAreFiniteOrNothing) {
+  // A film of 0.02 held by roughness, over r exp(-4/0.0055), 3e-317: no double holds the quotient.
+  const auto plan = with_models(
+      varied(shipped("vanishing_viscosity.toml"),
+             {"fluid.viscosity=0.0055", "viscous_contact.roughness[0]=0.02"}),
+      {"viscous_contact_exact", "viscous_contact_exact_smooth"}, "viscous_contact_exact_smooth");
+  const auto row = row_of(plan, 0);
+  ASSERT_LT(number(row, "viscous_contact_exact_smooth.film"), 1e-316);
+  ASSERT_GT(number(row, "viscous_contact_exact_smooth.film"), 0);
+  for (const auto& [name, value] : row) {
+    if (name != "failure") {
+      EXPECT_TRUE(value.empty() || parse_number(value)) << name << " is " << value;
+    }
+  }
+}
+
+TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
+  for (const std::string values : {"-1,1", "1,-1"})
+    EXPECT_THAT(bad_input([&] {
+                  Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}));
+                }),
+                AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
+                      HasSubstr("must be a number > 0"), HasSubstr("with fluid.viscosity = -1")));
+  EXPECT_THAT(
+      bad_input([] { Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"})); }),
+      HasSubstr("fluid.viscosty"));
+}
+
+TEST(SweepPlanCheck, CaseNeedsAMotion) {
+  const TemporaryFolder folder;
+  auto text = read_file(data("cases/vanishing_viscosity.toml"));
+  text.erase(text.find("[motion]"));
+  auto plan = shipped("vanishing_viscosity.toml");
+  plan.case_path = folder.file("case.toml", text);
+  EXPECT_THAT(bad_input([&] { Sweep sweep(plan); }), HasSubstr("[motion]"));
+}
+
+TEST(SweepPlanCheck, RadiusIsThatOfTheFitUnlessTheDragIsExact) {
+  EXPECT_THAT(bad_input([] {
+                Sweep(varied(shipped("vanishing_viscosity.toml"), {"sphere.radius=0.3:0.4:3"}));
+              }),
+              AllOf(HasSubstr("sphere.radius is 0.3"), HasSubstr("the fit's 0.23032943298089034"),
+                    HasSubstr("exact drag")));
+  EXPECT_THAT(bad_input([] {
+                Sweep(varied(shipped("vanishing_viscosity.toml"),
+                             {"sphere.radius=0.23032943298089034,0.4"}));
+              }),
+              HasSubstr("sphere.radius is 0.4"));
+  // k = 6 pi mu r^2 = 4, and gamma is -1 at the end of the push: r exp(gamma/k), to the round-off of 1000 sums.
+  const auto row =
+      row_of(varied(shipped("regime_map.toml"), {"sphere.radius=1,2", "sphere.mass=0.1"}), 1);
+  EXPECT_NEAR(number(row, "viscous_contact.film") / (2 * std::exp(-0.25)), 1, 1e-12);
+}
+
+TEST(SweepPlanCheck, RadiusInTheMiddleIsThatOfTheFitToo) {
+  // Refused at once or as a row: not run with the drag of another sphere.
+  auto plan = varied(shipped("vanishing_viscosity.toml"),
+                     {"sphere.radius=0.23032943298089034,1,0.23032943298089034"});
+  try {
+    EXPECT_THAT(row_of(plan, 1).at("failure"), HasSubstr("sphere.radius"));
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("sphere.radius is 1"));
+  }
+}
+
+TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
+  const auto plan = shipped("vanishing_viscosity.toml");
+  const auto wrong = [](const SweepPlan& p) {
+    return failure(ExitCode::kWrongUsage, [&] { Sweep sweep(p); });
+  };
+  EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
+              HasSubstr("the key sphere.mass is there twice"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
+              HasSubstr("the model inertial is there twice"));
+  EXPECT_THAT(wrong(with_models(plan, {"inertial"}, "viscous_contact")),
+              AllOf(HasSubstr("'viscous_contact' is none of the models"), HasSubstr("inertial")));
+  EXPECT_THAT(bad_input([&] { Sweep sweep(with_models(plan, {"inertia"}, "inertia")); }),
+              HasSubstr("inertia"));
+}
+
+class RunSweep : public ::testing::Test {
+ protected:
+  using Taken = std::vector<std::pair<std::uint64_t, std::string>>;
+  /// The first rows take a hundred times as long as the last, which so are done first; more of them than any thread may run ahead.
+  const Sweep sweep_{
+      varied(shipped("time_step.toml"), {"viscous_contact.time_step=3e-4:1e-1:log:400"})};
+  Taken run(std::uint64_t begin, int jobs) const {
+    Taken taken;
+    const auto end = run_sweep(
+        sweep_, begin, jobs,
+        [&](std::uint64_t index, const std::string& row) { taken.emplace_back(index, row); });
+    EXPECT_EQ(end, 400U);
+    return taken;
+  }
+};
+
+TEST_F(RunSweep, HandsTheSameRowsOverInOrderOnAnyNumberOfThreads) {
+  const auto one = run(0, 1);
+  ASSERT_EQ(one.size(), 400U);
+  for (std::uint64_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].first, i);
+  for (const std::uint64_t i : {0U, 7U, 399U}) EXPECT_EQ(one[i].second, sweep_.row(i));
+  for (const int jobs : {2, 5}) EXPECT_EQ(run(0, jobs), one) << jobs;
+}
+
+TEST_F(RunSweep, BeginsWhereItIsTold) {
+  const auto taken = run(397, 2);
+  ASSERT_EQ(taken.size(), 3U);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(taken[i].first, 397 + i);
+    EXPECT_EQ(taken[i].second, sweep_.row(397 + i));
+  }
+  EXPECT_TRUE(run(400, 2).empty());
+}
+
+TEST_F(RunSweep, StopsWhenARowIsNotTaken) {
+  for (const int jobs : {1, 2, 5}) {
+    std::vector<std::uint64_t> offered;
+    const auto take = [&](std::uint64_t index, const std::string&) {
+      offered.push_back(index);
+      if (index == 5) throw std::domain_error("full");
+    };
+    EXPECT_THROW(run_sweep(sweep_, 0, jobs, take), std::domain_error) << jobs;
+    EXPECT_THAT(offered, ElementsAre(0, 1, 2, 3, 4, 5)) << jobs;
+  }
+}
+
+TEST(VanishingViscosity, MotionWithDragTendsToViscousContactLikeTwiceTheViscosity) {
+  const auto rows = run_whole(shipped("vanishing_viscosity.toml"));
+  const auto mu = column(rows, "fluid.viscosity");
+  const auto sup = column(rows, "inertial.sup_gap_distance");
+  ASSERT_EQ(rows.size(), 25U);
+  EXPECT_EQ(mu.front(), 0.006);
+  // m u + mu ln q = P: to first order in mu, q_mu - q = -mu int ln q. From the release at t = 4 on q = (t - 4)^2, and
+  // -int_0^s ln s^2 = 2 (s - s ln s) is largest at s = 1: 2.
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_LT(sup[i] / mu[i], 2) << mu[i];
+    if (i > 0) {
+      EXPECT_GT(sup[i - 1] / mu[i - 1], sup[i] / mu[i]) << mu[i];
+    }
+  }
+  EXPECT_NEAR(sup.front() / mu.front(), 2, 0.03 * 2);
+  // What is left is of size mu ln(1/mu).
+  EXPECT_LT((2 - sup.front() / mu.front()) / (mu.front() * std::log(1 / mu.front())), 2.0);
+}
+
+TEST(VanishingViscosity, FilmIsThatOfTheFirstIntegral) {
+  for (const auto& row : run_whole(shipped("vanishing_viscosity.toml"))) {
+    const double mu = number(row, "fluid.viscosity");
+    const double time = number(row, "inertial.minimal_gap_time");
+    EXPECT_GE(time, 2);
+    // u = 0 in mu ln q + m u = P(t); P = -4 at t = 2, and grows by 2 a unit. The relative tolerance 1e-10 is that of each step's ln q.
+    EXPECT_NEAR(mu * std::log(number(row, "inertial.minimal_gap")), -4 + 2 * (time - 2), 1e-9)
+        << mu;
+    // The contact model: landing at t = 1 with all of the momentum, so P(2) too, and released when it is given back.
+    EXPECT_NEAR(number(row, "viscous_contact_exact.contact_from"), 1, 4 * kEpsilon);
+    EXPECT_NEAR(number(row, "viscous_contact_exact.contact_until"), 4, 16 * kEpsilon);
+  }
+}
+
+/// The slope of the straight line through (ln x, ln y).
+double order(const std::vector<double>& x, const std::vector<double>& y) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double a = std::log(x[i]), b = std::log(y[i]);
+    sx += a, sy += b, sxx += a * a, sxy += a * b;
+  }
+  const auto n = static_cast<double>(x.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+TEST(TimeStepStudy, SchemeIsOfFirstOrderForAForceThatJumps) {
+  const auto rows = run_whole(shipped("time_step.toml"));
+  const auto h = column(rows, "viscous_contact.time_step");
+  ASSERT_EQ(h.front(), 1e-5);
+  ASSERT_EQ(h.back(), 1e-1);
+  const auto sup = column(rows, "viscous_contact.sup_gap_distance");
+  const auto l1 = column(rows, "viscous_contact.l1_gap_distance");
+  // The landings' places within their steps, as good as random, scatter the distance over h: sup by a factor 2, l1 by 3, some 0.2 and 0.4 in its
+  // logarithm. Over 25 steps in four decades (ln h spread by 2.7) that leaves 0.2/(2.7 * 5) and 0.4/(2.7 * 5) to a slope: three times that.
+  EXPECT_NEAR(order(h, sup), 1, 0.045);
+  EXPECT_NEAR(order(h, l1), 1, 0.09);
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    // Forces up to 8 for a part of a step change a velocity, of size 1, by some h; so a landing's time and the way since.
+    EXPECT_LT(sup[i] / h[i], 3) << h[i];
+    EXPECT_GT(sup[i] / h[i], 1) << h[i];
+  }
+}
+
+TEST(TimeStepStudy, FilmIsThatOfTheRoughnessAtAnyStep) {
+  for (const auto& row : run_whole(shipped("time_step.toml")))
+    for (const std::string model : {"viscous_contact.", "viscous_contact_exact."})
+      EXPECT_NEAR(number(row, model + "film"), 0.02, 0.02 * 16 * kEpsilon);
+}
+
+/// The shipped map's drag.
+const LubricationForce& map_force() {
+  static const auto force = LubricationForce::exact_plane(0.05305164769729845, 1);
+  return force;
+}
+
+TEST(RegimeMap, FilmIsThatOfTheFirstIntegralEverywhere) {
+  auto plan = shipped("regime_map.toml");
+  plan.samples = 60;
+  int in_push_again = 0;
+  for (const auto& row : run_whole(plan)) {
+    const double push = number(row, "motion.time_scale");
+    const double time = number(row, "inertial.minimal_gap_time");
+    // Drag does not push: the sphere comes to rest in the pull, which takes back at most what the push gave.
+    ASSERT_TRUE(time >= push && time < 2 * push);
+    if (time > 1.01 * push) ++in_push_again;
+    // m u + Gamma(q) = Gamma(1) + P, P = -T + (t - T), and u = 0. Relative tolerance 1e-9 of ln q, up to 30, k = 1.
+    EXPECT_NEAR(map_force().impulse(number(row, "inertial.minimal_gap")),
+                map_force().impulse(1) + time - 2 * push, 1e-7)
+        << number(row, "sphere.mass") << " " << push;
+  }
+  EXPECT_GT(in_push_again, 10);  // of both regimes there are many
+  EXPECT_LT(in_push_again, 50);
+}
+
+TEST(RegimeMap, HeavyAndShortHardlyMoves) {
+  const auto row =
+      row_of(varied(shipped("regime_map.toml"), {"sphere.mass=1e3", "motion.time_scale=0.3"}), 0);
+  // Without drag it comes to rest at 2 T, T^2/m nearer. Drag takes of that, and of the time, no more than the part 2 T R/m: it stops on the way.
+  const double way = 0.3 * 0.3 / 1e3;
+  const double lost = 2 * 0.3 * map_force().resistance(1 - way) / 1e3;
+  ASSERT_LT(lost, 2e-3);
+  const double gone = 1 - number(row, "inertial.minimal_gap");
+  EXPECT_LT(gone, way);
+  EXPECT_GT(gone, way * (1 - lost));
+  EXPECT_LT(number(row, "inertial.minimal_gap_time"), 0.6);
+  EXPECT_GT(number(row, "inertial.minimal_gap_time"), 0.6 * (1 - lost));
+  EXPECT_EQ(row.at("viscous_contact.film"), "");  // no contact
+  EXPECT_NEAR(number(row, "viscous_contact.film_ratio"), 1, way * lost);
+}
+
+TEST(RegimeMap, LightAndLongHasTheFilmOfTheContactModels) {
+  const auto row =
+      row_of(varied(shipped("regime_map.toml"), {"sphere.mass=1e-3", "motion.time_scale=30"}), 0);
+  const double film = number(row, "inertial.minimal_gap");
+  // ln q = -30 + G(1) - G(q) for the sphere with inertia, G(q) = Gamma(q) - ln q = o(1) there; the contact model with regular drag has
+  // gamma = -30 + G(1) - G(0), that without gamma = -30. To the integrator's tolerance, 1e-9 of ln q = -29.
+  EXPECT_EQ(number(row, "inertial.minimal_gap_time"), 30);
+  EXPECT_NEAR(number(row, "viscous_contact_regular_drag.film_ratio"), 1, 1e-7);
+  const double regular = map_force().regular_impulse(film) - map_force().regular_impulse(1);
+  EXPECT_NEAR(number(row, "viscous_contact.film_ratio") / std::exp(regular), 1, 1e-7);
+  EXPECT_LT(number(row, "viscous_contact.film_ratio"), 0.5);  // what the regular drag is good for
+}
+
+}  // namespace
+}  // namespace viscontact

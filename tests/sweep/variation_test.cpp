@@ -1,0 +1,343 @@
+// What a sweep varies: its ranges, the points of grid and random samples, and the case with the numbers of a point.
+#include "sweep/variation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "case_file/case_file.hpp"
+#include "tests/case_file/edited_case.hpp"
+#include "tests/common/failure.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::Pair;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+std::vector<double> values_of(const Variation& variation) {
+  std::vector<double> values;
+  for (std::uint64_t i = 0; i < variation.count; ++i) values.push_back(variation.value(i));
+  return values;
+}
+
+std::vector<double> values_of(const std::string& text) { return values_of(parse_variation(text)); }
+
+TEST(Variation, ListHasItsValuesInTheirOrder) {
+  const auto variation = parse_variation("fluid.viscosity=3,-1e-3,0,3");
+  EXPECT_EQ(variation.key, "fluid.viscosity");
+  EXPECT_EQ(variation.count, 4U);
+  EXPECT_THAT(values_of(variation), ElementsAre(3, -1e-3, 0, 3));
+  EXPECT_THAT(values_of("a=7"), ElementsAre(7));
+}
+
+TEST(Variation, RangeIsEquallySpaced) {
+  EXPECT_THAT(values_of("a=-1:2:4"), ElementsAre(-1, 0, 1, 2));
+  EXPECT_THAT(values_of("a=2:-1:4"), ElementsAre(2, 1, 0, -1));
+}
+
+TEST(Variation, LogarithmicRangeIsAGeometricProgression) {
+  for (const std::string text : {"a=0.006:1:log:25", "a=1e3:1e-3:log:33", "a=-0.3:-30:log:7"}) {
+    const auto variation = parse_variation(text);
+    const auto values = values_of(variation);
+    const double decades = std::log(variation.last / variation.first);
+    const double ratio = std::exp(decades / static_cast<double>(values.size() - 1));
+    for (std::size_t i = 1; i < values.size(); ++i)
+      // The power's exponent carries a round-off that the logarithm of the range multiplies.
+      EXPECT_NEAR(values[i] / values[i - 1] / ratio, 1, 4 * kEpsilon * (1 + std::abs(decades)))
+          << text;
+  }
+}
+
+TEST(Variation, EndsAreExact) {
+  // 0.1 (0.7/0.1), 0.006 (1/0.006) and 0.1 + 6 (0.6/6) are an ulp or so beside.
+  for (const std::string spacing : {":log:", ":"})
+    for (const auto& [first, last] : {std::pair("0.1", "0.7"), std::pair("0.006", "1"),
+                                      std::pair("1e-3", "0.3"), std::pair("-7e5", "-3e-9")})
+      for (const std::string count : {"2", "3", "49", "1000000000"}) {
+        const auto variation =
+            parse_variation("a=" + std::string(first) + ":" + last + spacing + count);
+        EXPECT_EQ(variation.value(0), std::stod(first));
+        EXPECT_EQ(variation.value(variation.count - 1), std::stod(last));
+      }
+}
+
+TEST(Variation, RangeOfOneIsItsBeginning) {
+  EXPECT_THAT(values_of("a=2:5:1"), ElementsAre(2));
+  EXPECT_THAT(values_of("a=2:5:log:1"), ElementsAre(2));
+}
+
+TEST(Variation, LogarithmicRangeMaySpanAllDoubles) {
+  // Neither the product nor the quotient of the ends is a double that is finite and not 0.
+  const auto small = values_of("a=1e-200:1e-150:log:3");
+  ASSERT_EQ(small.size(), 3U);
+  EXPECT_NEAR(small[1] / 1e-175, 1, 1e-12);  // an exponent's round-off times ln of the range, 115
+  const auto wide = values_of("a=1e-300:1e300:log:3");
+  ASSERT_EQ(wide.size(), 3U);
+  EXPECT_NEAR(wide[1], 1, 1e-12);  // the same, 1382
+}
+
+TEST(Variation, MassIsFoundUnderItsOtherName) {
+  EXPECT_EQ(parse_variation("motion.mass=1,2").key, "sphere.mass");
+  EXPECT_EQ(parse_variation("motion.massive=1,2").key, "motion.massive");
+}
+
+TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
+  struct Refusal {
+    const char* text;
+    const char* words;
+  };
+  for (const auto& [text, words] :
+       std::initializer_list<Refusal>{{"", "no KEY="},
+                                      {"fluid.viscosity", "no KEY="},
+                                      {"=1,2", "no KEY="},
+                                      {"a=", "'' is no finite number"},
+                                      {"a=1,", "'' is no finite number"},
+                                      {"a=1,,2", "'' is no finite number"},
+                                      {"a=one", "'one' is no finite number"},
+                                      {"a=1,nan", "'nan' is no finite number"},
+                                      {"a=inf:1:3", "'inf' is no finite number"},
+                                      {"a=1:1e400:3", "'1e400' is no finite number"},
+                                      {"a=1:2x:3", "'2x' is no finite number"},
+                                      {"a=1:2", "range is not understood"},
+                                      {"a=1:2:lin:3", "range is not understood"},
+                                      {"a=1:2:Log:3", "range is not understood"},
+                                      {"a=1:2:log:3:4", "range is not understood"},
+                                      {"a=1:2:log", "'log' is no finite number"},
+                                      {"a=1:2:", "'' is no finite number"},
+                                      {"a=1:2:0", "COUNT is 0"},
+                                      {"a=1:2:-3", "COUNT is -3"},
+                                      {"a=1:2:2.5", "COUNT is 2.5"},
+                                      {"a=1:2:1e10", "COUNT is 1e10"},
+                                      {"a=1:2:log:0", "COUNT is 0"},
+                                      {"a=0:2:log:3", "must not reach 0 or change sign"},
+                                      {"a=2:0:log:3", "must not reach 0 or change sign"},
+                                      {"a=-1:1:log:3", "must not reach 0 or change sign"}}) {
+    EXPECT_THAT(failure(ExitCode::kWrongUsage, [&] { parse_variation(text); }),
+                AllOf(HasSubstr(std::string("--vary ") + text + ":"), HasSubstr(words),
+                      HasSubstr("KEY=FROM:TO:log:COUNT")))
+        << text;
+  }
+}
+
+TEST(Grid, LastVariationIsTheFastest) {
+  const std::vector<Variation> variations = {parse_variation("a=1,2"), parse_variation("b=0:1:3"),
+                                             parse_variation("c=5")};
+  ASSERT_EQ(grid_size(variations), 6U);
+  std::uint64_t index = 0;
+  for (const double a : {1.0, 2.0})
+    for (const double b : {0.0, 0.5, 1.0})
+      EXPECT_THAT(grid_point(variations, index++),
+                  ElementsAre(Pair("a", a), Pair("b", b), Pair("c", 5)));
+}
+
+TEST(Grid, SizeIsLimited) {
+  const auto million = parse_variation("a=0:1:1000000");
+  EXPECT_EQ(grid_size({million, million}), 1'000'000'000'000U);
+  // 1e27 is no 64-bit number.
+  const auto billion = parse_variation("a=0:1:1e9");
+  EXPECT_THAT(failure(ExitCode::kWrongUsage,
+                      [&] {
+                        (void)grid_size({billion, billion, billion});
+                      }),
+              AllOf(HasSubstr("1e+27 points"), HasSubstr("at most 1e+12")));
+  const std::vector<Variation> beyond = {million, million, parse_variation("b=1,2")};
+  EXPECT_THAT(failure(ExitCode::kWrongUsage, [&] { (void)grid_size(beyond); }),
+              HasSubstr("2e+12 points"));
+}
+
+class RandomPoints : public ::testing::Test {
+ protected:
+  static constexpr std::uint64_t kSamples = 20'000;
+  static constexpr double kSigmas = 5;  // once in 2e6 for other seeds than these
+
+  double number(std::uint64_t index, std::uint64_t seed, std::size_t i) const {
+    return random_point(variations_, index, seed).at(i).second;
+  }
+
+  std::vector<Variation> variations_ = {parse_variation("a=1e-3:1e3:log:2"),
+                                        parse_variation("b=-1:3:2"), parse_variation("c=1,2,4")};
+};
+
+TEST_F(RandomPoints, AreTheSameForASeedAndOthersForAnother) {
+  std::set<double> seen;
+  for (std::uint64_t index = 0; index < 100; ++index)
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      EXPECT_EQ(random_point(variations_, index, seed), random_point(variations_, index, seed));
+      seen.insert(number(index, seed, 0));
+    }
+  EXPECT_EQ(seen.size(), 10'000U);
+}
+
+TEST_F(RandomPoints, HaveTheKeysInTheirOrder) {
+  const auto point = random_point(variations_, 3, 1);
+  ASSERT_EQ(point.size(), 3U);
+  EXPECT_EQ(point[0].first, "a");
+  EXPECT_EQ(point[1].first, "b");
+  EXPECT_EQ(point[2].first, "c");
+}
+
+TEST_F(RandomPoints, FillTheirRangesEvenlyByTheirSpacing) {
+  constexpr int kBins = 10;
+  std::array<std::array<int, kBins>, 2> bins{};
+  std::array<int, 3> listed{};
+  for (std::uint64_t index = 0; index < kSamples; ++index) {
+    const double a = number(index, 1, 0), b = number(index, 1, 1), c = number(index, 1, 2);
+    ASSERT_TRUE(a >= 1e-3 && a <= 1e3) << a;
+    ASSERT_TRUE(b >= -1 && b <= 3) << b;
+    const auto bin = [](double share) {
+      return std::min<std::size_t>(static_cast<std::size_t>(share * kBins), kBins - 1);
+    };
+    ++bins[0].at(bin(std::log(a / 1e-3) / std::log(1e6)));
+    ++bins[1].at(bin((b + 1) / 4));
+    ASSERT_TRUE(c == 1 || c == 2 || c == 4) << c;
+    ++listed.at(c == 1 ? 0 : c == 2 ? 1 : 2);
+  }
+  const auto expect_share = [](int count, double share) {
+    const double n = kSamples;
+    EXPECT_NEAR(count, n * share, kSigmas * std::sqrt(n * share * (1 - share)));
+  };
+  for (const auto& of_key : bins)
+    for (const int count : of_key) expect_share(count, 1.0 / kBins);
+  for (const int count : listed) expect_share(count, 1.0 / 3);
+}
+
+TEST_F(RandomPoints, OfKeysSeedsAndNeighboursHaveNothingToDoWithEachOther) {
+  const auto share = [&](std::uint64_t index, std::uint64_t seed, std::size_t i) {
+    const double value = number(index, seed, i);
+    return i == 0 ? std::log(value / 1e-3) / std::log(1e6) : (value + 1) / 4;
+  };
+  std::array<double, 3> correlations{};
+  for (std::uint64_t index = 0; index < kSamples; ++index) {
+    const double here = share(index, 1, 0) - 0.5;
+    correlations[0] += here * (share(index, 1, 1) - 0.5);
+    correlations[1] += here * (share(index, 2, 0) - 0.5);
+    correlations[2] += here * (share(index + 1, 1, 0) - 0.5);
+  }
+  for (const double sum : correlations)
+    // Variance 1/12 of each factor.
+    EXPECT_NEAR(12 * sum / kSamples, 0, kSigmas / std::sqrt(kSamples));
+}
+
+/// A template of a text in a folder of its own.
+struct Template {
+  explicit Template(const std::string& text) : path(folder.file("case.toml", text)), cases(path) {}
+  Case with(const std::string& key, double value) const {
+    return cases.with(std::array{std::pair(key, value)});
+  }
+  /// Expects a refusal that names file and key.
+  void expect_refused(const std::string& key, double value, const std::string& words) const {
+    EXPECT_THAT(bad_input([&] { with(key, value); }),
+                AllOf(HasSubstr(path.string()), HasSubstr(key), HasSubstr(words)));
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path path;
+  CaseTemplate cases;
+};
+
+TEST(CaseTemplate, ReplacesNumbersWhereverTheyStand) {
+  const Template lecture(lecture_text());
+  EXPECT_EQ(lecture.with("fluid.viscosity", 0.7).viscosity, 0.7);
+  EXPECT_EQ(lecture.with("sphere.mass", 0.25).motion->mass, 0.25);
+  EXPECT_EQ(lecture.with("viscous_contact.roughness[0]", 0.01).motion->roughness,
+            (std::array{0.01, 0.0}));
+  EXPECT_EQ(lecture.with("viscous_contact.roughness[1]", 0.01).motion->roughness,
+            (std::array{0.0, 0.01}));
+  const auto pulled = lecture.with("motion.external_force[1].value", 5).motion->external_force;
+  EXPECT_EQ(pulled.value(1), -200);
+  EXPECT_EQ(pulled.value(3), 5);
+  const auto pushed = lecture.with("motion.external_force[0].until", 2.5).motion->external_force;
+  EXPECT_THAT(pushed.jumps(), ElementsAre(2.5));
+}
+
+TEST(CaseTemplate, ReplacesIntegersByFractions) {
+  auto text = with_text("mass = 20.0", "mass = 20").text;
+  const auto force = text.find("until = 2.0, value = -200.0");
+  ASSERT_NE(force, std::string::npos);
+  text.replace(force, 27, "until = 2, value = -200");
+  const auto roughness = text.find("[0.0, 0.0]");
+  ASSERT_NE(roughness, std::string::npos);
+  text.replace(roughness, 10, "[0, 0]");
+  const Template integers(text);
+  EXPECT_EQ(integers.with("sphere.mass", 0.25).motion->mass, 0.25);
+  EXPECT_EQ(integers.with("motion.external_force[0].value", -0.5).motion->external_force.value(1),
+            -0.5);
+  for (const std::size_t i : {0U, 1U}) {
+    std::array<double, 2> expected{};
+    expected.at(i) = 0.125;
+    EXPECT_EQ(integers.with("viscous_contact.roughness[" + std::to_string(i) + "]", 0.125)
+                  .motion->roughness,
+              expected);
+  }
+}
+
+TEST(CaseTemplate, SeveralNumbersAndTheTemplateStaysAsItWas) {
+  const Template lecture(lecture_text());
+  const auto changed =
+      lecture.cases.with(std::array{std::pair(std::string("fluid.viscosity"), 0.5),
+                                    std::pair(std::string("motion.initial_gap"), 0.25),
+                                    std::pair(std::string("viscous_contact.roughness[0]"), 0.125)});
+  EXPECT_EQ(changed.viscosity, 0.5);
+  EXPECT_EQ(changed.motion->initial_gap, 0.25);
+  EXPECT_EQ(changed.motion->roughness[0], 0.125);
+  const auto unchanged = lecture.cases.with({});
+  EXPECT_EQ(unchanged.viscosity, 3);
+  EXPECT_EQ(unchanged.motion->initial_gap, 1);
+  EXPECT_EQ(unchanged.motion->roughness[0], 0);
+  EXPECT_EQ(unchanged.text, lecture_text());
+}
+
+TEST(CaseTemplate, TakesAnOptionalKeyThatTheFileHasNot) {
+  const Template lecture(lecture_text());
+  ASSERT_THAT(lecture_text(), Not(HasSubstr("time_scale")));
+  const auto stretched = *lecture.with("motion.time_scale", 3).motion;
+  EXPECT_EQ(stretched.end_time, 12);
+  EXPECT_EQ(stretched.contact_time_step, 3 * 1e-3);
+  EXPECT_EQ(stretched.reference_time_step, 3 * 1e-3);
+  EXPECT_THAT(stretched.external_force.jumps(), ElementsAre(6));
+  EXPECT_EQ(stretched.external_force.value(5), -200);
+  EXPECT_EQ(lecture.cases.with({}).motion->end_time, 4);
+}
+
+TEST(CaseTemplate, RefusesKeysThatAreNone) {
+  const Template lecture(lecture_text());
+  for (const std::string key :
+       {"fluid.viscosty", "viscosity", "mass", "motion.mass", "wheels.number",
+        "motion.wheels.number", "fluid.viscosity.x", "fluid.viscosity[0]",
+        "viscous_contact.roughness[2]", "motion.external_force[2].value",
+        "motion.external_force[0].values", "motion.external_force[-1].value",
+        "motion.external_force[.value", ".viscosity", "fluid.", "[0]", ""})
+    lecture.expect_refused(key, 1, "");
+  lecture.expect_refused("fluid.viscosty", 1, "there are: viscosity");
+}
+
+TEST(CaseTemplate, RefusesWhatIsNoNumber) {
+  const Template lecture(lecture_text());
+  for (const std::string key : {"title", "fit.basis", "fluid", "viscous_contact.roughness",
+                                "motion.external_force", "motion.external_force[0]"})
+    lecture.expect_refused(key, 1, "is no number");
+}
+
+TEST(CaseTemplate, RefusesValuesOutOfRangeWithWhatIsAllowed) {
+  const Template lecture(lecture_text());
+  lecture.expect_refused("fluid.viscosity", -1, "is -1; must be a number > 0");
+  lecture.expect_refused("inertial.relative_tolerance", 0.5, "between 1e-13 and 1e-2");
+  lecture.expect_refused("motion.initial_velocity", std::numeric_limits<double>::infinity(), "inf");
+  EXPECT_THAT(bad_input([&] { lecture.with("motion.external_force[1].until", 3.5); }),
+              HasSubstr("ends at 3.5; must reach motion.end_time, 4"));
+  EXPECT_THAT(bad_input([&] { lecture.with("viscous_contact.roughness[0]", 1); }),
+              HasSubstr("adds up to 1; must be less than the sphere's radius, 1"));
+}
+
+}  // namespace
+}  // namespace viscontact
