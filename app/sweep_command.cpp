@@ -27,48 +27,56 @@ struct Options {
 
 /// The command line, and where it is silent the case's [sweep].
 SweepPlan plan_of(const Options& o, const Case& c) {
-  const SweepRequest request = c.sweep.value_or(SweepRequest{});
-  SweepPlan plan;
-  plan.case_path = c.path;
-  const FitRequest fit = c.fit.value_or(FitRequest{});
-  plan.below = fit.below;
-  plan.above = fit.above;
-  if (!o.fit.empty()) {
-    plan.fit = read_fit(o.fit);
-  } else if (fit.file) {
-    plan.fit = read_fit(*fit.file);
-  } else if (fit.exact) {
-    plan.fit = exact_plane_fit(c.viscosity, c.radius);
-  } else {
-    throw Error(ExitCode::kWrongUsage,
-                "the case has no fit to run with ([fit] file or exact); give one with --fit");
+  SweepPlan plan = planned(c);
+  if (!o.fit.empty()) plan.fit = read_fit(o.fit);
+  if (!o.vary.empty()) {
+    plan.variations.clear();
+    for (const auto& text : o.vary) plan.variations.push_back(parse_variation(text));
   }
-  for (const auto& text : o.vary.empty() ? request.vary : o.vary)
-    plan.variations.push_back(parse_variation(text));
-  if (plan.variations.empty())
-    throw Error(ExitCode::kWrongUsage, "nothing to vary; give --vary KEY=FROM:TO:COUNT");
-  plan.samples = o.samples > 0 ? o.samples : static_cast<std::uint64_t>(request.samples);
+  if (o.samples > 0) plan.samples = o.samples;
   plan.seed = o.seed;
-  plan.models = !o.models.empty() ? o.models : request.models;
-  if (plan.models.empty()) plan.models = {"inertial", "viscous_contact"};
-  plan.reference = !o.reference.empty() ? o.reference : request.reference;
-  if (plan.reference.empty()) {
-    const bool has_inertial = std::ranges::find(plan.models, "inertial") != plan.models.end();
-    plan.reference = has_inertial ? "inertial" : plan.models.front();
+  if (!o.models.empty()) {
+    plan.models = o.models;
+    // The case's reference was one of the case's models.
+    if (std::ranges::find(plan.models, plan.reference) == plan.models.end()) plan.reference.clear();
   }
+  if (!o.reference.empty()) plan.reference = o.reference;
   return plan;
 }
 
+/// What to draw: the command line, else the case's [sweep] as far as it fits what is varied and run, else the first keys and the smallest gaps.
 SweepPlot picture_of(const Options& o, const Case& c, const SweepPlan& plan) {
   const SweepRequest request = c.sweep.value_or(SweepRequest{});
-  SweepPlot picture{!o.x.empty() ? o.x : request.x, !o.y.empty() ? o.y : request.y,
-                    !o.columns.empty() ? o.columns : request.plot};
-  if (picture.x == "motion.mass") picture.x = "sphere.mass";
-  if (picture.y == "motion.mass") picture.y = "sphere.mass";
-  if (picture.x.empty()) {
-    picture.x = plan.variations[0].key;
-    if (plan.variations.size() > 1 && plan.samples == 0) picture.y = plan.variations[1].key;
+  const auto is_varied = [&](const std::string& key) {
+    return std::ranges::find(plan.variations, key, &Variation::key) != plan.variations.end();
+  };
+  const auto columns = sweep_columns(plan);
+  const auto is_there = [&](const std::string& column) {
+    const auto slash = column.find('/');
+    return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
+           (slash == std::string::npos || is_varied(column.substr(slash + 1)));
+  };
+  SweepPlot picture{o.x, o.y, o.columns};
+  for (auto* axis : {&picture.x, &picture.y})
+    if (*axis == "motion.mass") *axis = "sphere.mass";
+  if (picture.x.empty() && picture.y.empty()) {
+    if (is_varied(request.x)) picture.x = request.x;
+    if (is_varied(request.y) && plan.samples == 0) picture.y = request.y;
   }
+  if (picture.columns.empty() && std::ranges::all_of(request.plot, is_there))
+    picture.columns = request.plot;
+  if (picture.x.empty()) {
+    const auto free = std::ranges::find_if(
+        plan.variations, [&](const Variation& v) { return v.key != picture.y && v.count > 1; });
+    picture.x = free != plan.variations.end() ? free->key : plan.variations[0].key;
+    const auto other = std::ranges::find_if(
+        plan.variations, [&](const Variation& v) { return v.key != picture.x && v.count > 1; });
+    if (picture.y.empty() && plan.samples == 0 && other != plan.variations.end())
+      picture.y = other->key;
+  }
+  if (!picture.y.empty() && plan.samples > 0)
+    throw Error(ExitCode::kWrongUsage,
+                "a map is drawn of a grid, not of random samples; leave out --y");
   if (picture.columns.empty())
     for (const auto& model : plan.models) picture.columns.push_back(model + ".minimal_gap");
   return picture;
@@ -77,12 +85,20 @@ SweepPlot picture_of(const Options& o, const Case& c, const SweepPlan& plan) {
 void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   const auto columns = sweep_columns(plan);
   const auto check = [&](const std::string& name) {
-    if (name.empty() || std::ranges::find(columns, name) != columns.end()) return;
+    if (std::ranges::find(columns, name) != columns.end()) return;
     throw Error(ExitCode::kWrongUsage, fmt::format("there is no column '{}' to plot; there are: {}",
                                                    name, fmt::join(columns, ", ")));
   };
-  check(picture.x);
-  check(picture.y);
+  for (const auto& axis : {picture.x, picture.y}) {
+    if (axis.empty()) continue;
+    const auto key = std::ranges::find(plan.variations, axis, &Variation::key);
+    if (key == plan.variations.end() || (key->count < 2 && plan.samples == 0))
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format(
+              "'{}' cannot be an axis of the plot: it is no key that is varied, or has one value",
+              axis));
+  }
   for (const auto& column : picture.columns) {
     const auto slash = column.find('/');
     check(column.substr(0, slash));
@@ -114,7 +130,7 @@ void run(const Options& o) {
   if (!o.plot.empty()) refuse_other_kind(o.plot, "<svg", "picture");
   const Case c = read_case(o.case_file);
   const Sweep sweep(plan_of(o, c));
-  const SweepPlot picture = picture_of(o, c, sweep.plan());
+  const SweepPlot picture = o.plot.empty() ? SweepPlot{} : picture_of(o, c, sweep.plan());
   if (!o.plot.empty()) check_columns(picture, sweep.plan());
 
   Remaining remaining;

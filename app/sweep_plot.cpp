@@ -126,7 +126,6 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
   return draw_svg({panel}, kWidth, 520);
 }
 
-/// Where cells of a grid of centres begin and end: half way, on the axis' own scale.
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x), y = rows.find(plot.y), column = rows.find(plot.columns[0]);
@@ -152,27 +151,37 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   ColourField field;
   field.columns = kDotsPerCell * xs.size();
   field.rows = kDotsPerCell * ys.size();
-  const auto half = [&](const std::set<double>& all, bool logarithmic) {
+  // Of a grid of centres on the axis' own scale, cells reach half way to the next and as far at the ends.
+  const auto margin = [&](const std::set<double>& all, bool logarithmic) {
     return (scaled(*all.rbegin(), logarithmic) - scaled(*all.begin(), logarithmic)) /
            static_cast<double>(all.size() - 1) / 2;
   };
-  field.left = scaled(*xs.begin(), log_x) - half(xs, log_x);
-  field.right = scaled(*xs.rbegin(), log_x) + half(xs, log_x);
-  field.bottom = scaled(*ys.begin(), log_y) - half(ys, log_y);
-  field.top = scaled(*ys.rbegin(), log_y) + half(ys, log_y);
+  field.left = scaled(*xs.begin(), log_x) - margin(xs, log_x);
+  field.right = scaled(*xs.rbegin(), log_x) + margin(xs, log_x);
+  field.bottom = scaled(*ys.begin(), log_y) - margin(ys, log_y);
+  field.top = scaled(*ys.rbegin(), log_y) + margin(ys, log_y);
+  // A dot shows the nearest value, so that a grid of any spacing stands at its place.
+  const auto nearest = [&](const std::set<double>& all, bool logarithmic, double from, double to,
+                           std::size_t dots) {
+    std::vector<double> found;
+    for (std::size_t i = 0; i < dots; ++i) {
+      const double at =
+          from + (to - from) * (static_cast<double>(i) + 0.5) / static_cast<double>(dots);
+      found.push_back(*std::ranges::min_element(
+          all, {}, [&](double value) { return std::abs(scaled(value, logarithmic) - at); }));
+    }
+    return found;
+  };
+  const auto columns = nearest(xs, log_x, field.left, field.right, field.columns);
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double row : ys) {
-    std::vector<double> dots;
-    for (const double at : xs) {
+  for (const double row : nearest(ys, log_y, field.bottom, field.top, field.rows))
+    for (const double at : columns) {
       const auto cell = cells.find({row, at});
       const double value = cell == cells.end() ? kNothing : cell->second;
       const double shown = log_value && !(value > 0) ? kNothing : scaled(value, log_value);
-      dots.insert(dots.end(), kDotsPerCell, shown);
+      field.values.push_back(shown);
       if (std::isfinite(shown)) low = std::min(low, shown), high = std::max(high, shown);
     }
-    for (std::size_t i = 0; i < kDotsPerCell; ++i)
-      field.values.insert(field.values.end(), dots.begin(), dots.end());
-  }
   const auto label = [](const std::string& name, bool logarithmic) {
     return logarithmic ? fmt::format("log10 {}", name) : name;
   };

@@ -299,6 +299,12 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
     motion.external_force = motion.external_force.stretched(scale);
     for (double* time : {&motion.end_time, &motion.reference_time_step, &motion.contact_time_step})
       *time *= scale;
+    for (const double time : {motion.end_time, motion.reference_time_step, motion.contact_time_step,
+                              motion.end_time / scale})
+      if (!std::isnormal(time))
+        section.fail(
+            "time_scale",
+            fmt::format("is {}; times multiplied by it must be numbers of full precision", scale));
   }
   return motion;
 }
@@ -326,7 +332,10 @@ SweepRequest read_sweep(const TomlSection& section) {
   sweep.x = optional_text("x");
   sweep.y = optional_text("y");
   if (section.has("plot")) sweep.plot = section.texts("plot");
-  if (section.has("samples")) sweep.samples = section.number("samples", kPositive);
+  constexpr Allowed kSamples = {[](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
+                                "from 1 to 1e12, and whole"};
+  if (section.has("samples"))
+    sweep.samples = static_cast<std::uint64_t>(section.number("samples", kSamples));
   section.finish();
   return sweep;
 }
@@ -362,6 +371,15 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
         PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
     published.finish();
   }
+  const bool other_wall = c.tabulation && !c.tabulation->geometry.starts_with("plane");
+  if (other_wall && c.fit && c.fit->exact)
+    root.section("fit").fail("exact", fmt::format("is of a plane; the tabulation's geometry is {}",
+                                                  c.tabulation->geometry));
+  for (const auto& model : c.models)
+    if (other_wall && find_model(model).exact_drag)
+      root.section("motion").fail(
+          "models", fmt::format("has {}, with the drag of a plane; the tabulation's geometry is {}",
+                                model, c.tabulation->geometry));
   if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
   // Without [motion] these are not read, but they are no strangers.
   for (const auto* key : {"reference", "inertial", "viscous_contact"}) (void)root.has(key);

@@ -1,6 +1,7 @@
 // A case file (TOML): one sphere in one fluid, and what is to be computed of it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -38,7 +39,7 @@ struct SweepRequest {
   std::string reference;            ///< empty: the command's default
   std::string x, y;                 ///< keys of the plot's axes; may be empty
   std::vector<std::string> plot;    ///< columns to draw
-  double samples = 0;               ///< random samples; 0: the whole grid
+  std::uint64_t samples = 0;        ///< random samples; 0: the whole grid
 };
 
 struct Case {

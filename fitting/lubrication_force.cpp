@@ -87,6 +87,9 @@ void LubricationForce::check_gap(double gap) const {
                       : below_ != BelowInterval::kError && gap > 0;
   if (allowed) return;
   const char* remedy = "";
+  if (exact_ && gap >= 0 && gap < smallest)
+    throw Error(ExitCode::kNotConverged,
+                "the film is thinner than the smallest number that a double can hold");
   if (exact_) throw Error(ExitCode::kBadInput, fmt::format("gap {} is no number > 0", gap));
   if (gap < smallest && below_ == BelowInterval::kError)
     remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";

@@ -11,38 +11,10 @@
 
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/locked_file.hpp"
 
 namespace viscontact {
 namespace {
-
-[[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
-  throw_bad_input({path.string()},
-                  fmt::format("cannot be written ({}); finished rows are kept, the same command "
-                              "goes on from there",
-                              std::strerror(code)));
-}
-
-/// True if the descriptor is what stands at `path`: the process that held the journal may have removed it
-/// while we waited for it to be opened.
-bool is_still_at(int file, const std::filesystem::path& path) {
-  struct stat opened = {};
-  struct stat there = {};
-  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &there) == 0 &&
-         opened.st_dev == there.st_dev && opened.st_ino == there.st_ino;
-}
-
-Descriptor open_and_lock(const std::filesystem::path& path) {
-  for (;;) {
-    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (file.get() < 0) throw_not_written(path, errno);
-    // A file system without locks is no reason to compute nothing.
-    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw_bad_input(
-          {path.string()},
-          "is held by another tabulation of the same table; wait for it, or write elsewhere");
-    if (is_still_at(file.get(), path)) return file;
-  }
-}
 
 bool ends_with_line_end(int file) {
   const off_t size = ::lseek(file, 0, SEEK_END);
@@ -60,7 +32,8 @@ std::filesystem::path journal_path(const std::filesystem::path& table_path,
 RowJournal::RowJournal(std::filesystem::path path, std::string tabulation_hash)
     : path_(std::move(path)), hash_(std::move(tabulation_hash)) {
   if (path_.has_parent_path()) make_folder(path_.parent_path());
-  file_ = open_and_lock(path_);
+  file_ = open_and_lock(
+      path_, "is held by another tabulation of the same table; wait for it, or write elsewhere");
   sync_folder_of(path_);
   at_line_start_ = ends_with_line_end(file_.get());
 }
@@ -68,14 +41,8 @@ RowJournal::RowJournal(std::filesystem::path path, std::string tabulation_hash)
 void RowJournal::append(const JournalEntry& entry) {
   const std::string line = (at_line_start_ ? "" : "\n") + write_journal_line({hash_, entry});
   at_line_start_ = false;
-  std::string_view rest = line;
-  while (!rest.empty()) {
-    const ssize_t written = ::write(file_.get(), rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw_not_written(path_, errno);
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::fsync(file_.get()) != 0) throw_not_written(path_, errno);
+  append_to(file_, line, path_);
+  sync_file(file_, path_);
   at_line_start_ = true;
 }
 

@@ -12,7 +12,8 @@ namespace viscontact {
 ///     m u(end)^2 / 2 - m v0^2 / 2      = sum of the works
 ///
 /// (the left sides are 0 for a model without inertia). What the film absorbed is -film_work, what drag dissipated -drag_work, what was lost on the
-/// solid -solid_work.
+/// solid -solid_work. The contact models book each step as it is made. For the models with the whole drag the film's impulse is what the force does not explain, and its
+/// work is summed over the rows, with an error of second order in their spacing; the force's work closes the balance.
 struct Books {
   double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
   double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "common/error.hpp"
+#include "common/interrupt.hpp"
 #include "reduced_model/contact_step.hpp"
 
 namespace viscontact {
@@ -12,6 +15,8 @@ namespace {
 /// ResolvedDrag at distances D from where contact is.
 class DragAtDistance {
  public:
+  static constexpr bool kResolved = true;
+
   DragAtDistance(const ResolvedDrag& drag, double contact_gap)
       : drag_(drag), contact_gap_(contact_gap) {}
 
@@ -20,21 +25,20 @@ class DragAtDistance {
   }
 
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
-    // m v + G(D + h v) - G(D) increases with v, and is concave where the resistance falls with the gap: Newton's method from rest then comes
-    // to the root from below, and stays among the gaps between here and there. The bracket is for fits that are not so tame.
-    double low = -distance * setting.per_step;
-    double high = std::numeric_limits<double>::infinity();
+    // m v + G(D + h v) - G(D) increases with v, so the root lies between 0 and the velocity without drag. Where the resistance falls with the gap the
+    // function is concave, and Newton's method from rest comes to the root from below; the bracket is for fits that are not so tame.
+    const double free = momentum * setting.per_mass;
+    double low = std::max(-distance * setting.per_step, std::min(0.0, free));
+    double high = std::max(0.0, free);
     double v = 0;
     double excess = -momentum;
-    constexpr int kMaxSteps = 200;
+    constexpr int kMaxSteps = 200;  // bisection alone needs about 60 for each factor of 1e18
     for (int step = 0; step < kMaxSteps && excess != 0; ++step) {
       (excess > 0 ? high : low) = v;
       const double slope = setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                           setting.step * v);
       double next = v - excess / slope;
-      if (!(next > low && next < high))
-        next = std::isfinite(high) ? low + (high - low) / 2
-                                   : v + 2 * std::abs(v) + std::abs(momentum) / setting.mass;
+      if (!(next >= low && next <= high)) next = low + (high - low) / 2;
       // Below the rounding of the gap at the step's end nothing changes any more.
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       const bool settled = std::abs(next - v) <= kRoundOff * std::abs(next);
@@ -73,7 +77,8 @@ class ContactClock {
 
   void look_at(double time, double next, const ContactState& before, double push,
                const ContactStep& step) {
-    const bool contact = step.state.gap == 0 && (step.film != 0 || step.solid != 0);
+    const bool contact =
+        step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
     const double h = next - time;
     if (contact && !touching_) {
       // At the velocity of the step without contact it arrives after this share of it.
@@ -84,7 +89,8 @@ class ContactClock {
       (*interval_)[1] = next;
     } else if (touching_) {
       // The momentum that the step brings lifts gamma to 0 after this share of it.
-      const double share = before.gamma < 0 ? before.gamma / (-mass_ * before.velocity - push) : 0;
+      const double rise = mass_ * before.velocity + push;
+      const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
       (*interval_)[1] = time + h * std::min(1.0, share);
     }
     touching_ = contact;
@@ -110,11 +116,22 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   for (int n = 0; n < steps; ++n) {
     const double next = step_time(n + 1, steps, end, h);
     if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
+    constexpr int kStepsBetweenLooks = 4096;
+    if (n % kStepsBetweenLooks == 0) throw_if_interrupted();
     const double push = setting.step * force.mean(t, next);
     const ContactStep step = contact_step(state, push, setting, drag);
     add(t, next, setting, state, push, force.value(next), step);
     state = step.state;
     t = next;
+  }
+}
+
+/// When the force changes its sign; nothing where it does so more often than can be followed: the steps' means are all there is of it then.
+std::vector<double> turns_of(const Motion& motion) {
+  try {
+    return motion.external_force.sign_changes(motion.end_time);
+  } catch (const Error&) {
+    return {};
   }
 }
 
@@ -139,6 +156,8 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
       model.drag ? -model.drag->resistance(motion.initial_gap) * motion.initial_velocity : 0;
   trajectory.rows.push_back({0, motion.initial_gap, motion.initial_velocity, drag_at_start,
                              motion.external_force.value(0), 0.0, 0.0});
+  const auto turns = turns_of(motion);
+  auto turn = turns.begin();
   Books books;
   ContactClock clock(motion.mass);
   double lowest_gamma = 0;
@@ -152,6 +171,13 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
     book(before.velocity, push, step, books);
     clock.look_at(t, next, before, push, step);
     lowest_gamma = std::min(lowest_gamma, after.gamma);
+    // Held through a step in which the force turns: gamma is lowest in between.
+    for (; turn != turns.end() && *turn < next; ++turn)
+      if (*turn > t && before.gamma < 0 && after.gamma < 0)
+        lowest_gamma = std::min(
+            lowest_gamma,
+            std::max(model.gamma_min, before.gamma + motion.mass * before.velocity +
+                                          (*turn - t) * motion.external_force.mean(t, *turn)));
   };
   if (model.drag)
     run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), add);

@@ -31,7 +31,8 @@ struct ContactModel {
 ContactModel contact_with_leading_term(const Motion& motion, const LubricationForce& force);
 
 /// Steps of contact_step.hpp from the motion's start to its end. A row's lubrication and solid forces are means over the step before it, film
-/// and resolved drag together. The contact interval is found within the steps of impact and release, the force taken as constant in each.
+/// and resolved drag together. The contact interval is found within the steps of impact and release, the force taken as constant in each: off by the scheme's own error of a step. The
+/// lowest gamma, and so the film recovered from it, counts what lies within steps in which the force changes its sign.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 }  // namespace viscontact

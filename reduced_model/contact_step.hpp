@@ -33,6 +33,7 @@ struct ContactStep {
 
 /// Drag that acts at a distance, as contact_step wants it: none.
 struct NoDrag {
+  static constexpr bool kResolved = false;
   /// The velocity v with m v + G(D + h v) - G(D) = momentum, G the drag's impulse (dG/dD = its resistance), where D + h v >= 0.
   double velocity(const ContactSetting& setting, double, double momentum) const {
     return momentum * setting.per_mass;
@@ -56,6 +57,10 @@ template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
+  // What the drag has taken; not the difference of two impulses G, which rounds to that of a gap.
+  const auto booked = [&](double velocity, double before) {
+    return Drag::kResolved ? setting.mass * velocity - before : 0.0;
+  };
   if (!(state.gamma < 0)) {
     const double to_contact = -state.gap * setting.per_step;
     const double of_drag = -drag.impulse(state.gap, 0);
@@ -64,7 +69,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
     if (!(needed > 0)) {
       const double velocity = drag.velocity(setting, state.gap, momentum);
       const double gap = std::max(0.0, state.gap + setting.step * velocity);
-      return {{gap, velocity, 0}, 0, -drag.impulse(state.gap, gap), 0};
+      return {{gap, velocity, 0}, 0, booked(velocity, momentum), 0};
     }
     const double gamma = std::max(-needed, setting.gamma_min);
     return {{0, to_contact, gamma}, -gamma, of_drag, needed + gamma};
@@ -73,7 +78,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
   if (gamma > 0) {
     const double velocity = drag.velocity(setting, 0, gamma);
     const double gap = setting.step * velocity;
-    return {{gap, velocity, 0}, state.gamma, -drag.impulse(0, gap), 0};
+    return {{gap, velocity, 0}, state.gamma, booked(velocity, gamma), 0};
   }
   const double kept = std::max(gamma, setting.gamma_min);
   return {{0, 0, kept}, state.gamma - kept, 0, kept - gamma};

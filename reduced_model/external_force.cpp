@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -65,6 +66,39 @@ std::vector<double> shifted(std::vector<double> coefficients, double shift) {
       coefficients[k] += shift * coefficients[k + 1];
   return coefficients;
 }
+
+/// When a condition that holds at `to`, and from some time on, begins to hold: to neighbouring numbers.
+template <class Condition>
+double first_time(double from, double to, const Condition& holds) {
+  for (double middle = from + (to - from) / 2; from < middle && middle < to;
+       middle = from + (to - from) / 2)
+    (holds(middle) ? to : from) = middle;
+  return to;
+}
+
+/// Where in (0, length) the polynomial's derivative is 0: between two of these it is monotone.
+std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
+  if (coefficients.size() < 3) return {};
+  std::vector<double> derivative;
+  for (std::size_t k = 1; k < coefficients.size(); ++k)
+    derivative.push_back(static_cast<double>(k) * coefficients[k]);
+  std::vector<double> stops = {0};
+  std::ranges::copy(turning_points(derivative, length), std::back_inserter(stops));
+  stops.push_back(length);
+  std::vector<double> turns;
+  for (std::size_t n = 1; n < stops.size(); ++n) {
+    const double before = at(derivative, stops[n - 1]), after = at(derivative, stops[n]);
+    if (before * after < 0)
+      turns.push_back(first_time(stops[n - 1], stops[n], [&](double tau) {
+        return (at(derivative, tau) > 0) == (after > 0);
+      }));
+    else if (after == 0 && n + 1 < stops.size())
+      turns.push_back(stops[n]);
+  }
+  return turns;
+}
+
+constexpr int kSamplesPerPeriod = 32;
 
 double sine(const ExternalForce::Sinusoid& s, double time) {
   return s.amplitude * std::sin(s.angular_frequency * time + s.phase);
@@ -246,6 +280,12 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
     if (sign != 0) last_sign = sign;
   };
+  constexpr double kMostSamples = 1e6;  // each costs about 50 ns
+  if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
+    throw Error(ExitCode::kNotConverged,
+                fmt::format("the external force has an angular frequency of {}: more periods until "
+                            "time {} than can be followed, {:.0e}",
+                            fastest, end, kMostSamples / kSamplesPerPeriod));
   for (std::size_t i = 0; i < pieces_.size() && pieces_[i].from < end; ++i) {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
@@ -256,22 +296,26 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
       for (const auto& s : sinusoids_) value += sine(s, t);
       return value;
     };
+    // Between two of these f is monotone, or nearly so.
+    std::vector<double> stops = {from};
+    if (sinusoids_.empty()) {
+      for (const double tau : turning_points(coefficients, to - from)) stops.push_back(from + tau);
+    } else {
+      const int samples = kSamplesPerPeriod + static_cast<int>(kSamplesPerPeriod * (to - from) *
+                                                               fastest / (2 * std::numbers::pi));
+      for (int n = 1; n < samples; ++n) stops.push_back(from + (to - from) * n / samples);
+    }
+    stops.push_back(to);
     look_at(from, value_at(from));
-    if (coefficients.size() == 1 && sinusoids_.empty()) continue;
-    const int samples =
-        32 + static_cast<int>(std::min(1e7, 32 * (to - from) * fastest / (2 * std::numbers::pi)));
-    double a = from;
-    for (int n = 1; n <= samples; ++n) {
-      const double b = n == samples ? to : from + (to - from) * n / samples;
-      double low = a, high = b;
-      if (last_sign * value_at(b) < 0) {
-        // Bisection, to neighbouring numbers.
-        for (double middle = low + (high - low) / 2; low < middle && middle < high;
-             middle = low + (high - low) / 2)
-          (value_at(middle) * last_sign > 0 ? low : high) = middle;
+    for (std::size_t n = 1; n < stops.size(); ++n) {
+      const double before = value_at(stops[n - 1]), after = value_at(stops[n]);
+      if (before * after < 0) {
+        const bool rises = after > 0;
+        look_at(first_time(stops[n - 1], stops[n],
+                           [&](double t) { return (value_at(t) > 0) == rises; }),
+                after);
       }
-      look_at(high, value_at(b));
-      a = b;
+      look_at(stops[n], after);
     }
   }
   std::erase_if(changes, [&](double t) { return t >= end; });

@@ -53,8 +53,8 @@ class ExternalForce {
   /// The times at which f_ext or its slope jumps, in increasing order.
   std::vector<double> jumps() const;
 
-  /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing order. Each smooth piece is sampled, at least
-  /// 32 times and 32 times a period: two changes closer than that are missed.
+  /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing order. Of a piece without
+  /// sinusoids all are found; of others those that are not two within a 32nd of a period (of the fastest). Throws Error(kNotConverged) for more than 3e4 periods.
   std::vector<double> sign_changes(double end) const;
 
  private:

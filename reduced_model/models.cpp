@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <string>
 
 #include "common/error.hpp"
@@ -44,20 +45,41 @@ constexpr std::array kModels = {
           kOnRequest},
 };
 
-/// The books of a model whose film is all of the drag: what the force does not explain is the film's. The force is taken as constant, its mean, between two rows.
+/// The books of a model whose film is all of the drag: its impulse between two rows is what the force does not explain, its work that times their mean velocity.
 Books books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion, bool inertia) {
   Books books;
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    books.external_work += motion.external_force.mean(rows[i - 1].time, rows[i].time) *
-                           (rows[i].gap - rows[i - 1].gap);
+  const double m = inertia ? motion.mass : 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto& a = rows[i - 1];
+    const auto& b = rows[i];
+    const double push = (b.time - a.time) * motion.external_force.mean(a.time, b.time);
+    books.film_work += (m * (b.velocity - a.velocity) - push) * (a.velocity + b.velocity) / 2;
+  }
   const auto& first = rows.front();
   const auto& last = rows.back();
-  const double m = inertia ? motion.mass : 0;
   books.external_impulse = motion.external_force.impulse(last.time);
   books.film_impulse = m * (last.velocity - first.velocity) - books.external_impulse;
-  books.film_work = m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) -
-                    books.external_work;
+  books.external_work =
+      m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) - books.film_work;
   return books;
+}
+
+/// Throws Error(kNotConverged) if a number of the trajectory is none.
+void check_finite(const Trajectory& trajectory) {
+  const auto refuse = [](double time) {
+    throw Error(ExitCode::kNotConverged,
+                fmt::format("the motion leaves the range of a double at time {:.6g}", time));
+  };
+  const auto is_number = [](const Maybe& value) { return !value || std::isfinite(*value); };
+  for (const auto& row : trajectory.rows)
+    if (!(std::isfinite(row.time) && std::isfinite(row.gap) && std::isfinite(row.velocity) &&
+          is_number(row.lubrication_force) && is_number(row.external_force) &&
+          is_number(row.gamma) && is_number(row.solid_force)))
+      refuse(row.time);
+  for (const auto& entry : kBookEntries)
+    if (!std::isfinite((*trajectory.books).*entry.value)) refuse(trajectory.rows.back().time);
+  for (std::size_t i = 1; i < trajectory.rows.size(); ++i)
+    if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
 }
 
 }  // namespace
@@ -107,6 +129,7 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
     trajectory.model = choice.name;
     if (!trajectory.books)
       trajectory.books = books_of_drag(trajectory.rows, motion, choice.model->inertia);
+    check_finite(trajectory);
     trajectory.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;

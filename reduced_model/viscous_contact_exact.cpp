@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/interrupt.hpp"
+
 namespace viscontact {
 namespace {
 
@@ -144,11 +146,13 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion, const Lubricatio
   add_row(sphere, 0);
   double now = 0;
   for (const double stop : stops) {
-    const double middle = f.value(now + (stop - now) / 2);
-    const double sign = middle > 0 ? 1 : middle < 0 ? -1 : 0;
+    const double mean = f.mean(now, stop);
+    const double sign = mean > 0 ? 1 : mean < 0 ? -1 : 0;
     while (now < stop) {
+      throw_if_interrupted();
       const EventDriven before = sphere;
       const double event = sphere.advance(stop, sign);
+      lowest_gamma = std::min(lowest_gamma, sphere.gamma(event));
       for (; next_row != times.end() && *next_row < event; ++next_row) add_row(before, *next_row);
       const bool at_row = next_row != times.end() && *next_row == event;
       if (at_row) ++next_row;

@@ -45,7 +45,7 @@ struct Chunk {
   using Numbers = std::array<double, kChunk + 24>;
   alignas(64) Numbers mass, per_mass, gamma_min, force_scale;
   alignas(64) Numbers gap, velocity, gamma;
-  alignas(64) Numbers minimal_gap, minimal_gap_time, lowest_gamma, contact_until;
+  alignas(64) Numbers minimal_gap, minimal_gap_time, lowest_gamma, last_contact;
 };
 
 // A product and a sum must not be contracted to an FMA, which rounds once where contact_step rounds twice; AVX-512 F brings FMA with it.
@@ -89,12 +89,12 @@ struct Chunk {
       c.velocity[i] = contact ? to_contact : velocity;
       c.gamma[i] = new_gamma;
       const double lowest_gamma = c.lowest_gamma[i], minimal_gap = c.minimal_gap[i];
-      const double minimal_gap_time = c.minimal_gap_time[i], contact_until = c.contact_until[i];
+      const double minimal_gap_time = c.minimal_gap_time[i], last_contact = c.last_contact[i];
       c.lowest_gamma[i] = new_gamma < lowest_gamma ? new_gamma : lowest_gamma;
       const bool lower = new_gap < minimal_gap;
       c.minimal_gap[i] = lower ? new_gap : minimal_gap;
       c.minimal_gap_time[i] = lower ? end : minimal_gap_time;
-      c.contact_until[i] = new_gap == 0 ? end : contact_until;
+      c.last_contact[i] = new_gap == 0 ? end : last_contact;
     }
   }
 }
@@ -208,7 +208,7 @@ void advance_chunk(const ManySpheres& spheres, std::size_t from, std::span<const
   load(contacts.minimal_gap, chunk.minimal_gap);
   load(contacts.minimal_gap_time, chunk.minimal_gap_time);
   load(contacts.lowest_gamma, chunk.lowest_gamma);
-  load(contacts.contact_until, chunk.contact_until);
+  load(contacts.last_contact, chunk.last_contact);
   advance(chunk, filled, steps);
   save(chunk.gap, contacts.gap);
   save(chunk.velocity, contacts.velocity);
@@ -216,10 +216,10 @@ void advance_chunk(const ManySpheres& spheres, std::size_t from, std::span<const
   save(chunk.minimal_gap, contacts.minimal_gap);
   save(chunk.minimal_gap_time, contacts.minimal_gap_time);
   save(chunk.lowest_gamma, contacts.lowest_gamma);
-  save(chunk.contact_until, contacts.contact_until);
+  save(chunk.last_contact, contacts.last_contact);
   // No gap is less than 0: the first of 0 is the first of the least.
   for (std::size_t i = 0; i < size; ++i)
-    contacts.contact_from[from + i] = chunk.minimal_gap[i] == 0 ? chunk.minimal_gap_time[i] : kNaN;
+    contacts.first_contact[from + i] = chunk.minimal_gap[i] == 0 ? chunk.minimal_gap_time[i] : kNaN;
 }
 
 /// do_chunk(0), ..., do_chunk(chunks - 1), shared among threads.

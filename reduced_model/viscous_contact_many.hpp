@@ -21,14 +21,14 @@ struct ManySpheres {
 };
 
 /// What became of them, one to an index: vectors of the spheres' length. "At a step's end" leaves out what happens within a step: beside
-/// Trajectory::contact_interval, which looks into the steps of impact and release, contact_from is late and contact_until early by up to a step.
+/// Trajectory::contact_interval, which looks into the steps of impact and release, first_contact is late and last_contact early by up to a step.
 struct ManyContacts {
   std::vector<double>
       minimal_gap;  ///< least of the gaps at the start and at the steps' ends [L], >= 0
   std::vector<double> minimal_gap_time;  ///< when it is first met [T]
   std::vector<double> lowest_gamma;   ///< [M L/T], <= 0; the film is thinnest there: r exp(gamma/k)
-  std::vector<double> contact_from;   ///< first step's end at which the gap is 0 [T]; NaN: none
-  std::vector<double> contact_until;  ///< last step's end at which the gap is 0 [T]; NaN: none
+  std::vector<double> first_contact;  ///< first step's end at which the gap is 0 [T]; NaN: none
+  std::vector<double> last_contact;   ///< last step's end at which the gap is 0 [T]; NaN: none
   std::vector<double> gap;            ///< at the end [L], >= 0
   std::vector<double> velocity;       ///< at the end [L/T]
   std::vector<double> gamma;          ///< at the end [M L/T], gamma_min <= gamma <= 0

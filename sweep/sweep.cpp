@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -52,8 +55,8 @@ std::string model_fields(const ModelComparison& model, const ModelComparison* re
     for (const double distance :
          {model.sup_gap_distance, model.l1_gap_distance, model.l1_velocity_distance})
       text += "," + format_number(distance);
-    const bool comparable = thinnest(*reference) > 0;
-    text += "," + (comparable ? format_number(thinnest(model) / thinnest(*reference)) : "");
+    const double ratio = thinnest(model) / thinnest(*reference);
+    text += "," + (std::isfinite(ratio) ? format_number(ratio) : "");
   }
   return text + fmt::format(",{}", model.steps);
 }
@@ -67,6 +70,36 @@ void refuse_doubles(const Names& names, std::string_view kind) {
 }
 
 }  // namespace
+
+SweepPlan planned(const Case& c) {
+  const SweepRequest request = c.sweep.value_or(SweepRequest{});
+  const FitRequest fit = c.fit.value_or(FitRequest{});
+  SweepPlan plan;
+  plan.case_path = c.path;
+  plan.below = fit.below;
+  plan.above = fit.above;
+  if (fit.file)
+    plan.fit = read_fit(*fit.file);
+  else if (fit.exact)
+    plan.fit = exact_plane_fit(c.viscosity, c.radius);
+  for (const auto& text : request.vary) {
+    try {
+      plan.variations.push_back(parse_variation(text));
+    } catch (const Error& error) {
+      throw_bad_input({c.path.string()}, fmt::format("sweep.vary: {}", error.what()));
+    }
+  }
+  plan.samples = request.samples;
+  plan.models = request.models;
+  if (plan.models.empty()) plan.models = {"inertial", "viscous_contact"};
+  plan.reference = request.reference;
+  return plan;
+}
+
+std::string default_reference(const std::vector<std::string>& models) {
+  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
+  return has_inertial ? "inertial" : models.front();
+}
 
 std::uint64_t sweep_size(const SweepPlan& plan) {
   return plan.samples > 0 ? plan.samples : grid_size(plan.variations);
@@ -82,6 +115,12 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan) {
 }
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
+  if (plan_.variations.empty())
+    throw Error(ExitCode::kWrongUsage, "nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  if (plan_.fit.basis.empty())
+    throw Error(ExitCode::kWrongUsage,
+                "the case has no fit to run with ([fit] file or exact); give one with --fit");
+  if (plan_.reference.empty()) plan_.reference = default_reference(plan_.models);
   std::vector<std::string> keys;
   for (const auto& variation : plan_.variations) keys.push_back(variation.key);
   refuse_doubles(keys, "the key");
@@ -91,16 +130,8 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
     throw Error(ExitCode::kWrongUsage,
                 fmt::format("the reference model '{}' is none of the models: {}", plan_.reference,
                             fmt::join(plan_.models, ", ")));
-  for (const std::uint64_t index : {std::uint64_t{0}, sweep_size(plan_) - 1}) {
-    const Case c = case_at(index);
-    (void)required_motion(c);
-    if (plan_.fit.basis != kExactPlane && c.radius != plan_.fit.radius)
-      throw_bad_input(
-          {plan_.case_path.string()},
-          fmt::format("sphere.radius is {}, the fit's {}: a fit is of one radius; vary it with "
-                      "the exact drag",
-                      c.radius, plan_.fit.radius));
-  }
+  for (const std::uint64_t index : {std::uint64_t{0}, sweep_size(plan_) - 1})
+    (void)required_motion(case_at(index));
 }
 
 std::vector<std::pair<std::string, double>> Sweep::point(std::uint64_t index) const {
@@ -111,7 +142,13 @@ std::vector<std::pair<std::string, double>> Sweep::point(std::uint64_t index) co
 Case Sweep::case_at(std::uint64_t index) const {
   const auto numbers = point(index);
   try {
-    return case_.with(numbers);
+    Case c = case_.with(numbers);
+    if (plan_.fit.basis != kExactPlane && c.radius != plan_.fit.radius)
+      throw_bad_input({plan_.case_path.string()},
+                      fmt::format("sphere.radius is {}, the fit's {}: a fit is of one radius; vary "
+                                  "it with the exact drag",
+                                  c.radius, plan_.fit.radius));
+    return c;
   } catch (const Error& error) {
     std::string values;
     for (const auto& [key, value] : numbers) values += fmt::format(" {} = {}", key, value);
@@ -119,10 +156,15 @@ Case Sweep::case_at(std::uint64_t index) const {
   }
 }
 
-std::string Sweep::row(std::uint64_t index) const {
+std::string Sweep::key_fields(std::uint64_t index) const {
   std::string text;
-  for (const auto& [key, value] : point(index)) text += format_number(value) + ",";
-  text.pop_back();
+  for (const auto& [key, value] : point(index))
+    text += (text.empty() ? "" : ",") + format_number(value);
+  return text;
+}
+
+std::string Sweep::row(std::uint64_t index) const {
+  std::string text = key_fields(index);
   std::vector<Trajectory> trajectories;
   std::string failure;
   try {
@@ -134,10 +176,12 @@ std::string Sweep::row(std::uint64_t index) const {
       try {
         trajectories.push_back(simulate(find_model(model), required_motion(c), force));
       } catch (const Error& error) {
+        if (error.exit_code() == ExitCode::kInterrupted) throw;
         failure += fmt::format("{}{}", failure.empty() ? "" : " | ", error.what());
       }
     }
   } catch (const Error& error) {
+    if (error.exit_code() == ExitCode::kInterrupted) throw;
     failure = error.what();
   }
   const auto of_model = [](const Comparison& comparison, std::string_view name) {
@@ -184,6 +228,7 @@ std::uint64_t run_sweep(
         thrown = std::current_exception();
       }
       lock.lock();
+      if (thrown && interrupted()) return;  // in the middle of a row
       if (thrown) {
         error = thrown;
         room.notify_all();

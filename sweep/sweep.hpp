@@ -23,8 +23,16 @@ struct SweepPlan {
   std::uint64_t samples = 0;          ///< random points; 0: the whole grid
   std::uint64_t seed = 1;
   std::vector<std::string> models;  ///< at least one
-  std::string reference;            ///< one of them: what the others' distances are to
+  std::string
+      reference;  ///< one of them: what the others' distances are to; empty: default_reference
 };
+
+/// The plan that a case asks for: its [sweep], its fit. What the case leaves out is empty: variations, fit, reference. Throws Error(kBadInput) if a range of its
+/// [sweep] is none or its fit file cannot be read.
+SweepPlan planned(const Case& c);
+
+/// "inertial" if it is among the models, else the first.
+std::string default_reference(const std::vector<std::string>& models);
 
 /// Number of points.
 std::uint64_t sweep_size(const SweepPlan& plan);
@@ -38,10 +46,13 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan);
 class Sweep {
  public:
   /// Reads the case. Throws Error(kBadInput) if the first or the last point of the plan is no case, has another radius than the fit, or the
-  /// case has no [motion]; Error(kWrongUsage) if the reference is none of the models or a key or model is there twice.
+  /// case has no [motion]; Error(kWrongUsage) if there is nothing to vary or no fit, the reference is none of the models, or a key or model is there twice.
   explicit Sweep(SweepPlan plan);
 
   const SweepPlan& plan() const { return plan_; }
+
+  /// The varied numbers of that point as fields of CSV: how its row begins.
+  std::string key_fields(std::uint64_t index) const;
 
   /// The row of that point as a line of CSV. A model that fails leaves its fields and those of its distances empty, and says why in `failure`.
   std::string row(std::uint64_t index) const;
@@ -54,7 +65,7 @@ class Sweep {
   CaseTemplate case_;
 };
 
-/// Computes the rows from `begin` on, on `jobs` threads, and hands them over in order; stops when interrupted() or when `take` throws, which it throws on.
+/// Computes the rows from `begin` on, on `jobs` >= 1 threads, and hands them over in order; stops when interrupted() or when `take` throws, which it throws on.
 /// Memory does not grow with the number of rows. Returns the number of the row after the last that was taken.
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,

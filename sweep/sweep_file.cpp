@@ -1,17 +1,19 @@
 #include "sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <chrono>
 #include <cstring>
 #include <fstream>
-#include <memory>
+#include <optional>
 
 #include "common/csv.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
-#include "common/interrupt.hpp"
+#include "common/locked_file.hpp"
 #include "common/number.hpp"
 
 namespace viscontact {
@@ -29,7 +31,7 @@ std::string identity_of(const SweepPlan& plan) {
                         v.logarithmic, v.count);
     for (const double value : v.values) text += format_number(value) + ",";
   }
-  return sha256(fmt::format("{}{}{}{}{}{}{}", text, plan.samples, plan.seed,
+  return sha256(fmt::format("{}{}{}{}{}{}{}", text, plan.samples, plan.samples > 0 ? plan.seed : 0,
                             fmt::join(plan.models, ","), plan.reference,
                             static_cast<int>(plan.below), static_cast<int>(plan.above)));
 }
@@ -45,47 +47,28 @@ std::string header_of(const SweepPlan& plan, const std::string& version) {
          fmt::format("{}\n", fmt::join(sweep_columns(plan), ","));
 }
 
-/// Whole rows after the header, and the bytes up to the end of the last one. Nothing if the file does not begin with the header.
+/// Whole rows after the header that are this sweep's, and the bytes up to the end of the last one. Nothing if the file does not begin with the header.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
-std::optional<Kept> kept_rows(const fs::path& path, const std::string& header) {
+std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Sweep& sweep) {
   std::ifstream file(path, std::ios::binary);
   std::string begin(header.size(), '\0');
   if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != header)
     return {};
+  const std::uint64_t size = sweep_size(sweep.plan());
+  const auto separators = static_cast<std::ptrdiff_t>(sweep_columns(sweep.plan()).size() - 1);
   Kept kept{0, header.size()};
   std::string line;
-  while (std::getline(file, line) && !file.eof()) {
+  // A disk that lost power may hold anything after the last row that it was sure of.
+  while (kept.rows < size && std::getline(file, line) && !file.eof() &&
+         line.starts_with(sweep.key_fields(kept.rows) + ",") &&
+         std::ranges::count(line, ',') == separators) {
     ++kept.rows;
     kept.bytes += line.size() + 1;
   }
   return kept;
 }
-
-/// A file that is appended to, every call checked.
-class Appended {
- public:
-  explicit Appended(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "ab")) {
-    if (!file_) fail();
-  }
-  void write(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
-  }
-  void flush() {
-    if (std::fflush(file_.get()) != 0) fail();
-  }
-
- private:
-  [[noreturn]] void fail() const {
-    throw_bad_input({path_.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
-  }
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  fs::path path_;
-  std::unique_ptr<std::FILE, Close> file_;
-};
 
 }  // namespace
 
@@ -94,31 +77,55 @@ std::uint64_t write_sweep(
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress) {
   const std::uint64_t size = sweep_size(sweep.plan());
   const std::string header = header_of(sweep.plan(), version);
-  if (const auto finished = kept_rows(path, header); finished && finished->rows == size) return 0;
+  if (const auto finished = kept_rows(path, header, sweep); finished && finished->rows == size)
+    return 0;
   const fs::path target = check_output_file(path);
   fs::path part = target;
   part += ".part";
-  auto kept = kept_rows(part, header);
-  if (kept) {
-    fs::resize_file(part, kept->bytes);  // a row that was cut off
-  } else {
-    write_file(part, header);
+  if (part.has_parent_path()) make_folder(part.parent_path());
+  const Descriptor file = open_and_lock(
+      part, "is held by another sweep into the same file; wait for it, or write elsewhere");
+  auto kept = kept_rows(part, header, sweep);
+  // A row that was cut off goes; so does what another plan has left.
+  if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
+    throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
+  if (!kept) {
+    append_to(file, header, part);
     kept = {0, header.size()};
   }
-  Appended file(part);
-  constexpr std::uint64_t kRowsBetweenFlushes = 64;
-  const std::uint64_t taken =
-      run_sweep(sweep, kept->rows, jobs, [&](std::uint64_t index, const std::string& row) {
-        file.write(row);
-        if (index % kRowsBetweenFlushes == 0) file.flush();
-        progress(index + 1, size);
-      });
-  file.flush();
+  // Rows that take long are not kept waiting for others.
+  constexpr std::size_t kBuffer = 1 << 16;
+  constexpr auto kLongest = std::chrono::seconds(1);
+  std::string waiting;
+  auto written_at = std::chrono::steady_clock::now();
+  const auto write = [&] {
+    append_to(file, waiting, part);
+    waiting.clear();
+    written_at = std::chrono::steady_clock::now();
+  };
+  const auto take = [&](std::uint64_t index, const std::string& row) {
+    waiting += row;
+    if (waiting.size() > kBuffer || std::chrono::steady_clock::now() - written_at > kLongest)
+      write();
+    progress(index + 1, size);
+  };
+  std::uint64_t taken = 0;
+  try {
+    taken = run_sweep(sweep, kept->rows, jobs, take);
+  } catch (...) {
+    write();  // what ends it, finished rows are kept
+    throw;
+  }
+  write();
   if (taken < size)
     throw Error(ExitCode::kInterrupted,
                 fmt::format("interrupted; {} of {} rows are kept in {}: the same command goes on",
                             taken, size, part.string()));
-  fs::rename(part, target);
+  sync_file(file, part);
+  std::error_code error;
+  fs::rename(part, target, error);
+  if (error)
+    throw_bad_input({target.string()}, fmt::format("cannot be written ({})", error.message()));
   sync_folder_of(target);
   return size - kept->rows;
 }

@@ -45,13 +45,22 @@ double Variation::value(std::uint64_t i) const {
   if (!values.empty()) return values[i];
   if (i == 0) return first;
   if (i + 1 == count) return last;
+  // In this form the middle of a range about 0 is 0.
+  if (!logarithmic)
+    return (first * static_cast<double>(count - 1 - i) + last * static_cast<double>(i)) /
+           static_cast<double>(count - 1);
   return at(static_cast<double>(i) / static_cast<double>(count - 1));
 }
 
 double Variation::at(double share) const {
   if (!values.empty())
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
-  return logarithmic ? first * std::pow(last / first, share) : std::lerp(first, last, share);
+  if (!logarithmic) return std::lerp(first, last, share);
+  // By the logarithms: the quotient of the ends may be no number. Rounding must not lead beyond them.
+  const double size =
+      std::exp(std::lerp(std::log(std::abs(first)), std::log(std::abs(last)), share));
+  const double a = std::abs(first), b = std::abs(last);
+  return std::copysign(std::clamp(size, std::min(a, b), std::max(a, b)), first);
 }
 
 Variation parse_variation(std::string_view text) {
@@ -80,7 +89,8 @@ Variation parse_variation(std::string_view text) {
   if (!(count >= 1 && count <= kMostValues && count == std::floor(count)))
     refuse(text, fmt::format("COUNT is {}, must be a whole number from 1 to 1e9", range.back()));
   variation.count = static_cast<std::uint64_t>(count);
-  if (variation.logarithmic && !(variation.first * variation.last > 0))
+  if (variation.logarithmic && (variation.first == 0 || variation.last == 0 ||
+                                std::signbit(variation.first) != std::signbit(variation.last)))
     refuse(text, "a logarithmic range must not reach 0 or change sign");
   return variation;
 }

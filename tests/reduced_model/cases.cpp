@@ -69,6 +69,28 @@ Fit leading_term_fit(double k) { return planted_fit(k, {1e-200, 1e20}, {{"1/q", 
 
 Fit shifted_fit(double k) { return planted_fit(k, {1e-200, 1e200}, {{"1/q", k, 0}, {"1", k, 0}}); }
 
+RandomCase random_case(std::mt19937_64& generator) {
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(generator);
+  };
+  const auto decades = [&](double from, double to) { return std::pow(10, uniform(from, to)); };
+  const double mass = decades(-5, 5);
+  std::vector<ExternalForce::Piece> pieces;
+  const int count = std::uniform_int_distribution(1, 7)(generator);
+  for (int i = 1; i <= count; ++i)
+    pieces.push_back({10.0 * i / count, mass * decades(-2, 2) * (uniform(0, 1) < 0.6 ? -1 : 1)});
+  Motion motion{mass, decades(-1, 1), uniform(-3, 1), 10, ExternalForce(pieces)};
+  if (uniform(0, 3) < 1)
+    motion.external_force += ExternalForce::sinusoidal(
+        {mass * decades(-2, 2), decades(-1, 1), uniform(0, 2 * std::numbers::pi)});
+  motion.contact_time_step = decades(-2, -1);
+  motion.reference_time_step = 0.1;
+  motion.inertial_relative_tolerance = 1e-9;
+  motion.threshold_gap = motion.initial_gap * uniform(0.01, 0.9);
+  if (uniform(0, 1) < 0.5) motion.roughness = {motion.threshold_gap * decades(-6, -1), 0};
+  return {motion, decades(-5, 5)};
+}
+
 const TrajectoryRow& lowest_row(const Trajectory& trajectory) {
   return *std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <random>
 #include <string_view>
 
 #include "fitting/fit.hpp"
@@ -35,6 +36,15 @@ Fit leading_term_fit(double k);
 
 /// R = k (1/q + 1), radius 1, for gaps in [1e-200, 1e200].
 Fit shifted_fit(double k);
+
+/// A motion and the k of its drag.
+struct RandomCase {
+  Motion motion;
+  double k;
+};
+
+/// Masses and viscosities over ten decades, up to six jumps of force over four and in every third case a sinusoid on top, half of the surfaces rough; until t = 10, steps of 0.01 to 0.1.
+RandomCase random_case(std::mt19937_64& generator);
 
 /// The first row of least gap.
 const TrajectoryRow& lowest_row(const Trajectory& trajectory);

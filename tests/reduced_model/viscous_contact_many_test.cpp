@@ -34,8 +34,8 @@ struct Column {
 constexpr Column kColumns[] = {{"minimal_gap", &ManyContacts::minimal_gap},
                                {"minimal_gap_time", &ManyContacts::minimal_gap_time},
                                {"lowest_gamma", &ManyContacts::lowest_gamma},
-                               {"contact_from", &ManyContacts::contact_from},
-                               {"contact_until", &ManyContacts::contact_until},
+                               {"first_contact", &ManyContacts::first_contact},
+                               {"last_contact", &ManyContacts::last_contact},
                                {"gap", &ManyContacts::gap},
                                {"velocity", &ManyContacts::velocity},
                                {"gamma", &ManyContacts::gamma}};
@@ -277,10 +277,10 @@ TEST(ManySpheres, AreThoseOfTheModelOfOne) {
       // One looks into the steps of impact and release, the other does not.
       ASSERT_TRUE(one.contact_interval);
       const double h = motion.contact_time_step;
-      EXPECT_GE(many.contact_from[0], (*one.contact_interval)[0]);
-      EXPECT_LE(many.contact_from[0], (*one.contact_interval)[0] + h);
-      EXPECT_LE(many.contact_until[0], (*one.contact_interval)[1]);
-      EXPECT_GE(many.contact_until[0], (*one.contact_interval)[1] - h);
+      EXPECT_GE(many.first_contact[0], (*one.contact_interval)[0]);
+      EXPECT_LE(many.first_contact[0], (*one.contact_interval)[0] + h);
+      EXPECT_LE(many.last_contact[0], (*one.contact_interval)[1]);
+      EXPECT_GE(many.last_contact[0], (*one.contact_interval)[1] - h);
     }
 }
 
@@ -294,8 +294,8 @@ TEST(ManySpheres, SayWhenThereIsNoContact) {
   EXPECT_EQ(contacts.minimal_gap_time[0], 0);
   EXPECT_GT(contacts.minimal_gap[1], 3);
   for (const std::size_t i : {0U, 1U}) {
-    EXPECT_TRUE(std::isnan(contacts.contact_from[i]));
-    EXPECT_TRUE(std::isnan(contacts.contact_until[i]));
+    EXPECT_TRUE(std::isnan(contacts.first_contact[i]));
+    EXPECT_TRUE(std::isnan(contacts.last_contact[i]));
     EXPECT_EQ(contacts.lowest_gamma[i], 0);
   }
 }

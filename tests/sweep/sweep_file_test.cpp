@@ -17,9 +17,7 @@
 namespace viscontact {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 constexpr std::uint64_t kRows = 20;

@@ -23,10 +23,8 @@ namespace viscontact {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -385,33 +383,33 @@ class RunSweep : public ::testing::Test {
   using Taken = std::vector<std::pair<std::uint64_t, std::string>>;
   /// The first rows take a hundred times as long as the last, which so are done first; more of them than any thread may run ahead.
   const Sweep sweep_{
-      varied(shipped("time_step.toml"), {"viscous_contact.time_step=3e-4:1e-1:log:400"})};
+      varied(shipped("time_step.toml"), {"viscous_contact.time_step=1e-3:1e-1:log:200"})};
   Taken run(std::uint64_t begin, int jobs) const {
     Taken taken;
     const auto end = run_sweep(
         sweep_, begin, jobs,
         [&](std::uint64_t index, const std::string& row) { taken.emplace_back(index, row); });
-    EXPECT_EQ(end, 400U);
+    EXPECT_EQ(end, 200U);
     return taken;
   }
 };
 
 TEST_F(RunSweep, HandsTheSameRowsOverInOrderOnAnyNumberOfThreads) {
   const auto one = run(0, 1);
-  ASSERT_EQ(one.size(), 400U);
+  ASSERT_EQ(one.size(), 200U);
   for (std::uint64_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].first, i);
-  for (const std::uint64_t i : {0U, 7U, 399U}) EXPECT_EQ(one[i].second, sweep_.row(i));
+  for (const std::uint64_t i : {0U, 7U, 199U}) EXPECT_EQ(one[i].second, sweep_.row(i));
   for (const int jobs : {2, 5}) EXPECT_EQ(run(0, jobs), one) << jobs;
 }
 
 TEST_F(RunSweep, BeginsWhereItIsTold) {
-  const auto taken = run(397, 2);
+  const auto taken = run(197, 2);
   ASSERT_EQ(taken.size(), 3U);
   for (std::uint64_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(taken[i].first, 397 + i);
-    EXPECT_EQ(taken[i].second, sweep_.row(397 + i));
+    EXPECT_EQ(taken[i].first, 197 + i);
+    EXPECT_EQ(taken[i].second, sweep_.row(197 + i));
   }
-  EXPECT_TRUE(run(400, 2).empty());
+  EXPECT_TRUE(run(200, 2).empty());
 }
 
 TEST_F(RunSweep, StopsWhenARowIsNotTaken) {
@@ -441,8 +439,6 @@ TEST(VanishingViscosity, MotionWithDragTendsToViscousContactLikeTwiceTheViscosit
     }
   }
   EXPECT_NEAR(sup.front() / mu.front(), 2, 0.03 * 2);
-  // What is left is of size mu ln(1/mu).
-  EXPECT_LT((2 - sup.front() / mu.front()) / (mu.front() * std::log(1 / mu.front())), 2.0);
 }
 
 TEST(VanishingViscosity, FilmIsThatOfTheFirstIntegral) {
@@ -450,8 +446,8 @@ TEST(VanishingViscosity, FilmIsThatOfTheFirstIntegral) {
     const double mu = number(row, "fluid.viscosity");
     const double time = number(row, "inertial.minimal_gap_time");
     EXPECT_GE(time, 2);
-    // u = 0 in mu ln q + m u = P(t); P = -4 at t = 2, and grows by 2 a unit. The relative tolerance 1e-10 is that of each step's ln q.
-    EXPECT_NEAR(mu * std::log(number(row, "inertial.minimal_gap")), -4 + 2 * (time - 2), 1e-9)
+    // u = 0 in mu ln q + m u = P(t); P = -4 at t = 2, and grows by 2 a unit. ln q is integrated to a relative 1e-10; mu ln q is -4.
+    EXPECT_NEAR(mu * std::log(number(row, "inertial.minimal_gap")), -4 + 2 * (time - 2), 4e-10)
         << mu;
     // The contact model: landing at t = 1 with all of the momentum, so P(2) too, and released when it is given back.
     EXPECT_NEAR(number(row, "viscous_contact_exact.contact_from"), 1, 4 * kEpsilon);
@@ -482,7 +478,7 @@ TEST(TimeStepStudy, SchemeIsOfFirstOrderForAForceThatJumps) {
   EXPECT_NEAR(order(h, sup), 1, 0.045);
   EXPECT_NEAR(order(h, l1), 1, 0.09);
   for (std::size_t i = 0; i < h.size(); ++i) {
-    // Forces up to 8 for a part of a step change a velocity, of size 1, by some h; so a landing's time and the way since.
+    // A force of up to 8 acts up to a step too early or too late: h times a velocity of size 1. Measured: 1.34 to 2.63.
     EXPECT_LT(sup[i] / h[i], 3) << h[i];
     EXPECT_GT(sup[i] / h[i], 1) << h[i];
   }
@@ -503,20 +499,20 @@ const LubricationForce& map_force() {
 TEST(RegimeMap, FilmIsThatOfTheFirstIntegralEverywhere) {
   auto plan = shipped("regime_map.toml");
   plan.samples = 60;
-  int in_push_again = 0;
+  int turned_late = 0;
   for (const auto& row : run_whole(plan)) {
     const double push = number(row, "motion.time_scale");
     const double time = number(row, "inertial.minimal_gap_time");
     // Drag does not push: the sphere comes to rest in the pull, which takes back at most what the push gave.
     ASSERT_TRUE(time >= push && time < 2 * push);
-    if (time > 1.01 * push) ++in_push_again;
+    if (time > 1.01 * push) ++turned_late;
     // m u + Gamma(q) = Gamma(1) + P, P = -T + (t - T), and u = 0. Relative tolerance 1e-9 of ln q, up to 30, k = 1.
     EXPECT_NEAR(map_force().impulse(number(row, "inertial.minimal_gap")),
                 map_force().impulse(1) + time - 2 * push, 1e-7)
         << number(row, "sphere.mass") << " " << push;
   }
-  EXPECT_GT(in_push_again, 10);  // of both regimes there are many
-  EXPECT_LT(in_push_again, 50);
+  EXPECT_GT(turned_late, 10);  // of both regimes there are many
+  EXPECT_LT(turned_late, 50);
 }
 
 TEST(RegimeMap, HeavyAndShortHardlyMoves) {
