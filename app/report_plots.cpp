@@ -292,12 +292,15 @@ std::string plot_minimal_gaps(const Comparison& comparison,
   constexpr double kClose = 1.3;  // an axis from 0 would hide the difference
   const bool close = high < kClose * low;
   const double span = std::max(high - low, 0.05 * high);
-  panel.settings = {
-      "set ytics (" + ticks + ")", fmt::format("set yrange [0.4:{}]", rows + 0.6), "set lmargin 38",
-      panel.x_log ? fmt::format("set xrange [{}:{}]\nset format x '1e%T'", low / 3, high * 3)
-      : close     ? fmt::format("set xrange [{}:{}]", low - span, high + span)
-                  : fmt::format("set xrange [0:{}]", high * 1.15),
-      kKeyBelow};
+  panel.settings = {"set ytics (" + ticks + ")",
+                    fmt::format("set yrange [0.4:{}]", rows + 0.6),
+                    "set lmargin 38",
+                    panel.x_log
+                        ? fmt::format("set xrange [{}:{}]\nset format x '1e%T'", low / 3, high * 3)
+                    : close ? fmt::format("set xrange [{}:{}]", low - span, high + span)
+                            : fmt::format("set xrange [0:{}]", high * 1.15),
+                    kKeyBelow,
+                    "set xlabel offset 0,0.2"};
   panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
   return draw_svg({panel}, kWidth, 160 + 34 * rows);
 }

@@ -94,8 +94,8 @@ ModelChoice find_model(std::string_view name) {
     return has_it;
   };
   for (int i = 0; i < 2; ++i) {  // in either order
-    choice.exact_drag = take(kExactDragSuffix) || choice.exact_drag;
-    choice.smooth = take(kSmoothSuffix) || choice.smooth;
+    choice.exact_drag = choice.exact_drag || take(kExactDragSuffix);
+    choice.smooth = choice.smooth || take(kSmoothSuffix);
   }
   const auto* found = find_named(kModels, name);
   if (found != nullptr && choice.smooth && found->contact == nullptr) found = nullptr;

@@ -102,5 +102,69 @@ TEST(Models, RunOnTheShippedLimitCase) {
     EXPECT_GT(simulate(find_model(name), limit_motion(), force).rows.size(), 6000U) << name;
 }
 
+TEST(Models, HaveBooksThatBalance) {
+  const auto force = LubricationForce::exact_plane(3, 1);
+  for (const auto& model : all_models()) {
+    Motion motion = lecture_motion();
+    motion.roughness = {0.05, 0};
+    const auto trajectory = simulate(model, motion, force);
+    const auto& books = trajectory.books.value();
+    const auto& last = trajectory.rows.back();
+    const double m = model.inertia ? motion.mass : 0;
+    // Up to 4000 steps of a few roundings of impulses of up to 400 and works of up to 1000.
+    EXPECT_NEAR(
+        books.external_impulse + books.film_impulse + books.drag_impulse + books.solid_impulse,
+        m * last.velocity, 1e-9)
+        << model.name;
+    EXPECT_NEAR(books.external_work + books.film_work + books.drag_work + books.solid_work,
+                m / 2 * last.velocity * last.velocity, 1e-9)
+        << model.name;
+    EXPECT_LE(books.drag_work, 0) << model.name;
+    EXPECT_LE(books.solid_work, 0) << model.name;
+    if (model.name.starts_with("viscous_contact") && model.name != "viscous_contact_exact") {
+      EXPECT_GT(books.solid_impulse, 0) << model.name;
+    }
+  }
+  // What drag takes is int R u^2: by rows, to second order in their spacing of 1e-3.
+  const auto rows = simulate(find_model("inertial"), lecture_motion(), force).rows;
+  double dissipated = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    dissipated += (rows[i].time - rows[i - 1].time) *
+                  (*rows[i].lubrication_force * rows[i].velocity +
+                   *rows[i - 1].lubrication_force * rows[i - 1].velocity) /
+                  2;
+  const auto books = simulate(find_model("inertial"), lecture_motion(), force).books.value();
+  EXPECT_NEAR(books.film_work / dissipated, 1, 1e-4);
+}
+
+TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {
+  Motion motion = lecture_motion();
+  motion.mass = 1e-300;
+  motion.external_force = ExternalForce({{4, 1e200}});
+  EXPECT_THAT(failure(ExitCode::kNotConverged,
+                      [&] {
+                        simulate(find_model("viscous_contact"), motion,
+                                 LubricationForce::exact_plane(3, 1));
+                      }),
+              HasSubstr("range of a double"));
+}
+
+TEST(Models, RunWithTheExactDragAndWithoutRoughnessByTheirSuffixes) {
+  Motion motion = lecture_motion();
+  motion.roughness = {0.05, 0};
+  const LubricationForce fitted(lecture_fit(), BelowInterval::kError, AboveInterval::kStokesLimit);
+  const auto film = [&](const char* name) {
+    return simulate(find_model(name), motion, fitted).recovered_minimal_gap.value();
+  };
+  EXPECT_NEAR(film("viscous_contact_threshold"), 0.05, 1e-14);
+  // Gamma and its inverse, at impulses of 400 over k = 57.
+  EXPECT_NEAR(film("viscous_contact_threshold_brenner_smooth") / kExactMinimalGap, 1,
+              2e-9);  // printed so
+  EXPECT_EQ(film("viscous_contact_threshold_brenner_smooth"),
+            film("viscous_contact_threshold_smooth_brenner"));
+  for (const auto* wrong : {"inertial_smooth", "brenner", "_brenner", "inertial_brenner_brenner"})
+    EXPECT_THAT(bad_input([&] { find_model(wrong); }), HasSubstr("there are"));
+}
+
 }  // namespace
 }  // namespace viscontact

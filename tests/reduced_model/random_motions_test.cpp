@@ -39,7 +39,8 @@ TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
     double impulse_scale = motion.mass * std::abs(motion.initial_velocity);
     for (std::size_t n = 0; n < trajectory.rows.size(); ++n) {
       const auto& row = trajectory.rows[n];
-      EXPECT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) && std::isfinite(*row.gamma));
+      EXPECT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) &&
+                  std::isfinite(*row.gamma));
       EXPECT_GE(row.gap, 0);
       EXPECT_LE(*row.gamma, 0);
       EXPECT_GE(*row.gamma, gamma_min);
@@ -52,8 +53,10 @@ TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
     const auto& books = trajectory.books.value();
     const double gained = motion.mass * (trajectory.rows.back().velocity - motion.initial_velocity);
     // A few roundings of the largest impulse for each event.
-    const double round_off = kEpsilon * 64 * impulse_scale * static_cast<double>(trajectory.steps + 1);
-    EXPECT_NEAR(books.external_impulse + books.film_impulse + books.solid_impulse, gained, round_off);
+    const double round_off =
+        kEpsilon * 64 * impulse_scale * static_cast<double>(trajectory.steps + 1);
+    EXPECT_NEAR(books.external_impulse + books.film_impulse + books.solid_impulse, gained,
+                round_off);
     EXPECT_GE(books.solid_impulse, -round_off);
     contacts += trajectory.contact_interval ? 1 : 0;
     solids += books.solid_impulse > round_off ? 1 : 0;
@@ -72,10 +75,12 @@ RandomCase resolvable_case(std::mt19937_64& generator) {
   std::vector<ExternalForce::Piece> pieces;
   const int count = std::uniform_int_distribution(1, 6)(generator);
   for (int j = 1; j <= count; ++j)
-    pieces.push_back({10.0 * j / count, k * std::pow(10, uniform(-2, 1.3)) * (uniform(0, 1) < 0.6 ? -1 : 1)});
+    pieces.push_back(
+        {10.0 * j / count, k * std::pow(10, uniform(-2, 1.3)) * (uniform(0, 1) < 0.6 ? -1 : 1)});
   motion.external_force = ExternalForce(pieces);
   if (uniform(0, 3) < 1)
-    motion.external_force += ExternalForce::sinusoidal({k * uniform(0, 20), std::pow(10, uniform(-1, 1)), uniform(0, 6)});
+    motion.external_force += ExternalForce::sinusoidal(
+        {k * uniform(0, 20), std::pow(10, uniform(-1, 1)), uniform(0, 6)});
   motion.initial_velocity = uniform(-1, 1) * std::min(3.0, 20 * k / motion.mass);
   return {motion, k};
 }
@@ -98,9 +103,11 @@ TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
       }
       const double momentum = start + motion.external_force.impulse(row.time);
       // ln q to ten times its tolerance moves Gamma by R q times that; the rest is rounding.
-      const double allowed = 1e-8 * force.resistance(row.gap) * row.gap +
-                             64 * kEpsilon * (std::abs(momentum) + std::abs(force.impulse(row.gap)));
-      EXPECT_NEAR(motion.mass * row.velocity + force.impulse(row.gap), momentum, allowed) << row.time;
+      const double allowed =
+          1e-8 * force.resistance(row.gap) * row.gap +
+          64 * kEpsilon * (std::abs(momentum) + std::abs(force.impulse(row.gap)));
+      EXPECT_NEAR(motion.mass * row.velocity + force.impulse(row.gap), momentum, allowed)
+          << row.time;
       thin += row.gap < 1e-6 ? 1 : 0;
     }
     if (HasFailure()) return;
@@ -121,7 +128,8 @@ TEST(RandomMotions, WithoutInertiaAreReversible) {
       there.push_back({static_cast<double>(j + 1), k * 20 * (uniform(generator) - 0.5)});
     auto both = there;
     for (int j = 0; j < count; ++j)
-      both.push_back({static_cast<double>(count + j + 1), -there[static_cast<std::size_t>(count - 1 - j)].value});
+      both.push_back({static_cast<double>(count + j + 1),
+                      -there[static_cast<std::size_t>(count - 1 - j)].value});
     Motion motion{1, std::pow(10, 2 * uniform(generator) - 1), 0, 2.0 * count, ExternalForce(both)};
     motion.reference_time_step = 0.25;
     const auto rows = simulate_reference_exact(motion, force).rows;

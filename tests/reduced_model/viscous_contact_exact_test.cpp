@@ -110,6 +110,52 @@ TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
   EXPECT_GT(halved, 0.9 * cases);
 }
 
+TEST(ViscousContactExact, IsReleasedByAForceThatTouchesZeroInTheMiddleOfItsPiece) {
+  // Pulled by (t - 4)^2 on [2, 6]: the impulse since t = 2 is ((t - 4)^3 + 8)/3, and 4 is given back at (t - 4)^3 = 4.
+  Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, 4, {-4, 1}}})};
+  motion.contact_time_step = 0.01;
+  const auto trajectory =
+      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)));
+  EXPECT_NEAR((*trajectory.contact_interval)[1], 4 + std::cbrt(4.0), 1e-13);
+  EXPECT_GT(trajectory.rows.back().gap, 0);
+}
+
+TEST(ViscousContactExact, SeesContactsOfAForceWhoseSignChangesTwiceInAMoment) {
+  // 1000 (t - 0.002)(t - 0.028) pushes for 0.026 of its 1: two roots closer than a 32nd.
+  Motion motion{1, 1e-9, 0, 1, ExternalForce({{1, 0.056, {-30, 1000}}})};
+  motion.contact_time_step = 1e-6;
+  const LubricationForce force(leading_term_fit(1e-9));
+  const auto exact = simulate_viscous_contact_exact(motion, force).contact_interval.value();
+  const auto scheme = simulate_viscous_contact(motion, force).contact_interval.value();
+  // First order: some steps of 1e-6.
+  EXPECT_NEAR(exact[0], scheme[0], 1e-5);
+  EXPECT_NEAR(exact[1], scheme[1], 1e-5);
+}
+
+TEST(ViscousContactExact, RecoversAFilmThatDoesNotDependOnItsRows) {
+  // Pushed by -2 cos t until pi/2, where gamma is least between two rows: m u + gamma = -2 sin t = -2.
+  ExternalForce force = ExternalForce::sinusoidal({-2, 1, std::acos(0.0)});
+  for (const double spacing : {1e-3, 0.03, 0.1}) {
+    Motion motion{1, 0.1, 0, 2, force};
+    motion.contact_time_step = spacing;
+    const auto film =
+        simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)))
+            .recovered_minimal_gap;
+    EXPECT_NEAR(std::log(film.value()), -20, 1e-12) << spacing;
+  }
+}
+
+TEST(ContactInterval, LastsWhileNothingPullsTheSphere) {
+  // No force from t = 2 on: gamma stays, and so does the sphere.
+  for (const double later : {0.0, -0.0}) {
+    Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, later}})};
+    motion.contact_time_step = 1e-3;
+    const LubricationForce force(leading_term_fit(0.1));
+    EXPECT_EQ((*simulate_viscous_contact(motion, force).contact_interval)[1], 6);
+    EXPECT_EQ((*simulate_viscous_contact_exact(motion, force).contact_interval)[1], 6);
+  }
+}
+
 TEST(InelasticContact, LeavesAsSoonAsItIsPulled) {
   const auto trajectory =
       simulate_inelastic_contact(limit_motion(), LubricationForce(leading_term_fit(0.1)));
