@@ -94,6 +94,19 @@ double Cvode::at(double time, std::size_t i) const {
   return values(interpolated_.get())[i];
 }
 
+std::vector<double> Cvode::expansion(std::size_t i) const {
+  int order = 0;
+  check(CVodeGetLastOrder(memory_, &order), "CVodeGetLastOrder");
+  std::vector<double> coefficients;
+  double factorial = 1;
+  for (int k = 0; k <= order; ++k) {
+    factorial *= std::max(1, k);
+    check(CVodeGetDky(memory_, time_, k, interpolated_.get()), "CVodeGetDky");
+    coefficients.push_back(values(interpolated_.get())[i] / factorial);
+  }
+  return coefficients;
+}
+
 void Cvode::check(int code, const char* call) const {
   if (code >= 0) return;
   const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), std::free);

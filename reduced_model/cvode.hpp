@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <sundials/sundials_context.hpp>
+#include <vector>
 
 namespace viscontact {
 
@@ -45,6 +46,9 @@ class Cvode {
 
   /// The state at a time within the last step, by CVODE's own polynomial. Component `i`.
   double at(double time, std::size_t i = 0) const;
+
+  /// The same polynomial's coefficients in powers of (time - time()), 2 to 6 of them: cheaper where many times are wanted.
+  std::vector<double> expansion(std::size_t i = 0) const;
 
   double time() const { return time_; }
   std::span<const double> state() const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
@@ -162,7 +163,17 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
       const auto instant_of = [&](double t, double s) {
         return velocity.at(t, std::exp(s), t == stop ? std::nextafter(stop, from) : t);
       };
-      const auto instant = [&](double t) { return instant_of(t, cvode.at(t)); };
+      // ln q in powers of t - end; worth the making where many rows lie in the step.
+      constexpr std::ptrdiff_t kManyRows = 8;
+      const bool many = times.end() - next_row > kManyRows && *(next_row + kManyRows) < end;
+      const std::vector<double> expansion = many ? cvode.expansion() : std::vector<double>();
+      const auto log_gap_at = [&](double t) {
+        if (!many) return cvode.at(t);
+        double s = 0;
+        for (std::size_t k = expansion.size(); k-- > 0;) s = s * (t - end) + expansion[k];
+        return s;
+      };
+      const auto instant = [&](double t) { return instant_of(t, log_gap_at(t)); };
       const auto add_rows_before = [&](double time) {
         for (; next_row != times.end() && *next_row < time; ++next_row)
           add_row(*next_row, instant(*next_row));

@@ -77,6 +77,12 @@ TEST(Cvode, SolvesAnOscillatorAlsoBetweenItsSteps) {
       EXPECT_NEAR(cvode.at(t, 0), std::cos(t), kReached);
       EXPECT_NEAR(cvode.at(t, 1), -std::sin(t), kReached);
     }
+    // The same polynomial in powers, each of its terms at most of size 1: a few roundings.
+    const auto expansion = cvode.expansion(0);
+    double value = 0;
+    for (std::size_t k = expansion.size(); k-- > 0;)
+      value = value * (begin - cvode.time()) / 2 + expansion[k];
+    EXPECT_NEAR(value, cvode.at(begin + (cvode.time() - begin) / 2, 0), 1e-14);
     begin = cvode.time();
   }
   EXPECT_EQ(cvode.time(), 3);
