@@ -21,7 +21,8 @@ namespace viscontact {
 /// A fall so fast that the film of thickness Gamma^{-1}(P) takes all of its momentum within 1e-12 of t, which no step can resolve, ends in that film at once.
 ///
 /// CVODE stops where f_ext or its slope jumps, and restarts. Rows: every motion.reference_time_step, those times, and the instants where
-/// u = 0 (extrema of q). A tenth of motion.inertial_relative_tolerance bounds the error of ln q in each step, which leaves room for their sum.
+/// u = 0 (extrema of q). A tenth of motion.inertial_relative_tolerance bounds the error of ln q in each step, which leaves room for their sum; where the film does not
+/// damp errors (in flight) it is 3e-4 of that, as a landing multiplies them.
 /// Throws Error(kNotConverged) if CVODE gives up, Error(kBadInput) when the motion leaves the fit's interval.
 Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force);
 
