@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "common/bisection.hpp"
 #include "common/csv.hpp"
 #include "common/error.hpp"
 
@@ -67,15 +68,6 @@ std::vector<double> shifted(std::vector<double> coefficients, double shift) {
   return coefficients;
 }
 
-/// When a condition that holds at `to`, and from some time on, begins to hold: to neighbouring numbers.
-template <class Condition>
-double first_time(double from, double to, const Condition& holds) {
-  for (double middle = from + (to - from) / 2; from < middle && middle < to;
-       middle = from + (to - from) / 2)
-    (holds(middle) ? to : from) = middle;
-  return to;
-}
-
 /// Where in (0, length) the polynomial's derivative is 0: between two of these it is monotone.
 std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
   if (coefficients.size() < 3) return {};
@@ -89,7 +81,7 @@ std::vector<double> turning_points(const std::vector<double>& coefficients, doub
   for (std::size_t n = 1; n < stops.size(); ++n) {
     const double before = at(derivative, stops[n - 1]), after = at(derivative, stops[n]);
     if (before * after < 0)
-      turns.push_back(first_time(stops[n - 1], stops[n], [&](double tau) {
+      turns.push_back(beginning_of(stops[n - 1], stops[n], [&](double tau) {
         return (at(derivative, tau) > 0) == (after > 0);
       }));
     else if (after == 0 && n + 1 < stops.size())
@@ -311,8 +303,8 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
       const double before = value_at(stops[n - 1]), after = value_at(stops[n]);
       if (before * after < 0) {
         const bool rises = after > 0;
-        look_at(first_time(stops[n - 1], stops[n],
-                           [&](double t) { return (value_at(t) > 0) == rises; }),
+        look_at(beginning_of(stops[n - 1], stops[n],
+                             [&](double t) { return (value_at(t) > 0) == rises; }),
                 after);
       }
       look_at(stops[n], after);

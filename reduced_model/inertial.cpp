@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/bisection.hpp"
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
 #include "reduced_model/cvode.hpp"
@@ -65,15 +66,6 @@ class Velocity {
   const LubricationForce& force_;
   double momentum_at_start_, tolerance_;
 };
-
-/// When a condition that holds at the end of a step, and not at its beginning, comes to hold: to neighbouring numbers.
-template <class Condition>
-double turning_time(double begin, double end, const Condition& holds) {
-  for (double middle = begin + (end - begin) / 2; begin < middle && middle < end;
-       middle = begin + (end - begin) / 2)
-    (holds(middle) ? end : begin) = middle;
-  return end;
-}
 
 /// Of the tolerance, in flight: where errors are not damped this often within the motion.
 constexpr double kFlightShare = 3e-4;
@@ -182,7 +174,7 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
       const double sign = std::abs(now.velocity) > now.error ? std::copysign(1.0, now.velocity) : 0;
       if (sign * last_sign < 0) {
         const double turn =
-            turning_time(begin, end, [&](double t) { return instant(t).velocity * sign > 0; });
+            beginning_of(begin, end, [&](double t) { return instant(t).velocity * sign > 0; });
         add_rows_before(turn);
         if (next_row == times.end() || *next_row != turn) add_row(turn, instant(turn));
       }

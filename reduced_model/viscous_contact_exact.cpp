@@ -4,19 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "common/bisection.hpp"
 #include "common/interrupt.hpp"
 
 namespace viscontact {
 namespace {
-
-/// Where a condition that holds at `to`, and from some time on, begins to hold: to neighbouring numbers.
-template <class Condition>
-double beginning(double from, double to, const Condition& holds) {
-  for (double middle = from + (to - from) / 2; from < middle && middle < to;
-       middle = from + (to - from) / 2)
-    (holds(middle) ? to : from) = middle;
-  return to;
-}
 
 /// The sphere since the last event.
 class EventDriven {
@@ -51,13 +43,13 @@ class EventDriven {
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
     // The velocity is monotone: the sphere turns once at most.
-    const double turn = falls(from_) == falls(to)
-                            ? to
-                            : beginning(from_, to, [&](double t) { return falls(t) == falls(to); });
+    const double turn = falls(from_) == falls(to) ? to : beginning_of(from_, to, [&](double t) {
+      return falls(t) == falls(to);
+    });
     double begin = from_;
     for (const double end : {turn, to}) {
       if (begin < end && gap(end) < 0 && falls(begin + (end - begin) / 2))
-        return land(beginning(begin, end, [&](double t) { return gap(t) < 0; }));
+        return land(beginning_of(begin, end, [&](double t) { return gap(t) < 0; }));
       begin = end;
     }
     move_to(to, std::max(0.0, gap(to)), velocity(to));
@@ -91,9 +83,9 @@ class EventDriven {
     const double end = gamma_ + push_until(to);
     double t = to;
     if (sign > 0 && end > 0)
-      t = beginning(from_, to, [&](double s) { return gamma_ + push_until(s) > 0; });
+      t = beginning_of(from_, to, [&](double s) { return gamma_ + push_until(s) > 0; });
     if (sign < 0 && gamma_ > gamma_min_ && end < gamma_min_)
-      t = beginning(from_, to, [&](double s) { return gamma_ + push_until(s) < gamma_min_; });
+      t = beginning_of(from_, to, [&](double s) { return gamma_ + push_until(s) < gamma_min_; });
     const double push = push_until(t);
     const double after = gamma(t);
     books_.external_impulse += push;
