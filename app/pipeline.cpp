@@ -42,6 +42,7 @@ bool up_to_date(const fs::path& path, const Test& test) {
 CsvComments trajectory_provenance(const Case& c, const std::string& fit_text) {
   CsvComments comments = {{"case", sha256(c.text)},
                           {"fit", sha256(fit_text)},
+                          {"revision of the models", std::to_string(kModelsRevision)},
                           {"version of Viscontact", VISCONTACT_VERSION}};
   std::string forces;
   for (const auto& file : c.force_files) forces += read_file(file);

@@ -24,6 +24,9 @@ struct TrajectoryRow {
   Maybe solid_force{};  ///< of the solids on each other, a contact model's, >= 0
 };
 
+/// Raised when the numbers of a model change: trajectories of another revision are made again.
+inline constexpr int kModelsRevision = 2;
+
 /// Rows in strictly increasing time, at least one, and what is known of how they were made.
 struct Trajectory {
   std::string model;

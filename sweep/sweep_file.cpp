@@ -15,6 +15,7 @@
 #include "common/file.hpp"
 #include "common/locked_file.hpp"
 #include "common/number.hpp"
+#include "reduced_model/trajectory.hpp"
 
 namespace viscontact {
 namespace {
@@ -41,6 +42,7 @@ std::string header_of(const SweepPlan& plan, const std::string& version) {
                              {"case", sha256(read_file(plan.case_path))},
                              {"fit", sha256(write_fit(plan.fit))},
                              {"reference", plan.reference},
+                             {"revision of the models", std::to_string(kModelsRevision)},
                              {"rows", std::to_string(sweep_size(plan))},
                              {"sweep", identity_of(plan)},
                              {"version of Viscontact", version}}) +
