@@ -48,19 +48,8 @@ std::string study_text(const std::string& name,
   return text;
 }
 
-/// The sweep that a case asks for, as `viscontact sweep` plans it.
-SweepPlan plan_of(const std::filesystem::path& path) {
-  const Case c = read_case(path);
-  SweepPlan plan;
-  plan.case_path = path;
-  const auto& fit = required_fit(c);
-  plan.fit = fit.exact ? exact_plane_fit(c.viscosity, c.radius) : read_fit(fit.file.value());
-  const auto& request = c.sweep.value();
-  for (const auto& text : request.vary) plan.variations.push_back(parse_variation(text));
-  plan.models = request.models;
-  plan.reference = request.reference;
-  return plan;
-}
+/// The sweep that a case asks for.
+SweepPlan plan_of(const std::filesystem::path& path) { return planned(read_case(path)); }
 
 SweepPlan shipped(const std::string& name) { return plan_of(data("cases/" + name)); }
 
