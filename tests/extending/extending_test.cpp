@@ -1,0 +1,131 @@
+// docs/extending.md, applied and built (CMakeLists.txt here), does what its text says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "common/file.hpp"
+#include "common/process.hpp"
+#include "fitting/force_table.hpp"
+#include "reduced_model/trajectory.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/brenner.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Replacement {
+  std::string key, value;
+};
+
+/// The lecture's case with other values of those keys.
+void write_case(const fs::path& path, std::initializer_list<Replacement> replacements) {
+  std::string text = read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/lecture.toml");
+  for (const auto& [key, value] : replacements) {
+    const auto begin = text.find("\n" + key + " = ") + 1;
+    ASSERT_NE(begin, 0U) << key;
+    text.replace(begin, text.find('\n', begin) - begin, key + " = " + value);
+  }
+  put_text(path, text);
+}
+
+void run_extended(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), VISCONTACT_EXTENDED);
+  const auto result = run_process(arguments);
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+}
+
+/// The table of a floor with that slip length in unbounded fluid, r = 1, at accuracy 1e-5.
+ForceTable slip_table(const fs::path& folder, const std::string& slip_length,
+                      const std::string& gaps) {
+  write_case(folder / "slip.toml",
+             {{"gaps", gaps},
+              {"container", "\"unbounded\""},
+              {"geometry", "{ kind = \"slip_plane\", slip_length = " + slip_length + " }"}});
+  run_extended({"tabulate", (folder / "slip.toml").string(), "-o", (folder / "slip.csv").string()});
+  return read_force_table(folder / "slip.csv");
+}
+
+TEST(ExtendedGeometry, LittleSlipIsNone) {
+  const TemporaryFolder folder;
+  const auto table = slip_table(folder.path(), "1e-8", "[0.01, 1.0]");
+  ASSERT_EQ(table.rows.size(), 2U);
+  for (const auto& row : table.rows)
+    EXPECT_NEAR(row.drag_factor / brenner_drag_factor(row.gap), 1, 1e-5) << row.gap;
+}
+
+TEST(ExtendedGeometry, MuchSlipIsAFreeSurface) {
+  const TemporaryFolder folder;
+  const auto table = slip_table(folder.path(), "1e8", "[0.01, 1.0]");
+  ASSERT_EQ(table.rows.size(), 2U);
+  for (const auto& row : table.rows)
+    EXPECT_NEAR(row.drag_factor / free_surface_drag_factor(row.gap), 1, 1e-5) << row.gap;
+}
+
+// Vinogradova 1995, one surface with slip; f(1) = 0.62942. Both drags have further terms of order ln(1/q): 3e-4 of the first at q = 1e-4, and the ratio
+// differs from f by less.
+TEST(ExtendedGeometry, DragInAFilmAsThickAsTheSlipLengthIsThatOfLubricationTheory) {
+  const TemporaryFolder folder;
+  const auto table = slip_table(folder.path(), "1e-4", "[1e-4]");
+  const double f = 0.25 + 3.0 / 8 * (1.25 * std::log(5.0) - 1);
+  EXPECT_NEAR(f, 0.62942, 1e-5);
+  EXPECT_NEAR(table.rows.at(0).drag_factor / brenner_drag_factor(1e-4), f, 5e-4);
+}
+
+TEST(ExtendedBasis, FindsTheSlipLengthFromATable) {
+  const TemporaryFolder folder;
+  slip_table(folder.path(), "1e-4", "{ from = 0.02, to = 1.0, count = 8, spacing = \"log\" }");
+  const auto fit_path = folder.path() / "slip.json";
+  run_extended({"fit", (folder.path() / "slip.csv").string(), "-o", fit_path.string(), "--basis",
+                "shifted"});
+  const std::string text = read_file(fit_path);
+  const auto coefficient = [&](const std::string& term) {
+    const auto name = text.find("\"name\": \"" + term + "\"");
+    const auto entry = text.rfind('{', name);
+    const std::string key = "\"coefficient\": ";
+    return std::stod(text.substr(text.find(key, entry) + key.size()));
+  };
+  EXPECT_NEAR(-coefficient("1/q^2") / coefficient("1/q"), 1e-4, 3e-6);
+}
+
+/// The smallest gap that a model finds in the lecture's case with the exact drag.
+double smallest_gap(const std::string& model, const std::string& time_step) {
+  const TemporaryFolder folder;
+  write_case(folder.path() / "case.toml",
+             {{"time_step", time_step}});  // the first one: [reference]
+  run_extended({"simulate", (folder.path() / "case.toml").string(), "--fit",
+                VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json", "-o",
+                (folder.path() / "run").string(), "--models", model + "_brenner"});
+  const auto trajectory =
+      read_trajectory(folder.path() / "run/trajectories" / (model + "_brenner.csv"));
+  double smallest = trajectory.rows.front().gap;
+  for (const auto& row : trajectory.rows) smallest = std::min(smallest, row.gap);
+  return smallest;
+}
+
+constexpr double kExactSmallestGap = 2.97084661e-3;  // docs/theory.md
+
+TEST(ExtendedModel, ReachesTheExactSmallestGap) {
+  EXPECT_NEAR(smallest_gap("reference_log", "1e-3") / kExactSmallestGap, 1, 1e-6);
+}
+
+TEST(ExtendedModel, IsOfSecondOrder) {
+  const double coarse = smallest_gap("reference_log", "0.02") - kExactSmallestGap;
+  const double fine = smallest_gap("reference_log", "0.01") - kExactSmallestGap;
+  // The next term of the error is of order h relative to it.
+  EXPECT_NEAR(coarse / fine, 4, 0.1);
+}
+
+TEST(ExtendedModel, StaysAboveThePlaneWhereExplicitEulerGoesThrough) {
+  EXPECT_GT(smallest_gap("reference_log", "0.5"), 0);
+}
+
+}  // namespace
+}  // namespace viscontact
