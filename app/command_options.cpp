@@ -32,6 +32,14 @@ void check_outputs(const std::vector<std::string>& paths) {
 
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
+CLI::Validator one_of(std::vector<std::string> words) {
+  return CLI::IsMember(std::move(words)).description("");
+}
+
+CLI::Option* add_json(CLI::App& command, bool& json) {
+  return command.add_flag("--json", json, "print the table as JSON");
+}
+
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
   return command.add_option("-j,--jobs", jobs, help)
       ->check(CLI::Range(1, 1024))

@@ -8,6 +8,23 @@
 
 namespace viscontact {
 
+// Type names of options: by them --help, the manual and the shells' completion know what goes there. Words to choose from are "word|word".
+inline constexpr const char* kFile = "FILE";
+inline constexpr const char* kFolder = "DIR";
+inline constexpr const char* kModel = "MODEL";
+inline constexpr const char* kModels = "MODEL,...";
+
+/// "word|word" of the names in a table.
+template <class Table>
+std::string words_of(const Table& table) {
+  std::string words;
+  for (const auto& row : table) words += (words.empty() ? "" : "|") + std::string(row.name);
+  return words;
+}
+
+/// Refuses what is none of the words; --help has them in the type name.
+CLI::Validator one_of(std::vector<std::string> words);
+
 /// An output that is there already is replaced only if it is of the same kind: its text has the
 /// marker. Throws Error(kBadInput) otherwise.
 void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind);
@@ -20,5 +37,8 @@ int default_jobs();
 
 /// The option -j, --jobs into `jobs`.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
+
+/// The flag --json into `json`.
+CLI::Option* add_json(CLI::App& command, bool& json);
 
 }  // namespace viscontact

@@ -1,9 +1,15 @@
 #include "app/doctor.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
 
+#include "app/progress.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/process.hpp"
@@ -12,14 +18,16 @@
 namespace viscontact {
 namespace {
 
-bool line(bool good, const std::string& what) {
-  fmt::print("{} {}\n", good ? "ok     " : "MISSING", what);
-  return good;
-}
+struct Finding {
+  bool good;
+  std::string what;
+};
+
+using Report = std::function<void(const Finding&)>;
 
 /// A row of which the exact value is known: gap 0.1 below a sphere of radius 1 in a container so
 /// wide that it does not matter at 1e-4 (Brenner 1961: 11.45915720340955722964).
-bool solve_known_row(const FreeFem& freefem) {
+Finding solve_known_row(const FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;
   Tabulation tabulation;
@@ -28,38 +36,55 @@ bool solve_known_row(const FreeFem& freefem) {
   tabulation.relative_accuracy = kTolerance;
   const auto row = solve_row(freefem, tabulation, 0.1, -1);
   const double error = std::abs(row.drag_factor / kBrenner - 1);
-  return line(
-      error < kTolerance,
-      fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
-                  row.drag_factor, error, row.seconds));
+  return {error < kTolerance,
+          fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
+                      row.drag_factor, error, row.seconds)};
 }
 
-bool examine_freefem() {
+void examine_freefem(const Report& report) {
   try {
     const auto freefem = default_freefem();
-    line(true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
-                           freefem.executable, freefem.script_folder.string()));
-    return solve_known_row(freefem);
+    report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
+                              freefem.executable, freefem.script_folder.string())});
+    report(solve_known_row(freefem));
   } catch (const Error& error) {
     if (error.exit_code() == ExitCode::kInterrupted) throw;
-    return line(false, error.what());
+    report({false, error.what()});
   }
 }
 
-bool examine_gnuplot() {
+Finding examine_gnuplot() {
   const auto gnuplot = run_process({"gnuplot", "--version"});
   if (!gnuplot.started || gnuplot.exit_status != 0)
-    return line(false, "gnuplot, for the report's plots; apt-get install gnuplot-nox");
-  return line(true, gnuplot.output.substr(0, gnuplot.output.find('\n')));
+    return {false, "gnuplot, for the report's plots; apt-get install gnuplot-nox"};
+  return {true, gnuplot.output.substr(0, gnuplot.output.find('\n'))};
+}
+
+void print_line(const Finding& finding) {
+  const auto word = finding.good ? coloured("ok     ", Colour::kGreen, STDOUT_FILENO)
+                                 : coloured("MISSING", Colour::kRed, STDOUT_FILENO);
+  fmt::print("{} {}\n", word, finding.what);
 }
 
 }  // namespace
 
-bool examine() {
+bool examine(bool json) {
+  std::vector<Finding> findings;
+  const Report report = [&](const Finding& finding) {
+    findings.push_back(finding);
+    if (!json) print_line(finding);
+  };
   for (const auto& [program, version] : library_versions())
-    line(true, fmt::format("{} {}", program, version));
-  const bool has_gnuplot = examine_gnuplot();
-  return examine_freefem() && has_gnuplot;
+    report({true, fmt::format("{} {}", program, version)});
+  report(examine_gnuplot());
+  examine_freefem(report);
+  if (json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& finding : findings)
+      all.push_back({{"ok", finding.good}, {"what", finding.what}});
+    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+  return std::ranges::all_of(findings, &Finding::good);
 }
 
 }  // namespace viscontact

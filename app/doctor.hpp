@@ -3,8 +3,8 @@
 
 namespace viscontact {
 
-/// Prints what is there to standard output, one line each, and solves a small problem with FreeFEM
+/// Prints what is there to standard output, one line each or as JSON, and solves a small problem with FreeFEM
 /// against Brenner's exact value. True if nothing is missing.
-bool examine();
+bool examine(bool json);
 
 }  // namespace viscontact

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 
 #include "app/command_options.hpp"
 #include "app/pipeline.hpp"
+#include "app/provenance.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/named.hpp"
@@ -29,31 +31,46 @@ void read_fix(const std::string& word, FitSettings& settings) {
         fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
 }
 
+TextKind kind_of_target(const std::string& target) {
+  static const std::map<std::string, TextKind> kinds = {{"c-header", TextKind::kC},
+                                                        {"fortran", TextKind::kFortran},
+                                                        {"python", TextKind::kHashComment},
+                                                        {"json", TextKind::kJson},
+                                                        {"csv", TextKind::kHashComment}};
+  return kinds.at(target);
+}
+
 }  // namespace
 
 void add_fit(CLI::App& app) {
   struct Options {
     std::string table, fit, basis = "lecture", terms, weights = "relative", loss = "none", fix,
                             plot;
-    bool compare_bases = false;
+    bool compare_bases = false, json = false;
   };
   auto* command = app.add_subcommand("fit", "least squares of a table");
   auto o = std::make_shared<Options>();
-  command->add_option("TABLE", o->table, "table of forces (CSV)")->required();
-  auto* output = command->add_option("-o,--output", o->fit, "fit to write (JSON)");
-  auto* basis = command->add_option("--basis", o->basis, "one of: " + names_of(all_bases()))
+  command->add_option("TABLE", o->table, "table of forces (CSV)")
+      ->required()
+      ->type_name(kFile);
+  auto* output = command->add_option("-o,--output", o->fit, "fit to write (JSON)")->type_name(kFile);
+  auto* basis = command->add_option("--basis", o->basis, "terms of the formula")
+                    ->type_name(words_of(all_bases()))
                     ->capture_default_str();
   auto* terms =
       command
           ->add_option("--terms", o->terms,
                        "a basis of your own: comma-separated, of: " + names_of(all_terms()))
+          ->type_name("TERM,...")
           ->excludes(basis);
   command->add_option("--weights", o->weights, "residuals: relative to the force, or absolute")
+      ->type_name("relative|absolute")
       ->capture_default_str();
   command
       ->add_option("--loss", o->loss,
                    "how large residuals count: none (least squares), or robust: huber, cauchy; "
                    "names the outliers")
+      ->type_name("none|huber|cauchy")
       ->capture_default_str();
   auto* fix =
       command
@@ -61,11 +78,13 @@ void add_fit(CLI::App& app) {
                        "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE")
           ->expected(0, 1)
           ->type_name("[1/q[=VALUE]]");
-  command->add_flag("--compare-bases", o->compare_bases,
-                    "print every basis side by side, and draw their residuals");
+  auto* bases = command->add_flag("--compare-bases", o->compare_bases,
+                                  "print every basis side by side, and draw their residuals");
+  add_json(*command, o->json)->needs(bases);
   command->add_option("--plot", o->plot,
                       "picture of --compare-bases (SVG); default: beside the fit, or the table's "
-                      "name with .bases.svg here");
+                      "name with .bases.svg here")
+      ->type_name(kFile);
   command->callback([o, output, terms, fix] {
     FitSettings settings;
     settings.basis = terms->count() == 0 ? find_basis(o->basis) : parse_terms(o->terms);
@@ -87,9 +106,9 @@ void add_fit(CLI::App& app) {
     if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
     if (o->compare_bases) {
       refuse_other_kind(plot.string(), "<svg", "picture");
-      compare_bases_stage(o->table, settings, plot);
+      compare_bases_stage(o->table, settings, plot, o->json);
     }
-    if (output->count() > 0) fit_stage(o->table, o->fit, settings);
+    if (output->count() > 0) fit_stage(o->table, o->fit, settings, provenance_of({{o->table}, {}}));
   });
 }
 
@@ -103,10 +122,13 @@ void add_export(CLI::App& app) {
   for (const auto& target : export_targets())
     targets +=
         fmt::format("{}{} ({})", targets.empty() ? "" : ", ", target.name, target.description);
-  command->add_option("FIT", o->fit, "fit (JSON)")->required();
-  command->add_option("--to", o->target, targets)->required();
+  command->add_option("FIT", o->fit, "fit (JSON)")->required()->type_name(kFile);
+  command->add_option("--to", o->target, targets)
+      ->required()
+      ->type_name(words_of(export_targets()));
   auto* output =
-      command->add_option("-o,--output", o->output, "file to write; default: standard output");
+      command->add_option("-o,--output", o->output, "file to write; default: standard output")
+          ->type_name(kFile);
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});
@@ -120,7 +142,7 @@ void add_export(CLI::App& app) {
       throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
-      write_file(o->output, text);
+      write_output(o->output, kind_of_target(o->target), text, provenance_of({{o->fit}, {}}));
     else
       fmt::print("{}", text);
   });

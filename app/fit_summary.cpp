@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "app/gnuplot.hpp"
 
@@ -64,6 +65,15 @@ std::string basis_table(const std::vector<BasisResult>& results) {
   }
   if (const auto* best = best_basis(results)) text += fmt::format("least AICc: {}\n", best->basis);
   return text;
+}
+
+std::string basis_json(const std::vector<BasisResult>& results) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& result : results)
+    json.push_back(result.fit ? nlohmann::ordered_json::parse(write_fit(*result.fit))
+                              : nlohmann::ordered_json(
+                                    {{"basis", result.basis}, {"failure", result.failure}}));
+  return json.dump(2) + "\n";
 }
 
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results) {

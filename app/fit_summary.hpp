@@ -14,6 +14,9 @@ std::string fit_in_words(const Fit& fit);
 /// A table of lines, one a basis, and a line that names the best.
 std::string basis_table(const std::vector<BasisResult>& results);
 
+/// The same as JSON: a list of objects, each the fit file of a basis, or "basis" and "failure".
+std::string basis_json(const std::vector<BasisResult>& results);
+
 /// Relative residuals of every basis over the gap, beside the table's error estimates, as SVG. Throws Error(kExternalProgram) as draw_svg.
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results);
 

@@ -9,11 +9,15 @@
 #include <new>
 
 #include "app/command_options.hpp"
+#include "app/completion.hpp"
 #include "app/doctor.hpp"
 #include "app/fit_command.hpp"
+#include "app/init_command.hpp"
+#include "app/manual.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
+#include "app/rerun.hpp"
 #include "app/run_folder.hpp"
 #include "app/sweep_command.hpp"
 #include "app/tabulate_command.hpp"
@@ -41,10 +45,16 @@ void add_shift(CLI::App& app) {
   auto* command = app.add_subcommand(
       "shift", "the depth at which a smooth wall drags like a rough one, from its table");
   auto o = std::make_shared<Options>();
-  command->add_option("TABLE", o->table, "the rough wall's table (CSV)")->required();
-  command->add_option("--fit", o->fit, "fit of the smooth wall's force (JSON)")->required();
-  command->add_option("-o,--output", o->shift, "shifts to write, row by row (CSV)")->required();
-  command->add_option("--plot", o->plot, "picture to write (SVG)");
+  command->add_option("TABLE", o->table, "the rough wall's table (CSV)")
+      ->required()
+      ->type_name(kFile);
+  command->add_option("--fit", o->fit, "fit of the smooth wall's force (JSON)")
+      ->required()
+      ->type_name(kFile);
+  command->add_option("-o,--output", o->shift, "shifts to write, row by row (CSV)")
+      ->required()
+      ->type_name(kFile);
+  command->add_option("--plot", o->plot, "picture to write (SVG)")->type_name(kFile);
   command->callback([o] {
     auto outputs = std::vector{o->shift};
     if (!o->plot.empty()) outputs.push_back(o->plot);
@@ -64,23 +74,27 @@ void add_simulate(CLI::App& app) {
   };
   auto* command = app.add_subcommand("simulate", "one trajectory for each model of motion");
   auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required();
-  command->add_option("--fit", o->fit, "fit of the lubrication force (JSON)")->required();
+  command->add_option("CASE", o->case_file, "case file (TOML)")->required()->type_name(kFile);
+  command->add_option("--fit", o->fit, "fit of the lubrication force (JSON)")
+      ->required()
+      ->type_name(kFile);
   command
       ->add_option("-o,--output", o->folder,
                    "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
-      ->required();
+      ->required()
+      ->type_name(kFolder);
   command
       ->add_option("--models", o->models,
                    "comma-separated; default: the case's, or all of: " + names_of(all_models()))
+      ->type_name(kModels)
       ->delimiter(',');
   auto* limit = command
                     ->add_option("--lubrication-limit", o->lubrication_limit,
                                  "below the fit's smallest gap let the drag grow as k/q instead of "
                                  "stopping; k: fitted (default), or theory's")
-                    ->check(CLI::IsMember({"fitted", "theory"}))
+                    ->check(one_of({"fitted", "theory"}))
                     ->expected(0, 1)
-                    ->type_name("[fitted|theory]");
+                    ->type_name("fitted|theory");
   command->add_flag("--stokes-limit", o->stokes_limit,
                     "above the fit's largest gap let the drag fall to Stokes' instead of stopping");
   command->callback([o, limit] {
@@ -88,8 +102,12 @@ void add_simulate(CLI::App& app) {
     const auto below = limit->count() == 0                ? BelowInterval::kError
                        : o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
                                                           : BelowInterval::kLubricationLimit;
-    simulate_stage(read_case(o->case_file), o->fit, o->folder, o->models, below,
-                   o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError);
+    const Case c = read_case(o->case_file);
+    auto inputs = files_of_motion(c);
+    inputs.emplace_back(o->fit);
+    simulate_stage(c, o->fit, o->folder, o->models, below,
+                   o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError,
+                   provenance_of({inputs, {}}));
   });
 }
 
@@ -97,23 +115,30 @@ void add_compare(CLI::App& app) {
   struct Options {
     std::string folder, reference = "inertial", output;
     std::vector<std::string> others;
+    bool json = false;
   };
   auto* command = app.add_subcommand(
       "compare", "distances between trajectories, smallest gaps, times of contact");
   auto o = std::make_shared<Options>();
   command->add_option("DIR", o->folder, "folder of a run, or with trajectory files in it")
-      ->required();
+      ->required()
+      ->type_name(kFolder);
   command->add_option("TRAJECTORY", o->others,
-                      "further trajectory files (CSV with columns time, gap, velocity)");
+                      "further trajectory files (CSV with columns time, gap, velocity)")
+      ->type_name(kFile);
   command->add_option("--reference", o->reference, "model that the others are compared with")
+      ->type_name(kModel)
       ->capture_default_str();
   command->add_option("-o,--output", o->output,
-                      "comparison to write (JSON); default: DIR/comparison.json");
+                      "comparison to write (JSON); default: DIR/comparison.json")
+      ->type_name(kFile);
+  add_json(*command, o->json);
   command->callback([o] {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
     refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
-    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output);
+    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output,
+                  {}, o->json);
   });
 }
 
@@ -121,7 +146,7 @@ void add_report(CLI::App& app) {
   auto* command =
       app.add_subcommand("report", "report.html: one self-contained page with the plots");
   auto folder = std::make_shared<std::string>();
-  command->add_option("DIR", *folder, "folder of a run")->required();
+  command->add_option("DIR", *folder, "folder of a run")->required()->type_name(kFolder);
   command->callback([folder] { write_report(*folder); });
 }
 
@@ -129,25 +154,48 @@ void add_run(CLI::App& app) {
   struct Options {
     std::string case_file, folder;
     int jobs = default_jobs();
+    bool json = false;
   };
   auto* command =
       app.add_subcommand("run", "the main job: tabulate, fit, simulate, compare, report");
   auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required();
+  command->add_option("CASE", o->case_file, "case file (TOML)")->required()->type_name(kFile);
   command
       ->add_option("-o,--output", o->folder,
                    "folder for the results; what is up to date there is not made again")
-      ->required();
+      ->required()
+      ->type_name(kFolder);
   add_jobs(*command, o->jobs, "FreeFEM processes at once");
+  add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
-    run_stages(read_case(o->case_file), o->folder, o->jobs);
+    run_stages(read_case(o->case_file), o->folder, o->jobs, o->json);
+  });
+}
+
+/// The commands that write themselves out of the command line that all are in.
+void add_self_description(CLI::App& app) {
+  auto* completion = app.add_subcommand(
+      "completion", "completion for a shell: source <(viscontact completion bash)");
+  auto shell = std::make_shared<std::string>();
+  completion->add_option("SHELL", *shell, "for which shell")
+      ->required()
+      ->type_name("bash|zsh")
+      ->check(one_of({"bash", "zsh"}));
+  completion->callback([&app, shell] {
+    fmt::print("{}", *shell == "zsh" ? zsh_completion(app) : bash_completion(app));
+  });
+  app.add_subcommand("man", "the manual page: viscontact man | man -l -")->callback([&app] {
+    fmt::print("{}", manual(app, VISCONTACT_VERSION));
   });
 }
 
 void add_doctor(CLI::App& app, bool& healthy) {
-  app.add_subcommand("doctor", "what is installed, and how to mend what is not")
-      ->callback([&healthy] { healthy = examine(); });
+  auto* command =
+      app.add_subcommand("doctor", "what is installed, and how to mend what is not");
+  auto json = std::make_shared<bool>(false);
+  add_json(*command, *json);
+  command->callback([&healthy, json] { healthy = examine(*json); });
 }
 
 int run(int argc, char** argv) {
@@ -157,6 +205,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text,
                        "versions of Viscontact and of what it is built with");
   bool healthy = true;
+  app.footer(help_footer());
+  add_init(app);
   add_run(app);
   add_tabulate(app);
   add_fit(app);
@@ -166,12 +216,14 @@ int run(int argc, char** argv) {
   add_sweep(app);
   add_compare(app);
   add_report(app);
+  add_rerun(app);
   add_doctor(app, healthy);
+  add_self_description(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    say(fmt::format("viscontact: {}; see viscontact --help", error.what()));
+    complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));
     return static_cast<int>(ExitCode::kWrongUsage);
   }
   return static_cast<int>(healthy ? ExitCode::kDone : ExitCode::kExternalProgram);
@@ -191,15 +243,15 @@ int main(int argc, char** argv) {
   } catch (const viscontact::Error& error) {
     viscontact::clear_progress();
     const bool wrong_usage = error.exit_code() == ExitCode::kWrongUsage;
-    viscontact::say(fmt::format("viscontact: {}{}", error.what(),
+    viscontact::complain(fmt::format("viscontact: {}{}", error.what(),
                                 wrong_usage ? "; see viscontact --help" : ""));
     return static_cast<int>(error.exit_code());
   } catch (const std::bad_alloc&) {
-    viscontact::say("viscontact: there is not enough memory for this");
+    viscontact::complain("viscontact: there is not enough memory for this");
     return static_cast<int>(ExitCode::kNotConverged);
   } catch (const std::exception& error) {
     // The file system or a library, in a way that no check foresaw.
-    viscontact::say(fmt::format("viscontact: {}", error.what()));
+    viscontact::complain(fmt::format("viscontact: {}", error.what()));
     return static_cast<int>(ExitCode::kBadInput);
   }
 }

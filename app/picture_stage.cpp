@@ -8,8 +8,8 @@
 
 #include "app/flow_plots.hpp"
 #include "app/progress.hpp"
+#include "app/provenance.hpp"
 #include "common/error.hpp"
-#include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/number.hpp"
 
@@ -48,8 +48,9 @@ std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
 }
 
 void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
-                   const std::filesystem::path& folder) {
+                   const std::filesystem::path& folder, const std::filesystem::path& case_file) {
   const auto freefem = default_freefem();
+  const auto provenance = provenance_of({{case_file}, {}});
   for (const double gap : gaps) {
     throw_if_interrupted();
     show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
@@ -59,10 +60,10 @@ void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps
     const auto path = [&](const char* end) {
       return folder / (fmt::format("gap_{:.7g}", gap) + end);
     };
-    write_file(path("_mesh.svg"), plot_mesh(picture, tabulation));
-    write_file(path("_flow.svg"), plot_flow(picture, tabulation));
-    write_file(path("_film.svg"), plot_gap_flow(picture, tabulation));
-    write_file(path(".vtu"), write_vtu(picture.flow));
+    write_output(path("_mesh.svg"), TextKind::kSvg, plot_mesh(picture, tabulation), provenance);
+    write_output(path("_flow.svg"), TextKind::kSvg, plot_flow(picture, tabulation), provenance);
+    write_output(path("_film.svg"), TextKind::kSvg, plot_gap_flow(picture, tabulation), provenance);
+    write_output(path(".vtu"), TextKind::kXml, write_vtu(picture.flow), provenance);
     clear_progress();
     say(fmt::format("tabulate: {}", path("_{mesh,flow,film}.svg, .vtu").string()));
   }

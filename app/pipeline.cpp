@@ -7,6 +7,7 @@
 #include "app/comparison_table.hpp"
 #include "app/fit_summary.hpp"
 #include "app/progress.hpp"
+#include "app/provenance.hpp"
 #include "app/report.hpp"
 #include "app/run_folder.hpp"
 #include "app/shift_plot.hpp"
@@ -39,7 +40,7 @@ bool up_to_date(const fs::path& path, const Test& test) {
 }
 
 /// What identifies the inputs of a trajectory, in its "# key: value" lines.
-CsvComments trajectory_provenance(const Case& c, const std::string& fit_text) {
+CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text) {
   CsvComments comments = {{"case", sha256(c.text)},
                           {"fit", sha256(fit_text)},
                           {"revision of the models", std::to_string(kModelsRevision)},
@@ -67,14 +68,15 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
 
 /// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
 void write_uncertainty_file(const Motion& motion, const Fit& fit, BelowInterval below,
-                            AboveInterval above, const fs::path& path) {
+                            AboveInterval above, const fs::path& path, const Provenance& provenance) {
   constexpr std::size_t kTimes = 81;
   try {
-    write_file(path, write_uncertainty(propagate_fit(motion, fit, kTimes, below, above)));
+    write_output(path, TextKind::kJson,
+                 write_uncertainty(propagate_fit(motion, fit, kTimes, below, above)), provenance);
   } catch (const Error& error) {
     if (error.exit_code() != ExitCode::kNotConverged) throw;
     fs::remove(path);
-    say(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
+    warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
                     error.what()));
   }
 }
@@ -87,7 +89,7 @@ void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
       if (!trajectory.provenance.contains(key)) continue;  // a user's own
       if (first == nullptr) first = &trajectory;
       if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
-      say(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
+      warn(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
                       trajectory.model, key));
       break;
     }
@@ -132,6 +134,12 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
 
 }  // namespace
 
+std::vector<fs::path> files_of_motion(const Case& c) {
+  std::vector<fs::path> files = {c.path};
+  files.insert(files.end(), c.force_files.begin(), c.force_files.end());
+  return files;
+}
+
 Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSettings& settings) {
   try {
     Fit fit = fit_force_table(table, settings);
@@ -143,35 +151,38 @@ Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSetti
   }
 }
 
-void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings) {
+void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings,
+               const Provenance& provenance) {
   const auto table = read_force_table(table_path);
   throw_if_interrupted();
   const Fit fit = fit_file(table_path, table, settings);
   throw_if_interrupted();
   for (const auto& warning : fit.diagnostics->warnings)
-    say(fmt::format("fit: warning: {}", warning));
+    warn(fmt::format("fit: warning: {}", warning));
   const std::string text = write_fit(fit);
-  if (up_to_date(fit_path, [&] { return read_file(fit_path) == text; })) {
+  if (up_to_date(fit_path, [&] { return without_provenance(read_file(fit_path)) == text; })) {
     say(fmt::format("fit: {} is up to date", fit_path.string()));
     return;
   }
-  write_file(fit_path, text);
+  write_output(fit_path, TextKind::kJson, text, provenance);
   say(fit_in_words(fit));
 }
 
 void compare_bases_stage(const fs::path& table_path, const FitSettings& settings,
-                         const fs::path& plot_path) {
+                         const fs::path& plot_path, bool json) {
+  const auto provenance = provenance_of({{table_path}, {}});
   const auto table = read_force_table(table_path);
   const auto results = compare_bases(table, settings);
   if (std::ranges::none_of(results,
                            [](const BasisResult& result) { return result.fit.has_value(); }))
     throw_bad_input({table_path.string()}, results.front().failure);
-  write_file(plot_path, plot_bases(table, results));
-  fmt::print("{}", basis_table(results));
+  write_output(plot_path, TextKind::kSvg, plot_bases(table, results), provenance);
+  fmt::print("{}", json ? basis_json(results) : basis_table(results));
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
                  const fs::path& plot_path) {
+  const auto provenance = provenance_of({{table_path, fit_path}, {}});
   const auto rough = read_force_table(table_path);
   WallShift shift;
   try {
@@ -197,14 +208,15 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   const std::string picture =
       plot_path.empty() ? ""
                         : plot_wall_shift(shift, rough.geometry);  // before anything is written
-  write_file(shift_path, text);
-  if (!plot_path.empty()) write_file(plot_path, picture);
+  write_output(shift_path, TextKind::kHashComment, text, provenance);
+  if (!plot_path.empty()) write_output(plot_path, TextKind::kSvg, picture, provenance);
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
 }
 
 void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
-                    std::vector<std::string> models, BelowInterval below, AboveInterval above) {
+                    std::vector<std::string> models, BelowInterval below, AboveInterval above,
+                    const Provenance& provenance) {
   const auto& motion = required_motion(c);
   const std::string fit_text = read_file(fit_path);
   const Fit fit = read_fit(fit_path);
@@ -227,57 +239,63 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
   for (const auto& name : models_to_run(c, std::move(models))) {
     throw_if_interrupted();
     trajectories.push_back(simulate(find_model(name), motion, force));
-    trajectories.back().provenance = trajectory_provenance(c, fit_text);
+    trajectories.back().provenance = identity_of_trajectory(c, fit_text);
     trajectories.back().provenance["time_step"] = time_step_of(name, motion);
   }
   const RunFolder run{folder};
   for (const auto& trajectory : trajectories)
-    write_file(run.trajectory(trajectory.model), write_trajectory(trajectory));
+    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
+                 write_trajectory(trajectory), provenance);
   write_file(run.case_file(), c.text);
   for (const auto& file : c.force_files) write_file(run.beside_case(file), read_file(file));
   write_file(run.fit(), fit_text);
   if (fit.basis == kExactPlane)
     fs::remove(run.uncertainty());
   else
-    write_uncertainty_file(motion, fit, below, above, run.uncertainty());
+    write_uncertainty_file(motion, fit, below, above, run.uncertainty(), provenance);
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
-                   const std::string& reference_model, const fs::path& comparison_path) {
+                   const std::string& reference_model, const fs::path& comparison_path,
+                   const std::vector<fs::path>& given, bool json) {
   auto files = trajectory_files(folder);
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
+  const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
   std::vector<Trajectory> trajectories;
   for (const auto& file : files) trajectories.push_back(read_trajectory(file));
   warn_of_different_inputs(trajectories);
   const auto comparison = compare_trajectories(trajectories, reference_model);
-  write_file(comparison_path, write_comparison(comparison));
-  fmt::print("{}", comparison_table(comparison));
+  write_output(comparison_path, TextKind::kJson, write_comparison(comparison), provenance);
+  fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
 }
 
-void run_stages(const Case& c, const fs::path& folder, int jobs) {
+void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   const RunFolder run{folder};
   const auto& request = required_fit(c);
   (void)required_motion(c);
+  auto given = files_of_motion(c);
+  if (request.file) given.emplace_back(*request.file);
   fs::path fit = run.fit();
   if (request.file) {
     fit = *request.file;
   } else if (request.exact) {
     const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
-    if (!up_to_date(fit, [&] { return read_file(fit) == text; })) write_file(fit, text);
+    if (!up_to_date(fit, [&] { return without_provenance(read_file(fit)) == text; }))
+      write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
     (void)required_tabulation(c);
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
-    fit_stage(run.table(), fit, request.settings);
+    fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));
   }
   throw_if_interrupted();
 
   const auto models = models_to_run(c, {});
   const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
   const std::string reference = has_inertial ? "inertial" : models.front();
-  const auto provenance = trajectory_provenance(c, read_file(fit));
+  const auto provenance = identity_of_trajectory(c, read_file(fit));
   const auto made_from_these = [&](const std::string& model) {
     return up_to_date(run.trajectory(model), [&] {
       const auto comments = read_trajectory(run.trajectory(model)).provenance;
@@ -294,7 +312,8 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
             [&] { return read_comparison(run.comparison()).reference_model == reference; }) &&
         fs::exists(run.report())) {
       say("compare, report: up to date");
-      fmt::print("{}", comparison_table(read_comparison(run.comparison())));
+      const auto comparison = read_comparison(run.comparison());
+      fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
       return;
     }
   } else {
@@ -303,10 +322,11 @@ void run_stages(const Case& c, const fs::path& folder, int jobs) {
     fs::remove(run.comparison());
     fs::remove(run.report());
     for (const auto& file : files_of_models(run.trajectories())) fs::remove(file);
-    simulate_stage(c, fit, folder, models, request.below, request.above);
+    simulate_stage(c, fit, folder, models, request.below, request.above,
+                   provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
   }
   throw_if_interrupted();
-  compare_stage(folder, {}, reference, run.comparison());
+  compare_stage(folder, {}, reference, run.comparison(), given, json);
   throw_if_interrupted();
   write_report(folder);
 }

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "app/command_options.hpp"
+#include "app/dry_run.hpp"
+#include "app/pipeline.hpp"
 #include "app/progress.hpp"
+#include "app/provenance.hpp"
 #include "app/sweep_plot.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -23,6 +26,7 @@ struct Options {
   std::vector<std::string> vary, models, columns;
   std::uint64_t samples = 0, seed = 1;
   int jobs = default_jobs();
+  bool dry_run = false, json = false;
 };
 
 /// The command line, and where it is silent the case's [sweep].
@@ -133,10 +137,22 @@ void run(const Options& o) {
   const SweepPlot picture = o.plot.empty() ? SweepPlot{} : picture_of(o, c, sweep.plan());
   if (!o.plot.empty()) check_columns(picture, sweep.plan());
 
+  if (o.dry_run) {
+    fmt::print("{}", dry_run_text({dry_run(sweep, o.output)}, o.jobs, o.json));
+    return;
+  }
+  auto files = files_of_motion(c);
+  if (!o.fit.empty())
+    files.emplace_back(o.fit);
+  else if (c.fit && c.fit->file)
+    files.emplace_back(*c.fit->file);
+  const auto provenance = provenance_of({files, {}});
+
   Remaining remaining;
   auto shown = std::chrono::steady_clock::now();
   const auto computed = write_sweep(
-      sweep, o.output, o.jobs, VISCONTACT_VERSION, [&](std::uint64_t done, std::uint64_t size) {
+      sweep, o.output, o.jobs, VISCONTACT_VERSION,
+      provenance_line(provenance), [&](std::uint64_t done, std::uint64_t size) {
         const auto now = std::chrono::steady_clock::now();
         if (now - shown < std::chrono::milliseconds(200)) return;
         shown = now;
@@ -149,7 +165,8 @@ void run(const Options& o) {
           : fmt::format(
                 "sweep: {} rows in {}{}", size, o.output,
                 computed < size ? fmt::format(", {} of them from before", size - computed) : ""));
-  if (!o.plot.empty()) write_file(o.plot, plot_sweep(o.output, picture));
+  if (!o.plot.empty())
+    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture), provenance_of(Inputs{files, {o.output}}));
 }
 
 }  // namespace
@@ -161,11 +178,13 @@ void add_sweep(CLI::App& app) {
   command
       ->add_option("CASE", o->case_file,
                    "case file (TOML); its [sweep] holds defaults for what follows")
-      ->required();
+      ->required()
+      ->type_name(kFile);
   command
       ->add_option("-o,--output", o->output,
                    "rows to write (CSV); an interrupted sweep goes on with the same command")
-      ->required();
+      ->required()
+      ->type_name(kFile);
   command
       ->add_option(
           "--vary", o->vary,
@@ -181,22 +200,31 @@ void add_sweep(CLI::App& app) {
       ->type_name("N");
   command->add_option("--seed", o->seed, "of the random points")->capture_default_str();
   command->add_option("--models", o->models, "comma-separated; default: inertial,viscous_contact")
+      ->type_name(kModels)
       ->delimiter(',');
   command->add_option("--reference", o->reference,
-                      "model that the others are compared with; default: inertial, or the first");
+                      "model that the others are compared with; default: inertial, or the first")
+      ->type_name(kModel);
   command->add_option(
       "--fit", o->fit,
-      "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
+      "fit of the lubrication force (JSON); default: the case's [fit] file or exact")
+      ->type_name(kFile);
   command->add_option("--plot", o->plot,
-                      "picture to write (SVG): lines over one key, or a map over two");
-  command->add_option("--x", o->x, "key along the picture; default: the first varied");
-  command->add_option("--y", o->y, "key up the picture, for a map");
+                      "picture to write (SVG): lines over one key, or a map over two")
+      ->type_name(kFile);
+  command->add_option("--x", o->x, "key along the picture; default: the first varied")
+      ->type_name("KEY");
+  command->add_option("--y", o->y, "key up the picture, for a map")->type_name("KEY");
   command
       ->add_option(
           "--column", o->columns,
           "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
+      ->type_name("COLUMN,...")
       ->delimiter(',');
   add_jobs(*command, o->jobs, "points at once");
+  auto* dry = command->add_flag("--dry-run", o->dry_run,
+                                "print how many rows there are and about how long they take");
+  add_json(*command, o->json)->needs(dry);
   command->callback([o] { run(*o); });
 }
 

@@ -1,11 +1,14 @@
 #include "app/tabulate_command.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command_options.hpp"
+#include "app/dry_run.hpp"
 #include "app/picture_stage.hpp"
 #include "app/slurm.hpp"
 #include "app/tabulate_stage.hpp"
@@ -19,22 +22,24 @@ void add_tabulate(CLI::App& app) {
     std::string output, launcher = "local", slurm_options, task, plot;
     int jobs = default_jobs();
     std::size_t tasks = 0;
-    bool gather = false;
+    bool gather = false, dry_run = false, json = false;
   };
   auto* command =
       app.add_subcommand("tabulate", "FreeFEM over the cases' grids of gaps and velocities");
   auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_files, "case files (TOML)")->required();
+  command->add_option("CASE", o->case_files, "case files (TOML)")->required()->type_name(kFile);
   command
       ->add_option("-o,--output", o->output,
                    "table to write (CSV); for several cases: folder, gets CASE.csv for each")
-      ->required();
+      ->required()
+      ->type_name(kFile);
   const auto* jobs =
       add_jobs(*command, o->jobs, "FreeFEM processes at once; in each Slurm task: 1 unless given");
   auto* launcher =
       command
           ->add_option("--launcher", o->launcher, "local: compute here; slurm: submit an array job")
-          ->check(CLI::IsMember({"local", "slurm"}))
+          ->type_name("local|slurm")
+          ->check(one_of({"local", "slurm"}))
           ->capture_default_str();
   const auto* tasks =
       command
@@ -42,7 +47,8 @@ void add_tabulate(CLI::App& app) {
                        "tasks of the array job; default: one for each row, at most 1000")
           ->check(CLI::Range(1, 4000000));
   const auto* slurm_options = command->add_option("--slurm-options", o->slurm_options,
-                                                  "more options for sbatch, in one argument");
+                                                  "more options for sbatch, in one argument")
+                                  ->type_name("OPTIONS");
   auto* gather = command->add_flag(
       "--gather", o->gather, "write the tables from the rows of an array job, computing none");
   auto* task = command->add_option("--task", o->task,
@@ -56,6 +62,11 @@ void add_tabulate(CLI::App& app) {
               "draws mesh and flow of their rows (SVG, VTK) in a folder beside the table")
           ->expected(0, 1)
           ->type_name("[GAP,GAP,...]");
+  auto* dry = command->add_flag(
+      "--dry-run", o->dry_run, "print how many rows there are and about how long they take");
+  auto* json = add_json(*command, o->json);
+  json->needs(dry);
+  dry->excludes(launcher)->excludes(gather)->excludes(task)->excludes(plot);
   gather->excludes(launcher);
   plot->excludes(launcher);
   task->excludes(launcher)->excludes(gather)->excludes(plot);
@@ -72,6 +83,12 @@ void add_tabulate(CLI::App& app) {
     std::vector<std::vector<double>> pictures;  // gaps, for each table; before any work is done
     if (plot->count() > 0)
       for (const auto& one : tables) pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
+    if (o->dry_run) {
+      std::vector<DryRun> runs;
+      for (const auto& one : tables) runs.push_back(dry_run(one));
+      fmt::print("{}", dry_run_text(runs, o->jobs, o->json));
+      return;
+    }
     if (slurm)
       submit_to_slurm(
           tables, {o->output, tasks->count() > 0 ? std::optional(o->tasks) : std::nullopt,
@@ -83,7 +100,8 @@ void add_tabulate(CLI::App& app) {
     else
       tabulate_stage(tables, o->jobs);
     for (std::size_t i = 0; i < pictures.size(); ++i)
-      picture_stage(tables[i].tabulation(), pictures[i], picture_folder(tables[i].table));
+      picture_stage(tables[i].tabulation(), pictures[i], picture_folder(tables[i].table),
+                    tables[i].c.path);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "app/progress.hpp"
+#include "app/provenance.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
@@ -23,8 +24,7 @@ namespace fs = std::filesystem;
 void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
   for (const auto& row : table.rows)
     if (row.relative_error_estimate > asked)
-      say(
-          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
+      warn(fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
                       "{:.2g}, {:.2g} was asked",
                       row.gap, row.reference_velocity, row.relative_error_estimate, asked));
 }
@@ -39,9 +39,9 @@ bool is_up_to_date(const CaseTable& one) {
   return true;
 }
 
-void write_table(const CaseTable& one, ForceTable table) {
+void write_table(const CaseTable& one, ForceTable table, const Provenance& provenance) {
   table.versions["Viscontact"] = VISCONTACT_VERSION;
-  write_file(one.table, write_force_table(table));
+  write_output(one.table, TextKind::kHashComment, write_force_table(table), provenance);
   remove_journals(one.table, one.hash());
   warn_of_unmet_accuracy(table, one.tabulation().relative_accuracy);
 }
@@ -55,9 +55,10 @@ void tabulate_one(const CaseTable& one, int jobs) {
   if (is_up_to_date(one)) return;
   check_output_file(one.table);
   say(fmt::format("tabulate: {} rows on {} processes", grid_of(one.tabulation()).size(), jobs));
+  const auto provenance = provenance_of({{one.c.path}, {}});
   auto table = tabulate(default_freefem(), one.tabulation(), jobs, one.table, show_rows);
   clear_progress();
-  write_table(one, std::move(table));
+  write_table(one, std::move(table), provenance);
 }
 
 /// Which process writes a journal: no two that live at a time have the same name.
@@ -102,7 +103,7 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   const auto record = read_row_record(one.table, one.hash());
   const auto missing = missing_points(record, grid_of(one.tabulation()));
   if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
-  write_table(one, assemble_table(one.tabulation(), record));
+  write_table(one, assemble_table(one.tabulation(), record), provenance_of({{one.c.path}, {}}));
   say(fmt::format("tabulate: {} is gathered", one.table.string()));
 }
 

@@ -78,7 +78,7 @@ Fit read_fit(const std::filesystem::path& path) {
   root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights",
                    "terms", "largest_relative_residual", "rms_relative_residual",
                    "condition_number", "covariance", "table_sha256", "versions", "loss", "geometry",
-                   "leading_coefficient", "diagnostics"});
+                   "leading_coefficient", "diagnostics", "provenance"});
   Fit fit;
   fit.basis = root.text("basis");
   fit.reference_velocity = root.number("reference_velocity");

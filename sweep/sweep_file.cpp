@@ -49,18 +49,28 @@ std::string header_of(const SweepPlan& plan, const std::string& version) {
          fmt::format("{}\n", fmt::join(sweep_columns(plan), ","));
 }
 
+constexpr std::string_view kHowMade = "# provenance: ";
+
 /// Whole rows after the header that are this sweep's, and the bytes up to the end of the last one. Nothing if the file does not begin with the header.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
 std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Sweep& sweep) {
   std::ifstream file(path, std::ios::binary);
+  // How it was made does not decide its rows.
+  std::string first;
+  if (!std::getline(file, first) || !first.starts_with(kHowMade)) {
+    file.clear();
+    file.seekg(0);
+    first.clear();
+  }
+  const std::uint64_t header_at = first.empty() ? 0 : first.size() + 1;
   std::string begin(header.size(), '\0');
   if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != header)
     return {};
   const std::uint64_t size = sweep_size(sweep.plan());
   const auto separators = static_cast<std::ptrdiff_t>(sweep_columns(sweep.plan()).size() - 1);
-  Kept kept{0, header.size()};
+  Kept kept{0, header_at + header.size()};
   std::string line;
   // A disk that lost power may hold anything after the last row that it was sure of.
   while (kept.rows < size && std::getline(file, line) && !file.eof() &&
@@ -76,6 +86,7 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
 
 std::uint64_t write_sweep(
     const Sweep& sweep, const fs::path& path, int jobs, const std::string& version,
+    const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress) {
   const std::uint64_t size = sweep_size(sweep.plan());
   const std::string header = header_of(sweep.plan(), version);
@@ -92,8 +103,8 @@ std::uint64_t write_sweep(
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
     throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
   if (!kept) {
-    append_to(file, header, part);
-    kept = {0, header.size()};
+    append_to(file, how_made + header, part);
+    kept = {0, how_made.size() + header.size()};
   }
   // Rows that take long are not kept waiting for others.
   constexpr std::size_t kBuffer = 1 << 16;
@@ -130,6 +141,15 @@ std::uint64_t write_sweep(
     throw_bad_input({target.string()}, fmt::format("cannot be written ({})", error.message()));
   sync_folder_of(target);
   return size - kept->rows;
+}
+
+std::uint64_t finished_rows(const Sweep& sweep, const fs::path& path, const std::string& version) {
+  const std::string header = header_of(sweep.plan(), version);
+  fs::path part = path;
+  part += ".part";
+  const auto whole = kept_rows(path, header, sweep);
+  const auto begun = kept_rows(part, header, sweep);
+  return std::max(whole ? whole->rows : 0, begun ? begun->rows : 0);
 }
 
 }  // namespace viscontact

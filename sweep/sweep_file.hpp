@@ -12,10 +12,16 @@ namespace viscontact {
 
 /// Runs what is missing of a sweep into a CSV file. Until all rows are there they stand in PATH.part, in order, where an interrupted or killed sweep
 /// finds them again: rows of the same case, fit, plan and version are kept, others thrown away. A file that is finished and the same is left as it is.
+/// `how_made` is empty or a line "# provenance: ...\n" for the head of a new file.
 /// `progress(done, size)` is called now and then. Throws Error(kInterrupted) when interrupted(), Error(kBadInput) if a file cannot be written.
 /// Returns the number of rows that were computed.
 std::uint64_t write_sweep(
     const Sweep& sweep, const std::filesystem::path& path, int jobs, const std::string& version,
+    const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress);
+
+/// The rows of that sweep that are finished in PATH or PATH.part.
+std::uint64_t finished_rows(const Sweep& sweep, const std::filesystem::path& path,
+                            const std::string& version);
 
 }  // namespace viscontact

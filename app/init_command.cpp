@@ -1,0 +1,35 @@
+#include "app/init_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "app/case_template.hpp"
+#include "app/command_options.hpp"
+#include "app/progress.hpp"
+#include "app/slurm.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+
+namespace viscontact {
+
+void add_init(CLI::App& app) {
+  auto* command = app.add_subcommand("init", "a commented case to begin with");
+  auto file = std::make_shared<std::string>();
+  command->add_option("CASE", *file, "case file to write (TOML); one that is there stays")
+      ->required()
+      ->type_name(kFile);
+  command->callback([file] {
+    check_outputs({*file});
+    const std::filesystem::path path = *file;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path)))
+      throw_bad_input({*file}, "is there; it is not replaced: remove it first, or write elsewhere");
+    write_file(path, case_template());
+    say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file, shell_word(*file),
+                    shell_word((path.parent_path() / path.stem()).string())));
+  });
+}
+
+}  // namespace viscontact

@@ -1,0 +1,196 @@
+#include "app/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cstdlib>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "app/versions.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/number.hpp"
+
+namespace viscontact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// By this a line is known, among those of a user's.
+constexpr std::string_view kName = "provenance";
+constexpr std::string_view kBegin = "{\"command\":[";
+
+std::vector<std::string> own_command() {
+  const std::string words = read_file("/proc/self/cmdline");
+  std::vector<std::string> command;
+  for (std::size_t begin = 0; begin < words.size();) {
+    const auto end = words.find('\0', begin);
+    command.push_back(words.substr(begin, end - begin));
+    begin = end == std::string::npos ? words.size() : end + 1;
+  }
+  return command;
+}
+
+/// Now, or when SOURCE_DATE_EPOCH says (reproducible-builds.org).
+std::string time_of_making() {
+  std::time_t now = std::time(nullptr);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
+    if (const auto seconds = parse_number(epoch); seconds && *seconds >= 0 && *seconds < 1e11)
+      now = static_cast<std::time_t>(*seconds);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+/// On one line.
+std::string as_line(const Provenance& provenance) {
+  Json json;
+  json["command"] = provenance.command;
+  json["folder"] = provenance.folder;
+  json["inputs"] = Json::array();
+  for (const auto& input : provenance.inputs) {
+    json["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
+    if (input.intermediate) json["inputs"].back()["intermediate"] = true;
+  }
+  json["versions"] = provenance.versions;
+  json["made"] = provenance.made;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// JSON without the characters that would end the element, script or comment around it.
+std::string without(std::string_view characters, const std::string& json) {
+  std::string text;
+  for (const char c : json)
+    if (characters.find(c) != std::string_view::npos)
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      text += c;
+  return text;
+}
+
+struct Frame {
+  std::string before, after;
+  std::string_view forbidden;  ///< between them
+};
+
+Frame frame_of(TextKind kind) {
+  switch (kind) {
+    case TextKind::kHashComment: return {"# provenance: ", "", ""};
+    case TextKind::kJson: return {"  \"provenance\": ", ",", ""};
+    case TextKind::kSvg: return {"<metadata id=\"provenance\">", "</metadata>", "<>&"};
+    case TextKind::kHtml:
+      return {"<script type=\"application/json\" id=\"provenance\">", "</script>", "<>&"};
+    case TextKind::kXml: return {"<!-- provenance: ", " -->", "-<>&"};
+    case TextKind::kC: return {"/* provenance: ", " */", "*"};
+    case TextKind::kFortran: return {"! provenance: ", "", ""};
+  }
+  return {};
+}
+
+/// Where a line can be put in: behind the newline that follows `mark`, or at once if none does.
+std::size_t line_after(const std::string& text, std::string_view mark, std::size_t from = 0) {
+  const auto at = text.find(mark, from);
+  assert(at != std::string::npos);
+  const auto end = at + mark.size();
+  return end < text.size() && text[end] == '\n' ? end + 1 : end;
+}
+
+std::size_t place_in(TextKind kind, const std::string& text) {
+  switch (kind) {
+    case TextKind::kHashComment:
+    case TextKind::kC:
+    case TextKind::kFortran: return 0;
+    case TextKind::kJson: return line_after(text, "{");
+    case TextKind::kSvg: return line_after(text, ">", text.find("<svg"));
+    case TextKind::kHtml: return text.find("</head>");
+    case TextKind::kXml: return line_after(text, "?>");
+  }
+  return 0;
+}
+
+/// The line of a text that holds its provenance: where it begins, where the JSON begins, where the line ends.
+struct Line {
+  std::size_t begin = 0, json = 0, end = 0;
+};
+
+std::optional<Line> find_line(const std::string& text) {
+  for (auto at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at + 1)) {
+    const auto newline = text.rfind('\n', at);
+    const Line line{newline == std::string::npos ? 0 : newline + 1, at,
+                    std::min(text.find('\n', at), text.size())};
+    const auto before = std::string_view(text).substr(line.begin, at - line.begin);
+    // The longest frame has a few characters between name and object.
+    if (const auto name = before.rfind(kName);
+        name != std::string_view::npos && before.size() - name - kName.size() <= 3)
+      return line;
+  }
+  return {};
+}
+
+}  // namespace
+
+Provenance provenance_of(const Inputs& inputs) {
+  Provenance provenance;
+  provenance.command = own_command();
+  provenance.folder = std::filesystem::current_path().string();
+  for (const auto& file : inputs.given)
+    provenance.inputs.push_back({file.string(), sha256(read_file(file)), false});
+  for (const auto& file : inputs.intermediate)
+    provenance.inputs.push_back({file.string(), sha256(read_file(file)), true});
+  provenance.versions = library_versions();
+  return provenance;
+}
+
+std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
+  const auto place = place_in(kind, text);
+  const auto [before, after, forbidden] = frame_of(kind);
+  return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after + "\n" +
+         text.substr(place);
+}
+
+std::string without_provenance(const std::string& text) {
+  const auto line = find_line(text);
+  if (!line) return text;
+  return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
+}
+
+std::optional<Provenance> provenance_in(const std::string& text, const std::string& file) {
+  const auto line = find_line(text);
+  if (!line) return {};
+  const auto closing = text.rfind('}', line->end);
+  try {
+    const auto json =
+        Json::parse(closing == std::string::npos || closing < line->json
+                        ? std::string()
+                        : text.substr(line->json, closing + 1 - line->json));
+    Provenance provenance;
+    provenance.command = json.at("command").get<std::vector<std::string>>();
+    provenance.folder = json.at("folder").get<std::string>();
+    for (const auto& input : json.at("inputs"))
+      provenance.inputs.push_back({input.at("file").get<std::string>(),
+                                   input.at("sha256").get<std::string>(),
+                                   input.value("intermediate", false)});
+    provenance.versions = json.at("versions").get<std::map<std::string, std::string>>();
+    provenance.made = json.at("made").get<std::string>();
+    return provenance;
+  } catch (const Json::exception&) {
+    throw_bad_input({file}, "its line 'provenance' is damaged");
+  }
+}
+
+std::optional<Provenance> read_provenance(const std::filesystem::path& path) {
+  return provenance_in(read_file(path), path.string());
+}
+
+std::string provenance_line(Provenance provenance) {
+  provenance.made = time_of_making();
+  return with_provenance(TextKind::kHashComment, "", provenance);
+}
+
+void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                  Provenance provenance) {
+  provenance.made = time_of_making();
+  write_file(path, with_provenance(kind, text, provenance));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,60 @@
+// How a file was made: written into every output, read back by `viscontact rerun` and by the report.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscontact {
+
+/// A file that went into an output. An intermediate one was made by the same command, as a run's table.
+struct InputFile {
+  std::string file;    ///< path, relative to the folder of the command
+  std::string sha256;  ///< of its bytes
+  bool intermediate = false;
+};
+
+struct Provenance {
+  std::vector<std::string> command;             ///< as it was typed: program, arguments
+  std::string folder;                           ///< in which it was typed, absolute
+  std::vector<InputFile> inputs;                ///< in the order in which they are used
+  std::map<std::string, std::string> versions;  ///< program: version
+  std::string made;  ///< UTC, ISO 8601 to the second; that of SOURCE_DATE_EPOCH if it is set
+};
+
+/// The files that an output is made from.
+struct Inputs {
+  std::vector<std::filesystem::path> given;         ///< by the user
+  std::vector<std::filesystem::path> intermediate;  ///< made by the same command
+};
+
+/// Of what this process makes from these files, which are read for their hashes: to be asked for before a long computation, in which a user may edit
+/// them. `made` is empty. Throws Error(kBadInput) if one cannot be read.
+Provenance provenance_of(const Inputs& inputs);
+
+/// How a kind of text can carry a line that its readers pass over.
+enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran };  // "#": CSV, Python
+
+/// `text` with the provenance in it, as one line: a comment at its head, for kJson the first key, for kSvg metadata, for kHtml a data script in <head>.
+/// `text` is whole and of that kind; an object with keys, for kJson.
+std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
+
+/// `text` as it was before with_provenance: what two makings of the same have in common.
+std::string without_provenance(const std::string& text);
+
+/// The provenance in a text of any kind; nothing if it has none. Throws Error(kBadInput) naming `file` if it is damaged.
+std::optional<Provenance> provenance_in(const std::string& text, const std::string& file);
+
+/// The same of a file. Throws Error(kBadInput) if it cannot be read, too.
+std::optional<Provenance> read_provenance(const std::filesystem::path& path);
+
+/// "# provenance: {...}\n", made now, for a CSV file that is written row by row.
+std::string provenance_line(Provenance provenance);
+
+/// write_file with the provenance, made now.
+void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                  Provenance provenance);
+
+}  // namespace viscontact
