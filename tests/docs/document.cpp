@@ -1,0 +1,130 @@
+#include "tests/docs/document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+
+#include "common/file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What another processor's arithmetic may change: meshes and so tables within their accuracy, 1e-5, and figures made of the small differences between them.
+constexpr double kTolerance = 0.02;
+
+const std::regex kNumber("[-+]?[0-9]*\\.?[0-9]+(e[-+]?[0-9]+)?");
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// A line without its numbers and spaces.
+std::string words_of(const std::string& line) {
+  static const std::regex spaces("\\s+");
+  return std::regex_replace(std::regex_replace(line, kNumber, "#"), spaces, "");
+}
+
+bool is_as_promised(const std::string& promised, const std::string& line, double tolerance) {
+  if (words_of(promised) != words_of(line)) return false;
+  const auto expected = numbers_in(promised);
+  const auto actual = numbers_in(line);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (!(std::abs(actual[i] - expected[i]) <= tolerance * std::abs(expected[i]))) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Block> blocks_of(const fs::path& page) {
+  std::vector<Block> blocks;
+  bool inside = false;
+  int number = 0;
+  for (const auto& line : lines_of(read_file(page))) {
+    ++number;
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) blocks.push_back({line.substr(3), {}, number});
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  return blocks;
+}
+
+std::vector<std::string> prose_of(const fs::path& page) {
+  auto lines = lines_of(read_file(page));
+  bool inside = false;
+  for (auto& line : lines) {
+    const bool fence = line.starts_with("```");
+    if (fence) inside = !inside;
+    if (fence || inside) line.clear();
+  }
+  return lines;
+}
+
+std::vector<double> numbers_in(const std::string& line) {
+  std::vector<double> values;
+  for (std::sregex_iterator match(line.begin(), line.end(), kNumber), end; match != end; ++match)
+    values.push_back(std::strtod(match->str().c_str(), nullptr));
+  return values;
+}
+
+std::string difference_from(const std::string& promised, const std::string& output,
+                            double tolerance) {
+  const auto printed = lines_of(output);
+  std::size_t next = 0;
+  bool any = false;
+  for (const auto& line : lines_of(promised)) {
+    if (line == "...") {
+      any = true;
+      continue;
+    }
+    const auto begin = next;
+    while (next < printed.size() && !is_as_promised(line, printed[next], tolerance) && any) ++next;
+    if (next == printed.size() || !is_as_promised(line, printed[next], tolerance))
+      return "promised: " + line +
+             "\nprinted:  " + (begin < printed.size() ? printed[begin] : "nothing more");
+    ++next;
+    any = false;
+  }
+  if (next < printed.size() && !any) return "not promised: " + printed[next];
+  return {};
+}
+
+ReadersFolder::ReadersFolder(const fs::path& executable) {
+  fs::create_directory_symlink(fs::path(VISCONTACT_SOURCE_FOLDER) / "data", path() / "data");
+  fs::create_directories(path() / "build/release");
+  fs::create_symlink(executable, path() / "build/release/viscontact");
+}
+
+ProcessResult ReadersFolder::run(const std::string& commands) const {
+  return run_process({"sh", "-ec", "PATH=\"$PWD/build/release:$PATH\"\n" + commands}, {}, {},
+                     path().string());
+}
+
+int ReadersFolder::run_page(const fs::path& page) const {
+  int promises = 0;
+  const auto blocks = blocks_of(page);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].language != "sh") continue;
+    const auto result = run(blocks[i].text);
+    const std::string where =
+        page.filename().string() + ":" + std::to_string(blocks[i].line) + ": ";
+    EXPECT_EQ(result.exit_status, 0) << where << blocks[i].text << result.output;
+    if (i + 1 == blocks.size() || blocks[i + 1].language != "text") continue;
+    EXPECT_EQ(difference_from(blocks[i + 1].text, result.output, kTolerance), "")
+        << where << blocks[i].text << result.output;
+    ++promises;
+  }
+  return promises;
+}
+
+}  // namespace viscontact
