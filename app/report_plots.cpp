@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "app/gnuplot.hpp"
 #include "common/error.hpp"
 #include "common/named.hpp"
 #include "fitting/stokes_drag.hpp"
@@ -16,9 +15,9 @@
 namespace viscontact {
 namespace {
 
-constexpr int kWidth = 860;
-constexpr const char* kKeyBelow = "set key below Left reverse noopaque\nset xlabel offset 0,0.9";
-constexpr const char* kDecades = "set format y '1e%T'";
+constexpr const char* kBlack = "#000000";
+constexpr const char* kBlue = "#0072B2";
+constexpr const char* kOrange = "#D55E00";
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
 
 /// The model of that name; nothing for a user's own.
@@ -32,7 +31,7 @@ std::optional<ModelChoice> known_model(std::string_view name) {
 
 /// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of
 /// models; curves that lie on each other differ in dash and width too.
-std::string line_style(std::string_view model, bool film = false) {
+CurveStyle line_style(std::string_view model, bool film = false) {
   constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73",
                                    "#CC79A7", "#D55E00", "#7F7F7F", "#8C564B", "#B8A100"};
   constexpr std::array kWidths = {5.0, 2.0, 1.6, 3.4, 2.2, 2.2, 1.4, 2.0, 1.6, 2.0};
@@ -40,14 +39,18 @@ std::string line_style(std::string_view model, bool film = false) {
   const auto place =
       choice ? static_cast<std::size_t>(choice->model - all_models().data()) : kColours.size() - 1;
   const auto i = std::min(place, kColours.size() - 1);
-  const char* dash = film && choice && choice->smooth ? "(8,3,2,3)"
-                     : film                           ? "(8,5)"
-                     : choice && choice->exact_drag   ? "(2,4)"
-                     : choice && choice->smooth       ? "(12,3,2,3)"
-                     : place == 2                     ? "(10,4)"
-                                                      : "1";
-  return fmt::format("lines linecolor rgb '{}' linewidth {} dashtype {}", kColours[i], kWidths[i],
-                     dash);
+  std::vector<double> dash;
+  if (film && choice && choice->smooth)
+    dash = {8, 3, 2, 3};
+  else if (film)
+    dash = {8, 5};
+  else if (choice && choice->exact_drag)
+    dash = {2, 4};
+  else if (choice && choice->smooth)
+    dash = {12, 3, 2, 3};
+  else if (place == 2)
+    dash = {10, 4};
+  return {kColours[i], kWidths[i], dash};
 }
 
 std::string legend_of(std::string_view model) {
@@ -58,10 +61,13 @@ std::string legend_of(std::string_view model) {
 /// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
 /// that no minimum is lost.
 std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows,
+                                          std::size_t trajectories,
                                           double (*value)(const TrajectoryRow&)) {
-  constexpr std::size_t kRuns = 400;
+  constexpr std::size_t kRuns = 400,
+                        kRunsOfAll = 3200;  // of many models fewer: the page stays small
   std::vector<const TrajectoryRow*> kept;
-  const std::size_t run = std::max<std::size_t>(1, rows.size() / kRuns);
+  const std::size_t run =
+      std::max<std::size_t>(1, rows.size() / std::min(kRuns, 1 + kRunsOfAll / trajectories));
   const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) {
     return value(a) < value(b);
   };
@@ -81,18 +87,16 @@ double gap_of(const TrajectoryRow& row) { return row.gap; }
 
 }  // namespace
 
-std::string plot_fit(const ForceTable& table, const Fit& fit) {
-  Curve points{"table (FreeFEM)", "points pointtype 6 pointsize 0.7 linecolor rgb '#000000'", {}};
-  Curve line{
-      fmt::format("fit, basis {}", fit.basis), "lines linecolor rgb '#0072B2' linewidth 2", {}};
-  Curve residual{
-      "fit - table", "linespoints pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'", {}};
-  Curve estimate{
-      "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#D55E00'", {}};
+Plot plot_fit(const ForceTable& table, const Fit& fit) {
+  PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
+  PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
+  PlotCurve residual{"fit - table, in size", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
+  PlotCurve estimate{"table's own error estimate", {kOrange, 0, {}, PointKind::kSquare, 0.6}, {}};
   const LubricationForce force(fit);
   const double stokes = stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
+    if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;  // another table
     residual.points.emplace_back(
         row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
     if (row.relative_error_estimate > 0)
@@ -106,49 +110,54 @@ std::string plot_fit(const ForceTable& table, const Fit& fit) {
         high);
     line.points.emplace_back(gap, force.resistance(gap) / stokes);
   }
-  return draw_svg({{"Drag factor: force over Stokes drag",
-                    "gap q",
-                    "lambda",
-                    true,
-                    true,
-                    {"set key top right"},
-                    {line, points}},
-                   {"Relative residual of the fit",
-                    "gap q",
-                    "relative",
-                    true,
-                    true,
-                    {kDecades, "set key bottom right"},
-                    {residual, estimate}}},
-                  kWidth, 720);
+  // Rows of several velocities start again at the smallest gap.
+  for (auto* curve : {&points, &residual, &estimate})
+    std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
+  // Nothing to see of a zero on a logarithmic axis.
+  for (auto& [gap, value] : residual.points)
+    if (value == 0) value = kGap;
+  PlotPanel residuals{"Relative residual of the fit",
+                      {"gap q", true},
+                      {"relative", true},
+                      {residual},
+                      KeyPlace::kBottomRight};
+  if (!estimate.points.empty()) residuals.curves.push_back(estimate);
+  return {"fit",
+          720,
+          {{"Drag factor: force over Stokes drag",
+            {"gap q", true},
+            {"lambda", true},
+            {line, points},
+            KeyPlace::kTopRight},
+           residuals}};
 }
 
-std::string plot_gaps(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"Gap between sphere and plane", "time t", "gap q", false, false, {kKeyBelow}, {}};
+Plot plot_gaps(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{"Gap between sphere and plane", {"time t"}, {"gap q"}, {}};
   for (const auto& trajectory : trajectories) {
-    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    for (const auto* row : thinned(trajectory.rows, gap_of))
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), gap_of))
       curve.points.emplace_back(row->time, row->gap);
     panel.curves.push_back(curve);
   }
-  return draw_svg({panel}, kWidth, 520);
+  return {"gap", 520, {panel}};
 }
 
-std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
-                                  const LubricationForce& force) {
-  Panel panel{"Gap, logarithmic", "time t", "gap q", false, true, {kDecades, kKeyBelow}, {}};
+Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
+                           const LubricationForce& force) {
+  PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
   double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a
                                                               // released sphere's first step
   for (const auto& trajectory : trajectories) {
-    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    Curve film{"", line_style(trajectory.model, true), {}};
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    PlotCurve film{"", line_style(trajectory.model, true), {}};
     const auto choice = known_model(trajectory.model);
     const LubricationForce own_force = choice ? drag_of(*choice, force) : force;
     const auto contact = choice && choice->model->contact != nullptr
                              ? std::optional(choice->model->contact(motion, own_force))
                              : std::nullopt;
-    for (const auto* row : thinned(trajectory.rows, gap_of)) {
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), gap_of)) {
       const bool in_contact = row->gamma && *row->gamma < 0;
       curve.points.emplace_back(row->time, row->gap > 0 && !in_contact ? row->gap : kGap);
       if (!contact) continue;
@@ -175,43 +184,33 @@ std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, c
     }
   }
   if (thinnest > 0 && std::isfinite(thinnest)) {
-    panel.settings.push_back(fmt::format("set yrange [{}:*]", thinnest / 2));
+    panel.y.low = thinnest / 2;
     for (auto& [time, gap] : through) gap = thinnest;
   }
+  std::ranges::sort(through);
   if (!through.empty())
     panel.curves.push_back(
-        {"goes through the plane",
-         "points pointtype 2 pointsize 1.6 linewidth 2.5 linecolor rgb '#D00000'", through});
-  return draw_svg({panel}, kWidth, 560);
+        {"goes through the plane", {"#D00000", 0, {}, PointKind::kCross, 1.6}, through});
+  return {"gap_logarithmic", 560, {panel}};
 }
 
-std::string plot_gamma(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"Adhesion potential: the impulse that the film has absorbed",
-              "time t",
-              "gamma",
-              false,
-              false,
-              {kKeyBelow},
-              {}};
+Plot plot_gamma(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{
+      "Adhesion potential: the impulse that the film has absorbed", {"time t"}, {"gamma"}, {}};
   for (const auto& trajectory : trajectories) {
     if (!trajectory.rows.back().gamma) continue;
-    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    for (const auto* row :
-         thinned(trajectory.rows, [](const TrajectoryRow& r) { return r.gamma ? *r.gamma : 0; }))
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(),
+                                   [](const TrajectoryRow& r) { return r.gamma ? *r.gamma : 0; }))
       curve.points.emplace_back(row->time, row->gamma ? *row->gamma : kGap);
     panel.curves.push_back(curve);
   }
-  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
+  return {"gamma", 440, {panel}};
 }
 
-std::string plot_solid_force(const std::vector<Trajectory>& trajectories) {
-  Panel panel{"What the solid carries; impacts are cut off",
-              "time t",
-              "force of the solids",
-              false,
-              false,
-              {kKeyBelow},
-              {}};
+Plot plot_solid_force(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{
+      "What the solid carries; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
   double load = 0;
   const auto solid_of = [](const TrajectoryRow& row) {
     return row.solid_force ? *row.solid_force : 0;
@@ -219,21 +218,22 @@ std::string plot_solid_force(const std::vector<Trajectory>& trajectories) {
   for (const auto& trajectory : trajectories) {
     if (std::ranges::none_of(trajectory.rows, [&](const auto& row) { return solid_of(row) > 0; }))
       continue;
-    Curve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
-    for (const auto* row : thinned(trajectory.rows, solid_of))
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), solid_of))
       curve.points.emplace_back(row->time, solid_of(*row));
     panel.curves.push_back(curve);
     for (const auto& row : trajectory.rows)
       if (row.external_force) load = std::max(load, std::abs(*row.external_force));
   }
-  if (load > 0) panel.settings.push_back(fmt::format("set yrange [0:{}]", 1.3 * load));
-  return panel.curves.empty() ? "" : draw_svg({panel}, kWidth, 440);
+  panel.y.low = 0;
+  if (load > 0) panel.y.high = 1.3 * load;
+  return {"solid_force", 440, {panel}};
 }
 
-std::string plot_external_force(const ExternalForce& force, double end_time) {
+Plot plot_external_force(const ExternalForce& force, double end_time) {
   // Steps are drawn as such: two points at each jump.
-  Panel panel{"External force", "time t", "f", false, false, {}, {}};
-  Curve curve{"", "lines linecolor rgb '#000000' linewidth 2", {}};
+  PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
+  PlotCurve curve{"external force", {kBlack}, {}};
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
@@ -253,80 +253,71 @@ std::string plot_external_force(const ExternalForce& force, double end_time) {
     high = std::max(high, f);
   }
   const double margin = 0.08 * std::max(high - low, 1e-300);
-  panel.settings.push_back(fmt::format("set yrange [{}:{}]", low - margin, high + margin));
+  panel.y.low = low - margin;
+  panel.y.high = high + margin;
   panel.curves.push_back(curve);
-  return draw_svg({panel}, kWidth, 320);
+  return {"external_force", 340, {panel}};
 }
 
-std::string plot_minimal_gaps(const Comparison& comparison,
-                              const std::optional<PublishedGap>& published) {
+Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
   // A row a model, from the top down.
-  const auto rows = static_cast<int>(comparison.models.size());
-  Panel panel{"Thinnest film of each model", "gap q", "", false, false, {}, {}};
-  std::string ticks;
+  const auto rows = comparison.models.size();
+  PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
+  PlotCurve computed{"smallest gap computed", {kBlue, 0, {}, PointKind::kDisc, 1.2}, {}};
+  PlotCurve recovered{"recovered from gamma", {kBlue, 0, {}, PointKind::kCircle, 1.2}, {}};
+  panel.rows.resize(rows);
   std::vector<double> all;
-  for (int i = 0; i < rows; ++i) {
-    const auto& model = comparison.models[static_cast<std::size_t>(i)];
-    const double y = rows - i;
-    const bool recovered = model.recovered_minimal_gap.has_value();
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto& model = comparison.models[i];
     const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
-    ticks += fmt::format("{}'{}{}' {}", ticks.empty() ? "" : ", ", model.model,
-                         gap > 0 ? "" : " (0)", y);
+    panel.rows[rows - 1 - i] = model.model + (gap > 0 ? "" : " (0)");
     if (!(gap > 0)) continue;
     all.push_back(gap);
-    panel.curves.push_back({"",
-                            fmt::format("points pointtype {} pointsize 1.2 linecolor rgb '#0072B2'",
-                                        recovered ? 6 : 7),
-                            {{gap, y}}});
+    (model.recovered_minimal_gap ? recovered : computed)
+        .points.emplace_back(gap, static_cast<double>(rows - i));
+  }
+  const double top = static_cast<double>(rows) + 0.6, bottom = 0.4;
+  for (auto* curve : {&computed, &recovered}) {
+    std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
+    if (!curve->points.empty()) panel.curves.push_back(*curve);
   }
   if (published) {
     all.push_back(published->minimal_gap);
     panel.curves.push_back({fmt::format("{}: {:.4g}", published->source, published->minimal_gap),
-                            "lines linecolor rgb '#D55E00' linewidth 2 dashtype (8,5)",
-                            {{published->minimal_gap, 0.4}, {published->minimal_gap, rows + 0.6}}});
+                            {kOrange, 2, {8, 5}},
+                            {{published->minimal_gap, bottom}, {published->minimal_gap, top}}});
   }
-  if (all.empty()) return "";
+  if (all.empty()) return {};
   const auto [low, high] = std::ranges::minmax(all);
   constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
-  panel.x_log = high / low > kManyDecades;
-  constexpr double kClose = 1.3;  // an axis from 0 would hide the difference
-  const bool close = high < kClose * low;
+  constexpr double kClose = 1.3;       // an axis from 0 would hide the difference
   const double span = std::max(high - low, 0.05 * high);
-  panel.settings = {"set ytics (" + ticks + ")",
-                    fmt::format("set yrange [0.4:{}]", rows + 0.6),
-                    "set lmargin 38",
-                    panel.x_log
-                        ? fmt::format("set xrange [{}:{}]\nset format x '1e%T'", low / 3, high * 3)
-                    : close ? fmt::format("set xrange [{}:{}]", low - span, high + span)
-                            : fmt::format("set xrange [0:{}]", high * 1.15),
-                    kKeyBelow,
-                    "set xlabel offset 0,0.2"};
-  panel.x_label = "gap q (filled: smallest gap computed; open: recovered from gamma)";
-  return draw_svg({panel}, kWidth, 160 + 34 * rows);
+  panel.x.logarithmic = high / low > kManyDecades;
+  panel.x.low = panel.x.logarithmic ? low / 3 : high < kClose * low ? low - span : 0;
+  panel.x.high = panel.x.logarithmic ? high * 3 : high < kClose * low ? high + span : high * 1.15;
+  panel.y.low = bottom;
+  panel.y.high = top;
+  return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
 }
 
-std::string plot_uncertainty(const FitUncertainty& uncertainty) {
-  Panel panel{"Gap without inertia: intervals around the fit's, relative",
-              "time t",
-              "q / q of the fit - 1",
-              false,
-              false,
-              {kKeyBelow},
-              {}};
-  const auto curve = [&](const char* legend, const char* style,
+Plot plot_uncertainty(const FitUncertainty& uncertainty) {
+  PlotPanel panel{"Gap without inertia: intervals around the fit's, relative",
+                  {"time t"},
+                  {"q / q of the fit - 1"},
+                  {}};
+  const auto curve = [&](const char* legend, const CurveStyle& style,
                          std::array<double, 2> UncertainGap::*interval, std::size_t end) {
-    Curve result{legend, style, {}};
+    PlotCurve result{legend, style, {}};
     for (const auto& gap : uncertainty.gaps)
       result.points.emplace_back(gap.time, (gap.*interval)[end] / gap.gap - 1);
     panel.curves.push_back(result);
   };
-  constexpr const char* kRandom = "lines linecolor rgb '#0072B2' linewidth 2";
-  constexpr const char* kMisfit = "lines linecolor rgb '#D55E00' linewidth 2 dashtype (8,5)";
-  curve("95 % of the draws of coefficients", kRandom, &UncertainGap::random, 0);
-  curve("", kRandom, &UncertainGap::random, 1);
-  curve("drag off by the largest misfit everywhere", kMisfit, &UncertainGap::misfit, 0);
-  curve("", kMisfit, &UncertainGap::misfit, 1);
-  return draw_svg({panel}, kWidth, 440);
+  const CurveStyle random{kBlue}, misfit{kOrange, 2, {8, 5}};
+  curve("95 % of the draws of coefficients", random, &UncertainGap::random, 0);
+  curve("", random, &UncertainGap::random, 1);
+  curve("drag off by the largest misfit everywhere", misfit, &UncertainGap::misfit, 0);
+  curve("", misfit, &UncertainGap::misfit, 1);
+  return {"uncertainty", 440, {panel}};
 }
 
 }  // namespace viscontact

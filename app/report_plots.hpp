@@ -1,10 +1,10 @@
-// The plots of the report, each as an SVG element.
+// The plots of the report. One without curves has nothing to show.
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "app/report_plot.hpp"
 #include "case_file/case_file.hpp"
 #include "fitting/lubrication_force.hpp"
 #include "reduced_model/comparison.hpp"
@@ -14,31 +14,30 @@ namespace viscontact {
 
 /// The table's drag factor with the fit, and below it their relative difference beside the table's
 /// own error estimates.
-std::string plot_fit(const ForceTable& table, const Fit& fit);
+Plot plot_fit(const ForceTable& table, const Fit& fit);
 
 /// q(t) of all trajectories, on a linear scale.
-std::string plot_gaps(const std::vector<Trajectory>& trajectories);
+Plot plot_gaps(const std::vector<Trajectory>& trajectories);
 
 /// q(t) on a logarithmic scale; where a contact model is in contact, the film thickness that its
 /// gamma stands for, dashed.
-std::string plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
-                                  const LubricationForce& force);
+Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
+                           const LubricationForce& force);
 
-/// gamma(t) of the contact models; empty if there is none.
-std::string plot_gamma(const std::vector<Trajectory>& trajectories);
+/// gamma(t) of the contact models.
+Plot plot_gamma(const std::vector<Trajectory>& trajectories);
 
-/// What the solids carry over time; empty if they carry nothing.
-std::string plot_solid_force(const std::vector<Trajectory>& trajectories);
+/// What the solids carry over time.
+Plot plot_solid_force(const std::vector<Trajectory>& trajectories);
 
 /// f_ext(t) from 0 to the end.
-std::string plot_external_force(const ExternalForce& force, double end_time);
+Plot plot_external_force(const ExternalForce& force, double end_time);
 
 /// The thinnest film of each model, recovered from gamma for contact models, beside the published
 /// value if the case has one.
-std::string plot_minimal_gaps(const Comparison& comparison,
-                              const std::optional<PublishedGap>& published);
+Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published);
 
 /// Bands of the inertialess gap over time, relative to the fit's own.
-std::string plot_uncertainty(const FitUncertainty& uncertainty);
+Plot plot_uncertainty(const FitUncertainty& uncertainty);
 
 }  // namespace viscontact

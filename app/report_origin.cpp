@@ -1,0 +1,68 @@
+#include "app/report_origin.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/html.hpp"
+#include "app/provenance.hpp"
+#include "app/versions.hpp"
+#include "common/file.hpp"
+
+namespace viscontact {
+namespace {
+
+/// What reads like the command as it was typed.
+std::string command_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const auto& word : words) {
+    const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?[]#~\t\n") == word.npos;
+    line += fmt::format("{}{}", line.empty() ? "" : " ", plain ? word : "'" + word + "'");
+  }
+  return line;
+}
+
+std::string hash_cell(const std::string& sha256) {
+  return "<code class=hash>" + escaped(sha256) + "</code>";
+}
+
+}  // namespace
+
+std::string origin_section(const RunResults& run) {
+  std::string made, inputs;
+  auto versions = library_versions();
+  versions.insert(run.fit.versions.begin(), run.fit.versions.end());
+  if (run.table) versions.insert(run.table->versions.begin(), run.table->versions.end());
+  std::vector<std::string> files = {"table.csv", "fit.json", "comparison.json"};
+  if (!run.trajectories.empty())
+    files.insert(files.begin() + 2, "trajectories/" + run.trajectories.front().model + ".csv");
+  for (const auto& file : files) {
+    const auto path = run.folder.path / file;
+    if (!std::filesystem::exists(path)) continue;
+    const auto provenance = read_provenance(path);
+    made += table_row(
+        link_to(run.folder, file), provenance ? escaped(provenance->made) : "not recorded",
+        provenance ? "<code>" + escaped(command_line(provenance->command)) + "</code>" : "",
+        hash_cell(sha256(read_file(path))));
+    if (!provenance) continue;
+    versions.insert(provenance->versions.begin(), provenance->versions.end());
+    for (const auto& input : provenance->inputs)
+      inputs += table_row(link_to(run.folder, file), escaped(input.file), hash_cell(input.sha256));
+  }
+  std::string programs;
+  for (const auto& [program, version] : versions)
+    programs += fmt::format("{}{}&nbsp;{}", programs.empty() ? "" : ", ", escaped(program),
+                            escaped(version));
+  std::string text = fmt::format(
+      "<div class=scroll><table class=words><thead><tr><th>file</th><th>made (UTC)</th><th>by</th>"
+      "<th>SHA-256</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      made);
+  if (!inputs.empty())
+    text += fmt::format(
+        "<div class=scroll><table class=words><thead><tr><th>file</th><th>made from</th>"
+        "<th>SHA-256</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+        inputs);
+  return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,14 @@
+// The files of app/report_page, as they are built into the executable (cmake/embed_texts.cmake).
+#pragma once
+
+#include <string_view>
+
+namespace viscontact {
+
+std::string_view uplot_script();
+std::string_view uplot_style();
+std::string_view uplot_licence();
+std::string_view report_script();
+std::string_view report_style();
+
+}  // namespace viscontact

@@ -1,0 +1,158 @@
+#include "app/report_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "reduced_model/models.hpp"
+
+namespace viscontact {
+namespace {
+
+using Warnings = std::vector<ReportWarning>;
+
+std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
+
+/// The model of a trajectory; nothing for a user's own.
+std::optional<ModelChoice> model_of(const Trajectory& trajectory) {
+  try {
+    return find_model(trajectory.model);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Drag, or a film recovered from gamma, where the table has no row.
+void add_extrapolation(Warnings& warnings, const RunResults& run) {
+  if (run.fit.terms.empty()) return;  // exact
+  const auto [low, high] = run.fit.gap_interval;
+  const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->exact_drag) continue;
+    const auto [first, last] =
+        std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
+    const double smallest = first->gap, largest = last->gap;
+    const bool contact = choice->model->contact != nullptr;
+    // What a contact model does at a gap of zero is no drag; its film is.
+    const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
+    if (thinnest > 0 && thinnest < low)
+      warnings.push_back(
+          {fmt::format(
+               "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
+               trajectory.model, contact ? "a film of" : "a gap of", thinnest, low),
+           trajectory_name(trajectory.model)});
+    const bool drag_at_distance =
+        !contact || choice->model->contact(run.c.motion.value(), force).drag.has_value();
+    if (largest > high && drag_at_distance)
+      warnings.push_back(
+          {fmt::format(
+               "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
+               trajectory.model, largest, high),
+           trajectory_name(trajectory.model)});
+  }
+}
+
+void add_poor_fit(Warnings& warnings, const Fit& fit) {
+  const auto& diagnostics = fit.diagnostics;
+  if (std::abs(fit.largest_relative_residual) > kPoorFit)
+    warnings.push_back(
+        {fmt::format("Poor fit: it misses the table by up to {:.2g} relative{}; "
+                     "called poor beyond {:g}",
+                     fit.largest_relative_residual,
+                     diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
+                     kPoorFit),
+         "fit.json"});
+  if (!diagnostics) return;
+  for (const auto& warning : diagnostics->warnings)
+    warnings.push_back({"Fit: " + warning, "fit.json"});
+  if (diagnostics->misfit == Misfit::kBasis)
+    warnings.push_back(
+        {fmt::format(
+             "The fit is coarser than the table: its largest relative residual is {:.2g}, the "
+             "table's largest error estimate {:.2g}; another basis can do better",
+             diagnostics->largest_inlier_residual, diagnostics->largest_error_estimate),
+         "fit.json"});
+}
+
+void add_unmet_accuracy(Warnings& warnings, const RunResults& run) {
+  if (!run.table || !run.c.tabulation) return;
+  const double asked = run.c.tabulation->relative_accuracy;
+  const auto unmet = std::ranges::count_if(
+      run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
+  if (unmet == 0) return;
+  const auto worst =
+      std::ranges::max_element(run.table->rows, {}, &ForceTableRow::relative_error_estimate);
+  warnings.push_back(
+      {fmt::format("Accuracy not met: {} of {} rows of the table have an error estimate above the "
+                   "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
+                   unmet, run.table->rows.size(), asked, worst->relative_error_estimate,
+                   worst->gap),
+       "table.csv"});
+}
+
+void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
+    warnings.push_back(
+        {fmt::format("The sphere of {} goes through the plane at time {:.4g}, which no "
+                     "drag of a film allows: its time step is too long",
+                     trajectory.model, trajectory.rows.back().time),
+         trajectory_name(trajectory.model)});
+  }
+}
+
+void add_refused_draws(Warnings& warnings, const RunResults& run) {
+  if (!run.uncertainty) return;
+  const auto& u = *run.uncertainty;
+  if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
+    warnings.push_back(
+        {fmt::format("{} of {} draws of the fit's coefficients make no possible drag: "
+                     "the interval from them is too narrow",
+                     u.refused, u.draws),
+         "uncertainty.json"});
+}
+
+/// Files that carry another input's hash than that of the file here.
+void add_other_origin(Warnings& warnings, const RunResults& run) {
+  const auto fit_hash = sha256(read_file(run.folder.fit()));
+  const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},
+                                                        {"fit", fit_hash}};
+  for (const auto& trajectory : run.trajectories)
+    for (const auto& [key, hash] : inputs) {
+      const auto found = trajectory.provenance.find(key);
+      if (found == trajectory.provenance.end() || found->second == hash) continue;
+      warnings.push_back({fmt::format("{} was made from another {} than the one in this folder",
+                                      trajectory.model, key),
+                          trajectory_name(trajectory.model)});
+    }
+  if (run.table && !run.fit.table_sha256.empty() &&
+      run.fit.table_sha256 != sha256(read_file(run.folder.table())))
+    warnings.push_back(
+        {"The fit was made from another table than the one in this folder", "fit.json"});
+  for (const auto& model : run.comparison.models)
+    if (std::ranges::find(run.trajectories, model.model, &Trajectory::model) ==
+        run.trajectories.end())
+      warnings.push_back(
+          {fmt::format("The trajectory of {} is not in this folder and in no plot", model.model),
+           "comparison.json"});
+}
+
+}  // namespace
+
+std::vector<ReportWarning> warnings_of(const RunResults& run) {
+  Warnings warnings;
+  add_extrapolation(warnings, run);
+  add_poor_fit(warnings, run.fit);
+  add_unmet_accuracy(warnings, run);
+  add_passage_through_plane(warnings, run);
+  add_refused_draws(warnings, run);
+  add_other_origin(warnings, run);
+  return warnings;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,27 @@
+#include "app/run_results.hpp"
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+RunResults read_run(const std::filesystem::path& folder) {
+  const RunFolder run{folder};
+  RunResults results{run,
+                     read_case(run.case_file()),
+                     read_fit(run.fit()),
+                     read_comparison(run.comparison()),
+                     {},
+                     {},
+                     {}};
+  for (const auto& model : results.comparison.models)
+    if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
+      results.trajectories.push_back(read_trajectory(file));
+  if (results.trajectories.empty())
+    throw_bad_input({run.trajectories().string()}, "has none of the comparison's trajectories");
+  if (std::filesystem::exists(run.table())) results.table = read_force_table(run.table());
+  if (std::filesystem::exists(run.uncertainty()))
+    results.uncertainty = read_uncertainty(run.uncertainty());
+  return results;
+}
+
+}  // namespace viscontact

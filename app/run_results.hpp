@@ -1,0 +1,32 @@
+// What a run's folder holds, read.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "app/run_folder.hpp"
+#include "case_file/case_file.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/force_table.hpp"
+#include "reduced_model/comparison.hpp"
+#include "reduced_model/fit_uncertainty.hpp"
+#include "reduced_model/trajectory.hpp"
+
+namespace viscontact {
+
+struct RunResults {
+  RunFolder folder;
+  Case c;
+  Fit fit;
+  Comparison comparison;
+  std::vector<Trajectory>
+      trajectories;  ///< those of the comparison's models that are there; at least one
+  std::optional<ForceTable> table;
+  std::optional<FitUncertainty> uncertainty;
+};
+
+/// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or a file is wrong.
+RunResults read_run(const std::filesystem::path& folder);
+
+}  // namespace viscontact

@@ -1,0 +1,12 @@
+# Writes a C++ file whose functions return the texts of files: cmake -D OUTPUT=... -D HEADER=... "-D TEXTS=name=file|name=file" -P embed_texts.cmake
+set(code "// Generated from the files in app/report_page.\n#include \"${HEADER}\"\n\nnamespace viscontact {\n")
+string(REPLACE "|" ";" pairs "${TEXTS}")
+foreach(pair IN LISTS pairs)
+  string(REPLACE "=" ";" parts "${pair}")
+  list(GET parts 0 name)
+  list(GET parts 1 file)
+  file(READ "${file}" text)
+  string(APPEND code "std::string_view ${name}() {\n  return R\"EMBEDDED(${text})EMBEDDED\";\n}\n")
+endforeach()
+string(APPEND code "}  // namespace viscontact\n")
+file(WRITE "${OUTPUT}" "${code}")
