@@ -2,13 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
 #include "common/process.hpp"
+#include "tests/docs/document.hpp"
 
 namespace viscontact {
 namespace {
@@ -19,22 +19,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// The fenced blocks of README in that language, in order.
-std::vector<std::string> blocks_of(const std::string& language) {
-  std::istringstream lines(read_file(std::string(VISCONTACT_SOURCE_FOLDER) + "/README.md"));
-  std::vector<std::string> blocks;
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line == "```" + language) {
-      inside = true;
-      blocks.emplace_back();
-    } else if (line == "```") {
-      inside = false;
-    } else if (inside) {
-      blocks.back() += line + "\n";
-    }
-  }
-  return blocks;
+/// README's fenced blocks in that language, in order.
+std::vector<std::string> blocks_in(const std::string& language) {
+  std::vector<std::string> texts;
+  for (const auto& block : blocks_of(VISCONTACT_SOURCE_FOLDER "/README.md"))
+    if (block.language == language) texts.push_back(block.text);
+  return texts;
 }
 
 ProcessResult run_in_source_folder(const std::string& commands) {
@@ -42,8 +32,10 @@ ProcessResult run_in_source_folder(const std::string& commands) {
 }
 
 TEST(Readme, EveryCommandThatItShowsSucceedsInItsOrder) {
-  const auto blocks = blocks_of("sh");
+  const auto blocks = blocks_in("sh");
   ASSERT_THAT(blocks, Not(IsEmpty()));
+  // README begins with a case that is not there; an earlier run of this test has left it.
+  std::filesystem::remove(std::string(VISCONTACT_SOURCE_FOLDER) + "/out/mine.toml");
   int tests_commands = 0;
   for (const auto& block : blocks) {
     if (block == "scripts/test\n") {
@@ -56,17 +48,8 @@ TEST(Readme, EveryCommandThatItShowsSucceedsInItsOrder) {
   EXPECT_EQ(tests_commands, 1);
 }
 
-/// Words of a line that are numbers, whole intervals included.
-std::vector<double> numbers_in(const std::string& line) {
-  static const std::regex number("[-+]?[0-9]*\\.?[0-9]+(e[-+]?[0-9]+)?");
-  std::vector<double> values;
-  for (std::sregex_iterator match(line.begin(), line.end(), number), end; match != end; ++match)
-    values.push_back(std::stod(match->str()));
-  return values;
-}
-
 TEST(Readme, TheOutputThatItPromisesIsWhatTheMainJobPrints) {
-  const auto promised = blocks_of("text");
+  const auto promised = blocks_in("text");
   ASSERT_EQ(promised.size(), 1U);
   const auto result = run_in_source_folder("scripts/run");
   ASSERT_EQ(result.exit_status, 0) << result.output;

@@ -13,6 +13,7 @@
 #include "fitting/force_table.hpp"
 #include "reduced_model/trajectory.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "tests/docs/document.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/brenner.hpp"
 
@@ -79,13 +80,11 @@ TEST(ExtendedGeometry, DragInAFilmAsThickAsTheSlipLengthIsThatOfLubricationTheor
   EXPECT_NEAR(table.rows.at(0).drag_factor / brenner_drag_factor(1e-4), f, 5e-4);
 }
 
-TEST(ExtendedBasis, FindsTheSlipLengthFromATable) {
-  const TemporaryFolder folder;
-  slip_table(folder.path(), "1e-4", "{ from = 0.02, to = 1.0, count = 8, spacing = \"log\" }");
-  const auto fit_path = folder.path() / "slip.json";
-  run_extended({"fit", (folder.path() / "slip.csv").string(), "-o", fit_path.string(), "--basis",
-                "shifted"});
-  const std::string text = read_file(fit_path);
+// The page's own commands: a table of slip length 1e-4, its fit, and what 1/q^2 says of it.
+TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
+  const ReadersFolder folder(VISCONTACT_EXTENDED);
+  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/extending.md"), 3);
+  const std::string text = read_file(folder.path() / "out/slip.json");
   const auto coefficient = [&](const std::string& term) {
     const auto name = text.find("\"name\": \"" + term + "\"");
     const auto entry = text.rfind('{', name);
