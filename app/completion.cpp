@@ -145,11 +145,11 @@ std::string zsh_completion(const CLI::App& app) {
         continue;
       }
       for (const auto& name : spellings)
-        lines += fmt::format(" \\\n        '{}[{}]{}'", name, quoted(description),
-                             is_flag(*option)
-                                 ? std::string()
-                                 : ":" + quoted(zsh_description(option->get_type_name())) + ":" +
-                                       quoted(zsh_action(*option)));
+        lines +=
+            fmt::format(" \\\n        '{}[{}]{}'", name, quoted(description),
+                        is_flag(*option) ? std::string()
+                                         : ":" + quoted(zsh_description(option->get_type_name())) +
+                                               ":" + quoted(zsh_action(*option)));
     }
     cases += fmt::format("      {})\n        _arguments{} ;;\n", command->get_name(), lines);
   }

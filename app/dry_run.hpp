@@ -12,9 +12,10 @@ namespace viscontact {
 /// The rows of one output.
 struct DryRun {
   std::string output;
-  std::uint64_t rows = 0, finished = 0;  ///< finished ones are there and would not be computed again
-  double seconds_per_row = 0;            ///< of one core
-  std::string basis;                     ///< what that is taken from, in words
+  std::uint64_t rows = 0,
+                finished = 0;  ///< finished ones are there and would not be computed again
+  double seconds_per_row = 0;  ///< of one core
+  std::string basis;           ///< what that is taken from, in words
 };
 
 /// Of a table. The time is the mean of its finished rows, else that of the shipped tables: of the right order on a machine like theirs.

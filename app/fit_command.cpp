@@ -50,10 +50,9 @@ void add_fit(CLI::App& app) {
   };
   auto* command = app.add_subcommand("fit", "least squares of a table");
   auto o = std::make_shared<Options>();
-  command->add_option("TABLE", o->table, "table of forces (CSV)")
-      ->required()
-      ->type_name(kFile);
-  auto* output = command->add_option("-o,--output", o->fit, "fit to write (JSON)")->type_name(kFile);
+  command->add_option("TABLE", o->table, "table of forces (CSV)")->required()->type_name(kFile);
+  auto* output =
+      command->add_option("-o,--output", o->fit, "fit to write (JSON)")->type_name(kFile);
   auto* basis = command->add_option("--basis", o->basis, "terms of the formula")
                     ->type_name(words_of(all_bases()))
                     ->capture_default_str();
@@ -81,9 +80,10 @@ void add_fit(CLI::App& app) {
   auto* bases = command->add_flag("--compare-bases", o->compare_bases,
                                   "print every basis side by side, and draw their residuals");
   add_json(*command, o->json)->needs(bases);
-  command->add_option("--plot", o->plot,
-                      "picture of --compare-bases (SVG); default: beside the fit, or the table's "
-                      "name with .bases.svg here")
+  command
+      ->add_option("--plot", o->plot,
+                   "picture of --compare-bases (SVG); default: beside the fit, or the table's "
+                   "name with .bases.svg here")
       ->type_name(kFile);
   command->callback([o, output, terms, fix] {
     FitSettings settings;

@@ -73,7 +73,7 @@ std::string basis_json(const std::vector<BasisResult>& results) {
     json.push_back(result.fit ? nlohmann::ordered_json::parse(write_fit(*result.fit))
                               : nlohmann::ordered_json(
                                     {{"basis", result.basis}, {"failure", result.failure}}));
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results) {

@@ -123,22 +123,24 @@ void add_compare(CLI::App& app) {
   command->add_option("DIR", o->folder, "folder of a run, or with trajectory files in it")
       ->required()
       ->type_name(kFolder);
-  command->add_option("TRAJECTORY", o->others,
-                      "further trajectory files (CSV with columns time, gap, velocity)")
+  command
+      ->add_option("TRAJECTORY", o->others,
+                   "further trajectory files (CSV with columns time, gap, velocity)")
       ->type_name(kFile);
   command->add_option("--reference", o->reference, "model that the others are compared with")
       ->type_name(kModel)
       ->capture_default_str();
-  command->add_option("-o,--output", o->output,
-                      "comparison to write (JSON); default: DIR/comparison.json")
+  command
+      ->add_option("-o,--output", o->output,
+                   "comparison to write (JSON); default: DIR/comparison.json")
       ->type_name(kFile);
   add_json(*command, o->json);
   command->callback([o] {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
     refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
-    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output,
-                  {}, o->json);
+    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output, {},
+                  o->json);
   });
 }
 
@@ -191,8 +193,7 @@ void add_self_description(CLI::App& app) {
 }
 
 void add_doctor(CLI::App& app, bool& healthy) {
-  auto* command =
-      app.add_subcommand("doctor", "what is installed, and how to mend what is not");
+  auto* command = app.add_subcommand("doctor", "what is installed, and how to mend what is not");
   auto json = std::make_shared<bool>(false);
   add_json(*command, *json);
   command->callback([&healthy, json] { healthy = examine(*json); });
@@ -244,7 +245,7 @@ int main(int argc, char** argv) {
     viscontact::clear_progress();
     const bool wrong_usage = error.exit_code() == ExitCode::kWrongUsage;
     viscontact::complain(fmt::format("viscontact: {}{}", error.what(),
-                                wrong_usage ? "; see viscontact --help" : ""));
+                                     wrong_usage ? "; see viscontact --help" : ""));
     return static_cast<int>(error.exit_code());
   } catch (const std::bad_alloc&) {
     viscontact::complain("viscontact: there is not enough memory for this");

@@ -9,7 +9,6 @@
 namespace viscontact {
 namespace {
 
-
 constexpr std::array kExitCodes = {
     std::pair("0", "done"),
     std::pair("2", "wrong usage"),

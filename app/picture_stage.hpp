@@ -18,7 +18,6 @@ std::filesystem::path picture_folder(const std::filesystem::path& table_path);
 
 /// Solves those rows again, at the first velocity, and writes of each gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu. `case_file` is where the tabulation stands.
 void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
-                   const std::filesystem::path& folder,
-                   const std::filesystem::path& case_file);
+                   const std::filesystem::path& folder, const std::filesystem::path& case_file);
 
 }  // namespace viscontact

@@ -68,7 +68,8 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
 
 /// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
 void write_uncertainty_file(const Motion& motion, const Fit& fit, BelowInterval below,
-                            AboveInterval above, const fs::path& path, const Provenance& provenance) {
+                            AboveInterval above, const fs::path& path,
+                            const Provenance& provenance) {
   constexpr std::size_t kTimes = 81;
   try {
     write_output(path, TextKind::kJson,
@@ -77,7 +78,7 @@ void write_uncertainty_file(const Motion& motion, const Fit& fit, BelowInterval 
     if (error.exit_code() != ExitCode::kNotConverged) throw;
     fs::remove(path);
     warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
-                    error.what()));
+                     error.what()));
   }
 }
 
@@ -90,7 +91,7 @@ void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
       if (first == nullptr) first = &trajectory;
       if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
       warn(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
-                      trajectory.model, key));
+                       trajectory.model, key));
       break;
     }
   }
@@ -328,7 +329,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   throw_if_interrupted();
   compare_stage(folder, {}, reference, run.comparison(), given, json);
   throw_if_interrupted();
-  write_report(folder);
+  write_report(folder, given);
 }
 
 }  // namespace viscontact

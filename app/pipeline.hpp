@@ -39,8 +39,7 @@ void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
 /// command; empty if they are the user's own.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
-                   const std::string& reference_model,
-                   const std::filesystem::path& comparison_path,
+                   const std::string& reference_model, const std::filesystem::path& comparison_path,
                    const std::vector<std::filesystem::path>& given, bool json);
 
 /// All of it: tabulate, fit, simulate, compare, report. Stages whose inputs did not change are not

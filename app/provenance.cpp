@@ -75,14 +75,20 @@ struct Frame {
 
 Frame frame_of(TextKind kind) {
   switch (kind) {
-    case TextKind::kHashComment: return {"# provenance: ", "", ""};
-    case TextKind::kJson: return {"  \"provenance\": ", ",", ""};
-    case TextKind::kSvg: return {"<metadata id=\"provenance\">", "</metadata>", "<>&"};
+    case TextKind::kHashComment:
+      return {"# provenance: ", "", ""};
+    case TextKind::kJson:
+      return {"  \"provenance\": ", ",", ""};
+    case TextKind::kSvg:
+      return {"<metadata id=\"provenance\">", "</metadata>", "<>&"};
     case TextKind::kHtml:
       return {"<script type=\"application/json\" id=\"provenance\">", "</script>", "<>&"};
-    case TextKind::kXml: return {"<!-- provenance: ", " -->", "-<>&"};
-    case TextKind::kC: return {"/* provenance: ", " */", "*"};
-    case TextKind::kFortran: return {"! provenance: ", "", ""};
+    case TextKind::kXml:
+      return {"<!-- provenance: ", " -->", "-<>&"};
+    case TextKind::kC:
+      return {"/* provenance: ", " */", "*"};
+    case TextKind::kFortran:
+      return {"! provenance: ", "", ""};
   }
   return {};
 }
@@ -99,11 +105,16 @@ std::size_t place_in(TextKind kind, const std::string& text) {
   switch (kind) {
     case TextKind::kHashComment:
     case TextKind::kC:
-    case TextKind::kFortran: return 0;
-    case TextKind::kJson: return line_after(text, "{");
-    case TextKind::kSvg: return line_after(text, ">", text.find("<svg"));
-    case TextKind::kHtml: return text.find("</head>");
-    case TextKind::kXml: return line_after(text, "?>");
+    case TextKind::kFortran:
+      return 0;
+    case TextKind::kJson:
+      return line_after(text, "{");
+    case TextKind::kSvg:
+      return line_after(text, ">", text.find("<svg"));
+    case TextKind::kHtml:
+      return text.find("</head>");
+    case TextKind::kXml:
+      return line_after(text, "?>");
   }
   return 0;
 }
@@ -159,10 +170,9 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
   if (!line) return {};
   const auto closing = text.rfind('}', line->end);
   try {
-    const auto json =
-        Json::parse(closing == std::string::npos || closing < line->json
-                        ? std::string()
-                        : text.substr(line->json, closing + 1 - line->json));
+    const auto json = Json::parse(closing == std::string::npos || closing < line->json
+                                      ? std::string()
+                                      : text.substr(line->json, closing + 1 - line->json));
     Provenance provenance;
     provenance.command = json.at("command").get<std::vector<std::string>>();
     provenance.folder = json.at("folder").get<std::string>();

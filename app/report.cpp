@@ -6,13 +6,13 @@
 
 #include "app/html.hpp"
 #include "app/progress.hpp"
+#include "app/provenance.hpp"
 #include "app/report_origin.hpp"
 #include "app/report_page_texts.hpp"
 #include "app/report_plots.hpp"
 #include "app/report_tables.hpp"
 #include "app/report_warnings.hpp"
 #include "app/run_results.hpp"
-#include "common/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -135,14 +135,18 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
 
 }  // namespace
 
-void write_report(const std::filesystem::path& folder) {
+void write_report(const std::filesystem::path& folder,
+                  const std::vector<std::filesystem::path>& given) {
   const auto run = read_run(folder);
+  const auto files = files_of(run);
+  const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
   const auto pictures = draw(plots_of(run));
   const auto page = page_of(run, pictures);
   for (const auto name : kPlotNames)
     std::filesystem::remove(run.folder.plot(std::string(name)));  // of an earlier report
-  for (const auto& [plot, svg] : pictures) write_file(run.folder.plot(plot.name), svg);
-  write_file(run.folder.report(), page);
+  for (const auto& [plot, svg] : pictures)
+    write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
+  write_output(run.folder.report(), TextKind::kHtml, page, provenance);
   say(fmt::format("report: {}", run.folder.report().string()));
 }
 

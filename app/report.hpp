@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace viscontact {
 
 /// Writes report.html into a run's folder from its case, fit, trajectories and comparison (and
 /// table, if there is one). Throws Error(kBadInput) if one of those is missing or wrong,
-/// Error(kExternalProgram) if gnuplot is.
-void write_report(const std::filesystem::path& folder);
+/// Error(kExternalProgram) if gnuplot is. `given`: the user's files from which the same command made the folder's; empty if the folder's are the user's.
+void write_report(const std::filesystem::path& folder,
+                  const std::vector<std::filesystem::path>& given = {});
 
 }  // namespace viscontact

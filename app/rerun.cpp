@@ -60,8 +60,9 @@ std::string in_words(const std::vector<std::string>& command) {
 void rerun(const Options& o) {
   const auto provenance = read_provenance(o.file);
   if (!provenance || provenance->command.empty())
-    throw_bad_input({o.file}, "does not say how it was made (no line 'provenance'); files that "
-                              "Viscontact writes do, copies of yours do not");
+    throw_bad_input({o.file},
+                    "does not say how it was made (no line 'provenance'); files that "
+                    "Viscontact writes do, copies of yours do not");
   const fs::path folder = provenance->folder;
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
@@ -105,11 +106,15 @@ void add_rerun(CLI::App& app) {
   auto* command = app.add_subcommand(
       "rerun", "the command that made a file once more, if its inputs are the same");
   auto o = std::make_shared<Options>();
-  command->add_option("FILE", o->file, "a file that Viscontact wrote: table, fit, trajectory, report, picture, ...")
+  command
+      ->add_option("FILE", o->file,
+                   "a file that Viscontact wrote: table, fit, trajectory, report, picture, ...")
       ->required()
       ->type_name(kFile);
-  command->add_option("-o,--output", o->output,
-                      "write there, from nothing; default: where the command wrote, what is up to date there is left")
+  command
+      ->add_option("-o,--output", o->output,
+                   "write there, from nothing; default: where the command wrote, what is up to "
+                   "date there is left")
       ->type_name(kFile);
   command->add_flag("--changed-inputs", o->changed_inputs,
                     "go on although inputs have changed since");

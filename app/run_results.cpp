@@ -24,4 +24,14 @@ RunResults read_run(const std::filesystem::path& folder) {
   return results;
 }
 
+std::vector<std::filesystem::path> files_of(const RunResults& results) {
+  const auto& run = results.folder;
+  std::vector<std::filesystem::path> files = {run.case_file(), run.fit(), run.comparison()};
+  for (const auto& trajectory : results.trajectories)
+    files.push_back(run.trajectory(trajectory.model));
+  if (results.table) files.push_back(run.table());
+  if (results.uncertainty) files.push_back(run.uncertainty());
+  return files;
+}
+
 }  // namespace viscontact

@@ -29,4 +29,7 @@ struct RunResults {
 /// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or a file is wrong.
 RunResults read_run(const std::filesystem::path& folder);
 
+/// The files that were read.
+std::vector<std::filesystem::path> files_of(const RunResults& results);
+
 }  // namespace viscontact

@@ -151,8 +151,8 @@ void run(const Options& o) {
   Remaining remaining;
   auto shown = std::chrono::steady_clock::now();
   const auto computed = write_sweep(
-      sweep, o.output, o.jobs, VISCONTACT_VERSION,
-      provenance_line(provenance), [&](std::uint64_t done, std::uint64_t size) {
+      sweep, o.output, o.jobs, VISCONTACT_VERSION, provenance_line(provenance),
+      [&](std::uint64_t done, std::uint64_t size) {
         const auto now = std::chrono::steady_clock::now();
         if (now - shown < std::chrono::milliseconds(200)) return;
         shown = now;
@@ -166,7 +166,8 @@ void run(const Options& o) {
                 "sweep: {} rows in {}{}", size, o.output,
                 computed < size ? fmt::format(", {} of them from before", size - computed) : ""));
   if (!o.plot.empty())
-    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture), provenance_of(Inputs{files, {o.output}}));
+    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture),
+                 provenance_of(Inputs{files, {o.output}}));
 }
 
 }  // namespace
@@ -202,15 +203,17 @@ void add_sweep(CLI::App& app) {
   command->add_option("--models", o->models, "comma-separated; default: inertial,viscous_contact")
       ->type_name(kModels)
       ->delimiter(',');
-  command->add_option("--reference", o->reference,
-                      "model that the others are compared with; default: inertial, or the first")
+  command
+      ->add_option("--reference", o->reference,
+                   "model that the others are compared with; default: inertial, or the first")
       ->type_name(kModel);
-  command->add_option(
-      "--fit", o->fit,
-      "fit of the lubrication force (JSON); default: the case's [fit] file or exact")
+  command
+      ->add_option("--fit", o->fit,
+                   "fit of the lubrication force (JSON); default: the case's [fit] file or exact")
       ->type_name(kFile);
-  command->add_option("--plot", o->plot,
-                      "picture to write (SVG): lines over one key, or a map over two")
+  command
+      ->add_option("--plot", o->plot,
+                   "picture to write (SVG): lines over one key, or a map over two")
       ->type_name(kFile);
   command->add_option("--x", o->x, "key along the picture; default: the first varied")
       ->type_name("KEY");

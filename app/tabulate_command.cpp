@@ -46,8 +46,9 @@ void add_tabulate(CLI::App& app) {
           ->add_option("--tasks", o->tasks,
                        "tasks of the array job; default: one for each row, at most 1000")
           ->check(CLI::Range(1, 4000000));
-  const auto* slurm_options = command->add_option("--slurm-options", o->slurm_options,
-                                                  "more options for sbatch, in one argument")
+  const auto* slurm_options = command
+                                  ->add_option("--slurm-options", o->slurm_options,
+                                               "more options for sbatch, in one argument")
                                   ->type_name("OPTIONS");
   auto* gather = command->add_flag(
       "--gather", o->gather, "write the tables from the rows of an array job, computing none");
@@ -62,8 +63,8 @@ void add_tabulate(CLI::App& app) {
               "draws mesh and flow of their rows (SVG, VTK) in a folder beside the table")
           ->expected(0, 1)
           ->type_name("[GAP,GAP,...]");
-  auto* dry = command->add_flag(
-      "--dry-run", o->dry_run, "print how many rows there are and about how long they take");
+  auto* dry = command->add_flag("--dry-run", o->dry_run,
+                                "print how many rows there are and about how long they take");
   auto* json = add_json(*command, o->json);
   json->needs(dry);
   dry->excludes(launcher)->excludes(gather)->excludes(task)->excludes(plot);

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
   for (const auto& row : table.rows)
     if (row.relative_error_estimate > asked)
-      warn(fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
+      warn(
+          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
                       "{:.2g}, {:.2g} was asked",
                       row.gap, row.reference_velocity, row.relative_error_estimate, asked));
 }

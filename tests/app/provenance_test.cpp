@@ -1,0 +1,211 @@
+// How a file was made stands in it, whatever its kind, and `viscontact rerun` repeats it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/file.hpp"
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+/// The lines of a file apart from those that say how it was made.
+std::string rest_of(const fs::path& file) {
+  std::string rest;
+  std::istringstream text(read_file(file));
+  for (std::string line; std::getline(text, line);)
+    if (line.find("provenance") == std::string::npos) rest += line + "\n";
+  return rest;
+}
+
+/// As another program would read it, in whatever comment it stands.
+Json provenance_of(const fs::path& file) {
+  std::istringstream text(read_file(file));
+  for (std::string line; std::getline(text, line);)
+    if (line.find("provenance") != std::string::npos) {
+      const auto begin = line.find("{\"command\":[");
+      const auto end = line.rfind('}');
+      if (begin != std::string::npos) return Json::parse(line.substr(begin, end + 1 - begin));
+    }
+  ADD_FAILURE() << file << " does not say how it was made";
+  return {};
+}
+
+std::vector<std::string> inputs_of(const fs::path& file, bool intermediate = false) {
+  std::vector<std::string> names;
+  const Json provenance = provenance_of(file);
+  for (const auto& input : provenance.at("inputs")) {
+    if (input.value("intermediate", false) != intermediate) continue;
+    names.push_back(input.at("file"));
+    EXPECT_EQ(input.at("sha256"), sha256(read_file(input.at("file").get<std::string>()))) << file;
+  }
+  return names;
+}
+
+class Provenance : public ::testing::Test {
+ protected:
+  Provenance() {
+    put_text(path("case.toml"), lecture_case_text());
+    put_text(path("table.csv"), exact_table_text());
+  }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+  ProgramResult run(const std::vector<std::string>& arguments) const {
+    return run_viscontact(arguments, {"SOURCE_DATE_EPOCH=1000000000"});
+  }
+  void fit() const { expect_done(run({"fit", path("table.csv"), "-o", path("fit.json")})); }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(Provenance, NamesCommandFolderInputsVersionsAndTime) {
+  fit();
+  const auto json = provenance_of(path("fit.json"));
+  EXPECT_EQ(json.at("command"),
+            Json({VISCONTACT_EXECUTABLE, "fit", path("table.csv"), "-o", path("fit.json")}));
+  EXPECT_EQ(json.at("folder"), fs::current_path().string());
+  EXPECT_EQ(json.at("made"), "2001-09-09T01:46:40Z");
+  for (const auto* program : {"Viscontact", "Ceres", "Eigen", "SUNDIALS"})
+    EXPECT_TRUE(json.at("versions").contains(program)) << program;
+  EXPECT_THAT(inputs_of(path("fit.json")), ElementsAre(path("table.csv")));
+}
+
+TEST_F(Provenance, StandsInEveryOutputOfASimulation) {
+  fit();
+  expect_done(run({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
+  expect_done(run({"compare", path("run")}));
+  expect_done(run({"report", path("run")}));
+  for (const auto& entry : fs::recursive_directory_iterator(path("run"))) {
+    if (!entry.is_regular_file() || entry.path().filename() == "case.toml") continue;
+    const auto json = provenance_of(entry.path());
+    EXPECT_FALSE(json.at("inputs").empty()) << entry.path();
+    if (entry.path().parent_path().filename() == "trajectories") {
+      EXPECT_THAT(inputs_of(entry.path()), ElementsAre(path("case.toml"), path("fit.json")));
+    }
+  }
+  EXPECT_THAT(inputs_of(path("run/comparison.json")).size(), 6U);           // the default models
+  EXPECT_EQ(read_file(path("run/fit.json")), read_file(path("fit.json")));  // a copy
+}
+
+TEST_F(Provenance, OfARunTellsTheUsersFilesFromItsOwn) {
+  const FakeFreeFem fake(scratch_.path());
+  put_text(path("case.toml"), gentle_case_text());
+  expect_done(run_viscontact({"run", path("case.toml"), "-o", path("run")},
+                             {"VISCONTACT_FREEFEM=" + fake.executable()}));
+  EXPECT_THAT(inputs_of(path("run/table.csv")), ElementsAre(path("case.toml")));
+  EXPECT_THAT(inputs_of(path("run/fit.json")), ElementsAre(path("case.toml")));
+  EXPECT_THAT(inputs_of(path("run/fit.json"), true), ElementsAre(path("run/table.csv")));
+  EXPECT_THAT(inputs_of(path("run/trajectories/inertial.csv"), true),
+              ElementsAre(path("run/fit.json")));
+  EXPECT_THAT(inputs_of(path("run/report.html")), ElementsAre(path("case.toml")));
+  // Its own files may be gone: it makes them again.
+  fs::remove_all(path("run/trajectories"));
+  fs::remove(path("run/fit.json"));
+  EXPECT_THAT(run({"rerun", path("run/report.html"), "--dry-run"}).output,
+              HasSubstr("viscontact run " + path("case.toml") + " -o " + path("run")));
+  EXPECT_THAT(run({"rerun", path("run/report.html"), "--dry-run"}).errors, "");
+}
+
+TEST_F(Provenance, StandsInEveryExportAndLeavesItWhole) {
+  fit();
+  for (const auto& [target, checker] : std::map<std::string, std::string>{
+           {"c-header", "gcc -x c -fsyntax-only -Wall -Werror "},
+           {"fortran", "gfortran -x f95 -fsyntax-only -Wall "},
+           {"python", "python3 -c 'import ast,sys; ast.parse(open(sys.argv[1]).read())' "},
+           {"json", "python3 -m json.tool "},
+           {"csv", "test -s "}}) {
+    const auto file = path("a --b */ & <i>.txt");  // what a comment or an element must survive
+    expect_done(run({"export", path("fit.json"), "--to", target, "-o", file}));
+    EXPECT_EQ(provenance_of(file).at("command").back(), file) << target;
+    EXPECT_EQ(std::system((checker + "'" + file + "' >/dev/null").c_str()), 0) << target;
+    fs::remove(file);
+  }
+}
+
+TEST_F(Provenance, PictureStaysWellFormedXml) {
+  const auto picture = path("a --b */ & <i>.svg");
+  expect_done(run({"fit", path("table.csv"), "--compare-bases", "--plot", picture}));
+  EXPECT_EQ(provenance_of(picture).at("command").back(), picture);
+  EXPECT_EQ(std::system(("python3 -c 'import sys,xml.dom.minidom as d; d.parse(sys.argv[1])' '" +
+                         picture + "'")
+                            .c_str()),
+            0);
+}
+
+class Rerun : public Provenance {};
+
+TEST_F(Rerun, RepeatsWhatMadeAFileInAnotherPlace) {
+  fit();
+  const auto again = run({"rerun", path("fit.json"), "-o", path("again.json")});
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("rerun: cd "));
+  EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
+  EXPECT_EQ(provenance_of(path("again.json")).at("command").back(), path("again.json"));
+  // And that of the repetition.
+  expect_done(run({"rerun", path("again.json"), "-o", path("third.json")}));
+  EXPECT_EQ(rest_of(path("third.json")), rest_of(path("fit.json")));
+}
+
+TEST_F(Rerun, MakesALostFileAgainInItsOldPlace) {
+  fit();
+  expect_done(run({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
+  const auto before = rest_of(path("run/trajectories/inertial.csv"));
+  fs::remove(path("run/trajectories/inertial.csv"));
+  expect_done(run({"rerun", path("run/trajectories/reference.csv")}));
+  EXPECT_EQ(rest_of(path("run/trajectories/inertial.csv")), before);
+}
+
+TEST_F(Rerun, GoesToTheFolderOfTheCommand) {
+  const auto in_scratch = "cd '" + scratch_.path().string() + "'; ";
+  expect_done(run_viscontact({"fit", "table.csv", "-o", "fit.json"}, {}, in_scratch));
+  fs::copy(path("fit.json"), path("copy.json"));
+  expect_done(run({"rerun", path("copy.json"), "-o", path("again.json")}));
+  EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
+}
+
+TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
+  fit();
+  put_text(path("table.csv"),
+           replaced(exact_table_text(), "# radius: 1\n", "# radius: 1\n# note: new\n"));
+  expect_refusal(
+      run({"rerun", path("fit.json"), "-o", path("again.json")}), ExitCode::kBadInput,
+      AllOf(HasSubstr(path("table.csv") + " has changed"), HasSubstr("--changed-inputs")));
+  EXPECT_FALSE(fs::exists(path("again.json")));
+  expect_done(run({"rerun", path("fit.json"), "-o", path("again.json"), "--changed-inputs"}));
+  EXPECT_TRUE(fs::exists(path("again.json")));
+  fs::remove(path("table.csv"));
+  expect_refusal(run({"rerun", path("fit.json")}), ExitCode::kBadInput,
+                 HasSubstr("is not there any more"));
+}
+
+TEST_F(Rerun, RefusesWhatDoesNotSayHowItWasMade) {
+  fit();
+  expect_refusal(run({"rerun", path("table.csv")}), ExitCode::kBadInput,
+                 HasSubstr("does not say how it was made"));
+  expect_refusal(run({"rerun", path("nothing.csv")}), ExitCode::kBadInput,
+                 HasSubstr("nothing.csv"));
+  put_text(path("torn.json"), replaced(read_file(path("fit.json")), "\"folder\":", "\"folder\""));
+  expect_refusal(run({"rerun", path("torn.json")}), ExitCode::kBadInput, HasSubstr("damaged"));
+  expect_done(run({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
+  expect_done(run({"compare", path("run")}));
+  expect_done(run({"report", path("run")}));
+  expect_refusal(run({"rerun", path("run/report.html"), "-o", path("other")}),
+                 ExitCode::kWrongUsage, HasSubstr("has no -o"));
+}
+
+}  // namespace
+}  // namespace viscontact

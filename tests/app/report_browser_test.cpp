@@ -1,0 +1,194 @@
+// report.html in a browser (chromium): no error, no network, the curves are there, the pointer reads them off, drags zoom.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "common/file.hpp"
+#include "common/process.hpp"
+#include "reduced_model/trajectory.hpp"
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// Appended to a copy of the page: plays the reader and leaves what it saw in an element as JSON.
+constexpr std::string_view kReader = R"JS(
+<script>
+(async () => {
+  const pause = () => new Promise(done => setTimeout(done, 60));
+  const found = {width: innerWidth, bodyWidth: document.documentElement.scrollWidth, panels: []};
+  for (const figure of document.querySelectorAll('figure[data-plot]')) {
+    const plot = JSON.parse(figure.querySelector('script').textContent);
+    const places = [...figure.querySelectorAll('.panel')];
+    for (const [k, place] of places.entries()) {
+      const u = place.uplot, described = plot.panels[k];
+      const {left, top, width, height} = u.bbox;
+      const pixels = u.ctx.getImageData(left, top, width, height).data;
+      const painted = colour => {
+        const rgb = [1, 3, 5].map(i => parseInt(colour.slice(i, i + 2), 16));
+        let count = 0;
+        for (let i = 0; i < pixels.length; i += 4)
+          if (pixels[i + 3] > 128 && Math.abs(pixels[i] - rgb[0]) + Math.abs(pixels[i + 1] - rgb[1]) + Math.abs(pixels[i + 2] - rgb[2]) < 60) ++count;
+        return count;
+      };
+      const box = u.over.getBoundingClientRect();
+      const send = (type, x, y, target = u.over) => target.dispatchEvent(new MouseEvent(type, {
+        bubbles: true, button: 0, movementX: 1, movementY: 1,  // uPlot passes over moves by nothing
+        clientX: box.left + x * box.width, clientY: box.top + y * box.height}));
+      const values = () => [...place.querySelectorAll('.legend tr')].map(row => row.lastChild.textContent);
+      const scales = () => ['x', 'y'].map(name => [u.scales[name].min, u.scales[name].max]);
+      const seen = {plot: plot.name, painted: described.curves.map(c => painted(c.colour)), values: [],
+                    legend: [...place.querySelectorAll('.legend tr')].map(row => row.children[1].textContent)};
+      send('mouseenter', 0.3, 0.5);
+      for (const x of [0.25, 0.5, 0.8]) { send('mousemove', x, 0.5); await pause(); seen.values.push(values()); }
+      seen.before = scales();
+      send('mousemove', 0.3, 0.3); send('mousedown', 0.3, 0.3); await pause();
+      send('mousemove', 0.6, 0.7); await pause();
+      send('mouseup', 0.6, 0.7); await pause();
+      seen.zoomed = scales();
+      send('dblclick', 0.5, 0.5); await pause();
+      seen.after = scales();
+      found.panels.push(seen);
+    }
+  }
+  const pre = parent.document.createElement('pre');
+  pre.id = 'found';
+  pre.textContent = JSON.stringify(found);
+  parent.document.body.append(pre);
+  console.log('reader has finished');
+})();
+</script>
+)JS";
+
+class ReportInBrowser : public ::testing::Test {
+ protected:
+  // One run for all tests: they only look.
+  static void SetUpTestSuite() {
+    scratch_ = std::make_unique<TemporaryFolder>();
+    fs::create_directories(folder());
+    put_text(folder() / "table.csv",
+             read_file(VISCONTACT_SOURCE_FOLDER "/data/tables/lecture.csv"));
+    put_text(scratch_->path() / "case.toml", lecture_case_text());
+    expect_done(
+        run_viscontact({"run", (scratch_->path() / "case.toml").string(), "-o", folder().string()},
+                       {"VISCONTACT_FREEFEM=no-such-freefem"}));
+  }
+  static void TearDownTestSuite() { scratch_.reset(); }
+  static fs::path folder() { return scratch_->path() / "run"; }
+
+  /// The page with the reader, in a frame of this width: a window of chromium's is never narrower than 500.
+  static std::string framed_page(int width) {
+    std::string page;
+    for (const char c : read_file(folder() / "report.html") + std::string(kReader))
+      page += c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+    return "<!DOCTYPE html><meta charset=utf-8><body style=\"margin:0\"><iframe "
+           "style=\"border:0;height:900px;width:" +
+           std::to_string(width) + "px\" srcdoc=\"" + page + "\"></iframe></body>";
+  }
+
+  /// What the reader saw in a frame of this width; a failure if the browser says anything but that he has finished.
+  static Json read_page(int width) {
+    put_text(folder() / "read.html", framed_page(width));
+    const auto errors = scratch_->path() / "browser.log";
+    const auto profile = scratch_->path() / "profile";
+    const auto result = run_process(
+        {"/bin/sh", "-c", "exec chromium \"$@\" 2>'" + errors.string() + "'", "sh", "--headless",
+         "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+         "--user-data-dir=" + profile.string(), "--host-resolver-rules=MAP * ~NOTFOUND",
+         "--enable-logging=stderr", "--virtual-time-budget=30000", "--window-size=1300,1000",
+         "--dump-dom", "file://" + (folder() / "read.html").string()});
+    const std::string log = read_file(errors);
+    constexpr int kNotFound = 127;  // of the shell
+    if (result.exit_status == kNotFound) {
+      ADD_FAILURE() << "no chromium; run scripts/setup";
+      return {};
+    }
+    std::istringstream lines(log);
+    int finished = 0;
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(":CONSOLE") != std::string::npos) {
+        EXPECT_THAT(line, HasSubstr("reader has finished"));
+        ++finished;
+      }
+    EXPECT_EQ(finished, 1) << log;
+    constexpr std::string_view kStart = "<pre id=\"found\">";
+    const auto start = result.output.find(kStart);
+    if (start == std::string::npos) {
+      ADD_FAILURE() << "the page did not finish:\n" << log;
+      return {};
+    }
+    const auto begin = start + kStart.size();
+    return Json::parse(result.output.substr(begin, result.output.find("</pre>", begin) - begin));
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> scratch_;
+};
+
+TEST_F(ReportInBrowser, FetchesNothing) {
+  const auto page = read_file(folder() / "report.html");
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href|action|data)=[\"']?(https?:)?//")));
+  EXPECT_FALSE(std::regex_search(page, std::regex("url\\([\"']?(https?:)?//|@import")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST_F(ReportInBrowser, CurvesAreDrawnReadOffAndZoomed) {
+  const auto found = read_page(1200);
+  ASSERT_TRUE(found.is_object());
+  std::set<std::string> plots;
+  for (const auto& panel : found["panels"]) {
+    const std::string name = panel["plot"];
+    SCOPED_TRACE(name);
+    plots.insert(name);
+    for (const int painted : panel["painted"]) EXPECT_GT(painted, 10);
+    EXPECT_NE(panel["values"][0], panel["values"][1]);
+    EXPECT_NE(panel["values"][1], panel["values"][2]);
+    // Drawn from 0.3 to 0.6 of the width and from 0.3 to 0.7 of the height; a pixel is 0.2 % of them.
+    for (const auto& [axis, share] : {std::pair(0, 0.3), std::pair(1, 0.4)}) {
+      const auto length = [axis = axis](const Json& scales) {
+        return scales[static_cast<std::size_t>(axis)][1].get<double>() -
+               scales[static_cast<std::size_t>(axis)][0].get<double>();
+      };
+      EXPECT_NEAR(length(panel["zoomed"]) / length(panel["before"]), share, 0.01);
+    }
+    EXPECT_EQ(panel["after"], panel["before"]);
+  }
+  EXPECT_THAT(plots, ::testing::IsSupersetOf({"thinnest_film", "gap", "gap_logarithmic",
+                                              "external_force", "gamma", "fit", "uncertainty"}));
+}
+
+TEST_F(ReportInBrowser, PointerReadsTheTrajectorysOwnValue) {
+  const auto found = read_page(360);
+  ASSERT_TRUE(found.is_object());
+  // A phone: nothing sticks out.
+  EXPECT_EQ(found["width"], 360);
+  EXPECT_LE(found["bodyWidth"], 360);
+  const auto& panels = found["panels"];
+  const auto gap = std::ranges::find_if(panels, [](const auto& p) { return p["plot"] == "gap"; });
+  ASSERT_NE(gap, panels.end());
+  const std::vector<std::string> legend = (*gap)["legend"];
+  const auto row = std::ranges::find(legend, "with inertia, CVODE") - legend.begin();
+  ASSERT_LT(row, std::ssize(legend));
+  const auto trajectory = read_trajectory(folder() / "trajectories" / "inertial.csv").rows;
+  const std::vector<std::string> values = (*gap)["values"][0];
+  const double time = std::stod(values[0]);
+  const double shown = std::stod(values[static_cast<std::size_t>(row)]);
+  EXPECT_GT(time, 0.5);
+  EXPECT_LT(time, 1.5);
+  const auto after = std::ranges::lower_bound(trajectory, time, {}, &TrajectoryRow::time);
+  ASSERT_NE(after, trajectory.end());
+  // The page holds every tenth row or so and draws lines between them.
+  EXPECT_NEAR(shown / after->gap, 1, 0.02);
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,117 @@
+// report.html as text: what it warns of, and where its links lead.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "common/file.hpp"
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Report : public ::testing::Test {
+ protected:
+  /// The lecture's run from the shipped table; FreeFEM is not needed.
+  void run_lecture() {
+    fs::create_directories(folder());
+    put_text(folder() / "table.csv",
+             read_file(VISCONTACT_SOURCE_FOLDER "/data/tables/lecture.csv"));
+    run(lecture_case_text());
+  }
+  void run(const std::string& case_text) {
+    put_text(scratch_.path() / "case.toml", case_text);
+    expect_done(
+        run_viscontact({"run", (scratch_.path() / "case.toml").string(), "-o", folder().string()},
+                       {"VISCONTACT_FREEFEM=no-such-freefem"}));
+  }
+  void replace_in(const std::string& file, const std::string& old_part,
+                  const std::string& new_part) {
+    put_text(folder() / file, replaced(read_file(folder() / file), old_part, new_part));
+  }
+  std::string page() const { return read_file(folder() / "report.html"); }
+  fs::path folder() const { return scratch_.path() / "run"; }
+
+  TemporaryFolder scratch_;
+};
+
+void expect_live_links(const fs::path& folder, const std::string& page) {
+  static const std::regex kLink("href=\"([^\"#][^\"]*)\"");
+  std::set<std::string> targets;
+  for (auto it = std::sregex_iterator(page.begin(), page.end(), kLink);
+       it != std::sregex_iterator(); ++it)
+    targets.insert((*it)[1]);
+  for (const auto& target : targets) EXPECT_TRUE(fs::exists(folder / target)) << target;
+  EXPECT_GE(targets.size(), 8U);
+}
+
+TEST_F(Report, LinksTheFileOfEveryNumberAndIsSmall) {
+  run_lecture();
+  const auto text = page();
+  for (const auto* file : {"table.csv", "fit.json", "comparison.json", "uncertainty.json",
+                           "case.toml", "trajectories/inertial.csv", "plots/gap.svg"})
+    EXPECT_THAT(text, HasSubstr("href=\"" + std::string(file) + "\""));
+  expect_live_links(folder(), text);
+  constexpr std::size_t kTwoMegabytes = 2'000'000;
+  EXPECT_LT(text.size(), kTwoMegabytes);
+}
+
+TEST_F(Report, SaysThatThereIsNothingToWarnOf) {
+  // The exact drag, and models whose film stays thicker than nothing.
+  auto text = replaced(lecture_case_text(), "basis = \"lecture\"", "exact = \"plane\"");
+  run(replaced(text, "weights = \"relative\"", ""));
+  EXPECT_THAT(page(), AllOf(HasSubstr("No warnings"), Not(HasSubstr("<h2>Warnings"))));
+}
+
+TEST_F(Report, WarnsOfTheFilmBelowTheTableAndOfTheFit) {
+  run_lecture();
+  EXPECT_THAT(page(),
+              AllOf(HasSubstr("Extrapolation: viscous_contact gets down to a film of 0.00087"),
+                    HasSubstr("below the smallest fitted gap, 0.001"),
+                    HasSubstr("Fit: the coefficient of 1/q"),
+                    HasSubstr("The fit is coarser than the table"), Not(HasSubstr("Poor fit")),
+                    Not(HasSubstr("Accuracy not met"))));
+}
+
+TEST_F(Report, WarnsOfEachThingThatIsWrong) {
+  run_lecture();
+  replace_in("case.toml", "relative_accuracy = 1e-5", "relative_accuracy = 1e-6");
+  put_text(folder() / "fit.json",
+           std::regex_replace(std::regex_replace(read_file(folder() / "fit.json"),
+                                                 std::regex("\"largest_relative_residual\": [^,]*"),
+                                                 "\"largest_relative_residual\": 0.02"),
+                              std::regex("\"gap_interval\": \\[[^\\]]*\\]"),
+                              "\"gap_interval\": [0.1, 0.5]"));
+  put_text(folder() / "table.csv", "# note: touched\n" + read_file(folder() / "table.csv"));
+  put_text(folder() / "uncertainty.json",
+           std::regex_replace(read_file(folder() / "uncertainty.json"),
+                              std::regex("\"refused\": 0"), "\"refused\": 500"));
+  const auto reference = folder() / "trajectories" / "reference.csv";
+  put_text(reference, std::regex_replace(read_file(reference), std::regex("\n4,[^,]*,"), "\n4,0,"));
+  fs::remove(folder() / "trajectories" / "viscous_contact_threshold.csv");
+  expect_done(run_viscontact({"report", folder().string()}));
+  for (const auto* warning :
+       {"Accuracy not met: ", "Poor fit: it misses the table by up to 0.02",
+        "Extrapolation: inertial gets down to a gap of 0.002967, below the smallest fitted gap, "
+        "0.1",
+        "Extrapolation: inertial gets up to a gap of 1, above the largest fitted gap, 0.5",
+        "The sphere of reference goes through the plane at time 4", "500 of 10000 draws",
+        "inertial was made from another case", "inertial was made from another fit",
+        "The fit was made from another table",
+        "The trajectory of viscous_contact_threshold is not in this folder"})
+    EXPECT_THAT(page(), HasSubstr(warning));
+  // viscous_contact has no drag at a distance to extrapolate.
+  EXPECT_THAT(page(), Not(HasSubstr("viscous_contact gets up to")));
+  expect_live_links(folder(), page());
+}
+
+}  // namespace
+}  // namespace viscontact
