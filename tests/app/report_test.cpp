@@ -93,7 +93,7 @@ TEST_F(Report, WarnsOfEachThingThatIsWrong) {
   put_text(folder() / "table.csv", "# note: touched\n" + read_file(folder() / "table.csv"));
   put_text(folder() / "uncertainty.json",
            std::regex_replace(read_file(folder() / "uncertainty.json"),
-                              std::regex("\"refused\": 0"), "\"refused\": 500"));
+                              std::regex("\"refused_draws\": 0"), "\"refused_draws\": 500"));
   const auto reference = folder() / "trajectories" / "reference.csv";
   put_text(reference, std::regex_replace(read_file(reference), std::regex("\n4,[^,]*,"), "\n4,0,"));
   fs::remove(folder() / "trajectories" / "viscous_contact_threshold.csv");
