@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <system_error>
 #include <utility>
 
 #include "case_file/toml_section.hpp"
@@ -216,8 +217,10 @@ ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
 std::filesystem::path force_file(const std::filesystem::path& folder,
                                  const std::filesystem::path& file) {
   const auto copy = folder / file.filename();
-  return !std::filesystem::exists(folder / file) && std::filesystem::exists(copy) ? copy
-                                                                                  : folder / file;
+  std::error_code ignored;  // of a name that no file can have: reading it says so
+  return !std::filesystem::exists(folder / file, ignored) && std::filesystem::exists(copy, ignored)
+             ? copy
+             : folder / file;
 }
 
 /// `external_force`: entries with `until` follow each other and make one force; each other entry, a sinusoid or a file, is added to it.

@@ -46,7 +46,9 @@ TomlSection TomlSection::parse(const std::string& text, const std::string& file)
 TomlSection TomlSection::with_numbers(
     std::span<const std::pair<std::string, double>> numbers) const {
   auto root = std::make_shared<toml::table>(*node_->root);
-  for (const auto& [path, value] : numbers) {
+  for (const auto& number : numbers) {
+    const std::string& path = number.first;
+    const double value = number.second;
     const auto refuse = [&](const std::string& what) {
       throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
     };
@@ -57,8 +59,8 @@ TomlSection TomlSection::with_numbers(
           dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
       if (parent == nullptr) refuse("is no key of this case");
       parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
-    } else if (auto* number = place->as_floating_point()) {
-      **number = value;
+    } else if (auto* decimal = place->as_floating_point()) {
+      **decimal = value;
     } else if (place->is_integer()) {
       // An integer's node holds no fraction; its place is taken by another one.
       const auto dot = path.rfind('.');

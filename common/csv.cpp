@@ -15,7 +15,7 @@ CsvComments read_csv_comments(const std::string& text) {
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.empty() || line[0] != '#') continue;
-    if (line.back() == '\r') line.pop_back();
+    while (line.back() == '\r') line.pop_back();  // not '#'
     const auto colon = line.find(": ");
     const auto start = line.find_first_not_of("# \t");
     if (colon == std::string::npos || start >= colon) continue;

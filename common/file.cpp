@@ -3,12 +3,17 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -23,11 +28,39 @@ namespace {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 
+constexpr std::string_view kUnfinished = ".tmp";
+
+/// Takes away the files NAME.PID.tmp beside `place` whose process was killed before it could.
+void remove_left_behind(const std::filesystem::path& place) {
+  const std::string front = place.filename().string() + ".";
+  const auto folder = place.has_parent_path() ? place.parent_path() : ".";
+  std::error_code ignored;  // they are in nobody's way
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= front.size() + kUnfinished.size() || !name.starts_with(front) ||
+        !name.ends_with(kUnfinished))
+      continue;
+    const char* const end = name.data() + name.size() - kUnfinished.size();
+    pid_t process = 0;
+    const auto number = std::from_chars(name.data() + front.size(), end, process);
+    if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
+    if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+    // On a shared disk it may be a process of another machine: then the file is locked.
+    const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC));
+    if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry.path().c_str());
+  }
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) throw_system_error(path, "read", errno);
+  // A device may have no end (/dev/zero).
+  struct stat status = {};
+  if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
+    throw_bad_input({path.string()}, "cannot be read (a device, not a file)");
   std::string content;
   std::array<char, 1 << 16> buffer{};
   for (;;) {
@@ -82,10 +115,13 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path place = check_output_file(path);
   if (place.has_parent_path()) make_folder(place.parent_path());
   // The process number keeps two runs that write the same file apart.
-  const std::filesystem::path beside = place.string() + fmt::format(".{}.tmp", ::getpid());
+  const std::filesystem::path beside =
+      place.string() + fmt::format(".{}{}", ::getpid(), kUnfinished);
   try {
     const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_system_error(path, "written", errno);
+    (void)::flock(file.get(),
+                  LOCK_EX | LOCK_NB);  // for remove_left_behind; not every disk has locks
     while (!content.empty()) {
       const ssize_t count = ::write(file.get(), content.data(), content.size());
       if (count < 0 && errno == EINTR) continue;
@@ -95,6 +131,7 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     if (::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
     if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
     sync_folder_of(place);
+    remove_left_behind(place);
   } catch (...) {
     ::unlink(beside.c_str());
     throw;

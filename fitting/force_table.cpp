@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/csv.hpp"
 #include "fitting/stokes_drag.hpp"
 
@@ -59,6 +61,10 @@ ForceTable read_force_table(const std::filesystem::path& path) {
                                   row.force, row.reference_velocity));
     const double stokes = stokes_resistance(table.viscosity, table.radius) * row.reference_velocity;
     row.drag_factor = fields.fields[3].value_or(-row.force / stokes);
+    if (!std::isfinite(row.drag_factor))
+      throw_bad_input(
+          here, fmt::format("force is {}, {} times Stokes' drag; must be a finite number of times",
+                            row.force, row.drag_factor));
     row.relative_error_estimate = fields.fields[4].value_or(0);
     row.degrees_of_freedom = fields.fields[5].value_or(0);
     row.seconds = fields.fields[6].value_or(0);

@@ -17,6 +17,11 @@ namespace viscontact {
 
 using Json = nlohmann::ordered_json;
 
+/// A value for a message. What holds others is named only: it may be deeper than the stack.
+inline std::string shown(const Json& value) {
+  return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
+}
+
 /// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
 /// "terms[2].name is ...".
 class JsonObject {
@@ -40,7 +45,7 @@ class JsonObject {
 
   double finite(const std::string& key, const Json& value) const {
     if (!value.is_number() || !std::isfinite(value.get<double>()))
-      fail(key, fmt::format("is {}; must be a finite number", value.dump()));
+      fail(key, fmt::format("is {}; must be a finite number", shown(value)));
     return value.get<double>();
   }
 
@@ -52,7 +57,7 @@ class JsonObject {
   }
 
   std::string text(const std::string& key) const {
-    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", at(key).dump()));
+    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", shown(at(key))));
     return at(key).get<std::string>();
   }
 
@@ -63,13 +68,13 @@ class JsonObject {
 
   std::size_t count(const std::string& key) const {
     if (!at(key).is_number_unsigned())
-      fail(key, fmt::format("is {}; must be a whole number >= 0", at(key).dump()));
+      fail(key, fmt::format("is {}; must be a whole number >= 0", shown(at(key))));
     return at(key).get<std::size_t>();
   }
 
   bool truth(const std::string& key) const {
     if (!at(key).is_boolean())
-      fail(key, fmt::format("is {}; must be true or false", at(key).dump()));
+      fail(key, fmt::format("is {}; must be true or false", shown(at(key))));
     return at(key).get<bool>();
   }
 

@@ -149,7 +149,7 @@ std::string write_comparison(const Comparison& comparison) {
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Comparison read_comparison(const std::filesystem::path& path) {

@@ -165,9 +165,9 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
                        const ContactState& before, double push, double force,
                        const ContactStep& step) {
     const auto& after = step.state;
-    trajectory.rows.emplace_back(next, model.contact_gap + after.gap, after.velocity,
-                                 (step.film + step.drag) * setting.per_step, force, after.gamma,
-                                 step.solid * setting.per_step);
+    trajectory.rows.push_back({next, model.contact_gap + after.gap, after.velocity,
+                               (step.film + step.drag) * setting.per_step, force, after.gamma,
+                               step.solid * setting.per_step});
     book(before.velocity, push, step, books);
     clock.look_at(t, next, before, push, step);
     lowest_gamma = std::min(lowest_gamma, after.gamma);

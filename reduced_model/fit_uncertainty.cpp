@@ -136,7 +136,7 @@ std::string write_uncertainty(const FitUncertainty& uncertainty) {
   json["minimal_gap"] = write_gap(uncertainty.smallest);
   json["gaps"] = Json::array();
   for (const auto& gap : uncertainty.gaps) json["gaps"].push_back(write_gap(gap));
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 FitUncertainty read_uncertainty(const std::filesystem::path& path) {

@@ -114,8 +114,8 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   const auto times = row_times(motion);
   trajectory.rows.reserve(times.size() + 16);
   const auto add_row = [&](double t, const Instant& at) {
-    trajectory.rows.emplace_back(t, at.gap, at.velocity, -at.resistance * at.velocity,
-                                 motion.external_force.value(t));
+    trajectory.rows.push_back(
+        {t, at.gap, at.velocity, -at.resistance * at.velocity, motion.external_force.value(t)});
   };
   add_row(0,
           {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "common/error.hpp"
@@ -85,6 +87,12 @@ void check_finite(const Trajectory& trajectory) {
 }  // namespace
 
 std::span<const Model> all_models() { return kModels; }
+
+std::vector<Model> default_models() {
+  std::vector<Model> models;
+  std::ranges::copy_if(kModels, std::back_inserter(models), &Model::by_default);
+  return models;
+}
 
 ModelChoice find_model(std::string_view name) {
   ModelChoice choice{std::string(name)};

@@ -2,10 +2,10 @@
 // (models.cpp).
 #pragma once
 
-#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reduced_model/contact_model.hpp"
 
@@ -25,7 +25,7 @@ struct Model {
 std::span<const Model> all_models();
 
 /// Those that run where a case names none.
-inline auto default_models() { return all_models() | std::views::filter(&Model::by_default); }
+std::vector<Model> default_models();
 
 /// What may end the name of a model that is to run with the exact drag (fitting/plane_drag.hpp) in place of the fitted one: inertial_brenner.
 inline constexpr std::string_view kExactDragSuffix = "_brenner";

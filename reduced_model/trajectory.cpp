@@ -16,6 +16,14 @@ constexpr std::size_t kRequiredColumns = 3;
 
 std::string optional_number(const Maybe& value) { return value ? format_number(*value) : ""; }
 
+long steps_of(const CsvComments& comments, const std::string& file) {
+  constexpr double kMost = 1e15;  // whole numbers up to there are doubles
+  const double steps = csv_comment_number(comments, "steps", file);
+  if (!(steps >= 0 && steps <= kMost))
+    throw_bad_input({file}, fmt::format("# steps: is {}; must be from 0 to {}", steps, kMost));
+  return static_cast<long>(steps);
+}
+
 }  // namespace
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
@@ -32,8 +40,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   if (csv.comments.contains("recovered_minimal_gap"))
     trajectory.recovered_minimal_gap =
         csv_comment_number(csv.comments, "recovered_minimal_gap", file);
-  if (csv.comments.contains("steps"))
-    trajectory.steps = static_cast<long>(csv_comment_number(csv.comments, "steps", file));
+  if (csv.comments.contains("steps")) trajectory.steps = steps_of(csv.comments, file);
   if (csv.comments.contains("seconds"))
     trajectory.seconds = csv_comment_number(csv.comments, "seconds", file);
   if (csv.comments.contains(kContactKeys[0]))

@@ -1,9 +1,13 @@
 #include "common/file.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -153,6 +157,27 @@ TEST(CheckOutputFile, RefusesAFolderAndADevice) {
               StartsWith(folder.path().string() + ": cannot be written (Is a directory"));
   EXPECT_THAT(bad_input([] { check_output_file("/dev/null"); }),
               StartsWith("/dev/null: cannot be written"));
+}
+
+TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
+  const TemporaryFolder folder;
+  const pid_t killed = ::fork();
+  ASSERT_GE(killed, 0);
+  if (killed == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(killed, nullptr, 0), killed);
+  const auto left = folder.file(fmt::format("out.csv.{}.tmp", killed), "ti");
+  const std::vector<std::filesystem::path> others = {
+      folder.file(fmt::format("out.csv.{}.tmp", ::getppid()), "of a process that is there"),
+      folder.file(fmt::format("other.csv.{}.tmp", killed), "another file's"),
+      folder.file("out.csv.tmp", "a user's"), folder.file("out.csv.7a.tmp", "a user's")};
+  write_file(folder.path() / "out.csv", "time\n");
+  EXPECT_FALSE(std::filesystem::exists(left));
+  for (const auto& other : others) EXPECT_TRUE(std::filesystem::exists(other)) << other;
+}
+
+TEST(ReadFile, RefusesADeviceWhichMayHaveNoEnd) {
+  EXPECT_THAT(bad_input([] { (void)read_file("/dev/zero"); }),
+              StartsWith("/dev/zero: cannot be read (a device"));
 }
 
 TEST(MakeFolder, MakesParentsAndIsContentWithAFolderThatIsThere) {
