@@ -244,9 +244,6 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     trajectories.back().provenance["time_step"] = time_step_of(name, motion);
   }
   const RunFolder run{folder};
-  for (const auto& trajectory : trajectories)
-    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
-                 write_trajectory(trajectory), provenance);
   write_file(run.case_file(), c.text);
   for (const auto& file : c.force_files) write_file(run.beside_case(file), read_file(file));
   write_file(run.fit(), fit_text);
@@ -254,6 +251,10 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     fs::remove(run.uncertainty());
   else
     write_uncertainty_file(motion, fit, below, above, run.uncertainty(), provenance);
+  // Last: by the trajectories `run` sees whether all this has been done.
+  for (const auto& trajectory : trajectories)
+    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
+                 write_trajectory(trajectory), provenance);
   say(fmt::format("simulate: {} models", trajectories.size()));
 }
 
