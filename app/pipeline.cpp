@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
 #include "app/report.hpp"
+#include "app/run_copies.hpp"
 #include "app/run_folder.hpp"
 #include "app/shift_plot.hpp"
 #include "app/tabulate_stage.hpp"
@@ -45,9 +46,7 @@ CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text) {
                           {"fit", sha256(fit_text)},
                           {"revision of the models", std::to_string(kModelsRevision)},
                           {"version of Viscontact", VISCONTACT_VERSION}};
-  std::string forces;
-  for (const auto& file : c.force_files) forces += read_file(file);
-  if (!c.force_files.empty()) comments["force"] = sha256(forces);
+  if (!c.force_files.empty()) comments["force"] = sha256(text_of_forces(c));
   return comments;
 }
 
@@ -220,6 +219,9 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
                     const Provenance& provenance) {
   const auto& motion = required_motion(c);
   const std::string fit_text = read_file(fit_path);
+  const RunFolder run{folder};
+  check_case_copies(run, c);
+  check_fit_copy(run, fit_text);
   const Fit fit = read_fit(fit_path);
   // A fit of another viscosity could be scaled, one of another radius could not; neither is done
   // silently.
@@ -243,10 +245,7 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
     trajectories.back().provenance = identity_of_trajectory(c, fit_text);
     trajectories.back().provenance["time_step"] = time_step_of(name, motion);
   }
-  const RunFolder run{folder};
-  write_file(run.case_file(), c.text);
-  for (const auto& file : c.force_files) write_file(run.beside_case(file), read_file(file));
-  write_file(run.fit(), fit_text);
+  write_copies(run, c, fit_text);
   if (fit.basis == kExactPlane)
     fs::remove(run.uncertainty());
   else
@@ -277,6 +276,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   const RunFolder run{folder};
   const auto& request = required_fit(c);
   (void)required_motion(c);
+  check_case_copies(run, c);  // before the long tabulation
   auto given = files_of_motion(c);
   if (request.file) given.emplace_back(*request.file);
   fs::path fit = run.fit();

@@ -71,5 +71,43 @@ TEST_F(OwnFolder, AnOutputInPlaceOfItsOwnInputIsRefused) {
   }
 }
 
+TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherCaseOrFit) {
+  given("other.toml", quick_case_text());
+  given("case.toml", lecture_case_text());
+  expect_refusal(run({"run", path("other.toml"), "-o", scratch_.path().string()}),
+                 ExitCode::kBadInput, HasSubstr("case.toml: is there and is another case"));
+  expect_given_untouched();
+  std::filesystem::remove(path("case.toml"));
+  given_.erase("case.toml");
+
+  given("fit.json", read_file(VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json"));
+  given("table.csv", exact_table_text());
+  expect_done(run({"fit", path("table.csv"), "-o", path("used.json")}));
+  given("used.json", read_file(path("used.json")));
+  const auto simulate = [&](const std::string& folder) {
+    return run({"simulate", path("other.toml"), "--fit", path("used.json"), "-o", folder});
+  };
+  expect_refusal(simulate(scratch_.path().string()), ExitCode::kBadInput,
+                 HasSubstr("fit.json: is there and is another fit"));
+  expect_given_untouched();
+
+  // A copy of an earlier run is replaced when the case has been edited.
+  expect_done(simulate(path("out")));
+  put_text(path("other.toml"), quick_case_text() + "# edited\n");
+  expect_done(simulate(path("out")));
+  EXPECT_EQ(read_file(path("out/case.toml")), quick_case_text() + "# edited\n");
+}
+
+TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherForce) {
+  const std::string forces = "[ { until = 2.0, value = -20.0 }, { until = 4.0, value = 20.0 } ]";
+  std::filesystem::create_directory(path("sub"));
+  given("sub/push.csv", "time,force\n0,-20\n2,-20\n2,20\n4,20\n");
+  given("push.csv", "time,force\n0,-1\n9,-1\n");
+  given("other.toml", replaced(quick_case_text(), forces, "[ { file = \"sub/push.csv\" } ]"));
+  expect_refusal(run({"run", path("other.toml"), "-o", scratch_.path().string()}),
+                 ExitCode::kBadInput, HasSubstr("push.csv: is there and is another force"));
+  expect_given_untouched();
+}
+
 }  // namespace
 }  // namespace viscontact
