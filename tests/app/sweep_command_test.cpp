@@ -11,6 +11,7 @@
 #include "common/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
@@ -81,7 +82,7 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   const auto csv = read_csv<1>(path("rows.csv"), {"inertial.sup_gap_distance"}, 1);
   EXPECT_EQ(csv.rows.size(), 25U);
   for (const auto& row : csv.rows) EXPECT_TRUE(row.fields[0]) << row.line;
-  const auto svg = read_file(path("picture.svg"));
+  const auto svg = rest_of(path("picture.svg"));
   EXPECT_THAT(svg, AllOf(HasSubstr("<svg"), HasSubstr("</svg>"), HasSubstr("fluid.viscosity"),
                          Not(HasSubstr("nan")), Not(HasSubstr("warning"))));
 
@@ -90,7 +91,7 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   expect_done(again);
   EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
   EXPECT_EQ(read_file(path("rows.csv")), rows);
-  EXPECT_EQ(read_file(path("picture.svg")), svg);
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
@@ -204,7 +205,7 @@ TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
                     path("picture.svg"), "--y", "sphere.mass", "--column",
                     "viscous_contact_exact.contact_from"});
   expect_done(sweep(kVanishing, arguments));
-  EXPECT_THAT(read_file(path("picture.svg")),
+  EXPECT_THAT(rest_of(path("picture.svg")),
               AllOf(HasSubstr("fluid.viscosity"), HasSubstr("sphere.mass"),
                     Not(HasSubstr("motion.initial"))));
 }
@@ -250,7 +251,7 @@ class InterruptedSweep : public SweepCommand {
   /// Whole rows that an ended run has left.
   std::ptrdiff_t kept(const std::string& output) const {
     const auto part = read_file(path(output + ".part"));
-    EXPECT_THAT(part, StartsWith("# case: "));
+    EXPECT_THAT(part, StartsWith("# provenance: "));
     // The last line is torn, or empty.
     std::ptrdiff_t whole = 0;
     std::istringstream text(part.substr(0, part.rfind('\n') + 1));
@@ -273,7 +274,7 @@ TEST_F(InterruptedSweep, KilledAgainAndAgainItEndsWithTheFileOfAnUndisturbedOne)
   const auto last = run("rows.csv");
   expect_done(last);
   EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them from before", before)));
-  EXPECT_EQ(read_file(path("rows.csv")), read_file(path("undisturbed.csv")));
+  EXPECT_EQ(rest_of(path("rows.csv")), rest_of(path("undisturbed.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv.part")));
 }
 
@@ -291,7 +292,7 @@ TEST_F(InterruptedSweep, KeepsAllFinishedRowsOnCtrlC) {
     const auto last = run("rows.csv");
     expect_done(last);
     EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them from before", rows)));
-    EXPECT_EQ(read_file(path("rows.csv")), read_file(path("undisturbed.csv")));
+    EXPECT_EQ(rest_of(path("rows.csv")), rest_of(path("undisturbed.csv")));
     std::filesystem::remove(path("rows.csv"));
   }
 }

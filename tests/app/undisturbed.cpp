@@ -18,8 +18,16 @@ std::vector<std::string> fields_of(const std::string& line) {
 
 }  // namespace
 
+std::string rest_of(const std::filesystem::path& file) {
+  std::istringstream lines(read_file(file));
+  std::string rest;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("provenance") == std::string::npos) rest += line + "\n";
+  return rest;
+}
+
 std::string without_seconds(const std::filesystem::path& table) {
-  std::istringstream lines(read_file(table));
+  std::istringstream lines(rest_of(table));
   std::string text;
   std::ptrdiff_t seconds = -1;  // its place in the header, the first line that is no comment
   for (std::string line; std::getline(lines, line);) {
