@@ -1,0 +1,50 @@
+#!/usr/bin/python3
+"""What a user waits for: --help of every command, a run on the shipped table, the size of its report. Medians, least and peak memory.
+
+bench/commands.py PROGRAM   (from the source folder)
+"""
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+
+def measure(command, times, before=lambda: None):
+    """Wall seconds (median, least) and peak resident megabytes of the program alone."""
+    seconds, peak = [], 0
+    for _ in range(times):
+        before()
+        start = time.perf_counter()
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        errors = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        seconds.append(time.perf_counter() - start)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            sys.exit(f"{command}: {errors.decode()}")
+        peak = max(peak, usage.ru_maxrss)
+    return statistics.median(seconds), min(seconds), peak / 1024
+
+
+program = sys.argv[1]
+names = re.findall(r"^\.SS (\w+)", subprocess.run([program, "man"], capture_output=True, text=True, check=True).stdout, re.M)
+slowest = max(((measure([program, name, "--help"], 11), name) for name in names), key=lambda found: found[0][0])
+(median, least, memory), name = slowest
+print(f"--help, slowest of {len(names)} commands ({name}): median {median * 1e3:.1f} ms, least {least * 1e3:.1f} ms, {memory:.0f} MB")
+
+with tempfile.TemporaryDirectory() as folder:
+    # The lecture's case with its shipped table: tabulate finds it up to date; fit, simulate, compare, report are made.
+    case, run = "data/cases/lecture.toml", os.path.join(folder, "run")
+
+    def fresh():
+        shutil.rmtree(run, ignore_errors=True)
+        os.mkdir(run)
+        shutil.copy("data/tables/lecture.csv", os.path.join(run, "table.csv"))
+
+    median, least, memory = measure([program, "run", case, "-o", run], 7, fresh)
+    print(f"run on the shipped table, report included: median {median:.2f} s, least {least:.2f} s, {memory:.0f} MB")
+    print(f"report.html: {os.path.getsize(os.path.join(run, 'report.html')) / 1e6:.2f} MB")
