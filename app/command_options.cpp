@@ -20,12 +20,26 @@ void refuse_other_kind(const std::string& path, std::string_view marker, std::st
         {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
 }
 
+namespace {
+
+/// Where a file of that name is or would be, a link that leads nowhere yet included.
+std::filesystem::path place_of(std::filesystem::path path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;  // as the kernel
+  path = fs::absolute(path);
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
+    path = path.parent_path() / fs::read_symlink(path);
+  return fs::weakly_canonical(path.parent_path()) / path.filename();
+}
+
+}  // namespace
+
 void check_outputs(const std::vector<std::string>& paths) {
   namespace fs = std::filesystem;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty()) throw Error(ExitCode::kWrongUsage, "an output has no name");
     for (std::size_t j = 0; j < i; ++j)
-      if (fs::weakly_canonical(paths[i]) == fs::weakly_canonical(paths[j]))
+      if (place_of(paths[i]) == place_of(paths[j]))
         throw Error(ExitCode::kWrongUsage, fmt::format("{} would be written twice", paths[i]));
   }
 }

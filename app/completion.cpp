@@ -105,13 +105,11 @@ _viscontact_list() {{
   COMPREPLY=($(compgen -P "$before" -W "$1" -- "${{word##*,}}"))
 }}
 _viscontact_files() {{
-  local IFS=$'\n'
-  COMPREPLY=($(compgen -f -- "$word"))
+  mapfile -t COMPREPLY < <(compgen -f -- "$word")
   compopt -o filenames
 }}
 _viscontact_folders() {{
-  local IFS=$'\n'
-  COMPREPLY=($(compgen -d -- "$word"))
+  mapfile -t COMPREPLY < <(compgen -d -- "$word")
   compopt -o filenames
 }}
 _viscontact() {{
@@ -146,7 +144,8 @@ std::string zsh_completion(const CLI::App& app) {
       }
       for (const auto& name : spellings)
         lines +=
-            fmt::format(" \\\n        '{}[{}]{}'", name, quoted(description),
+            fmt::format(" \\\n        '{}{}[{}]{}'",
+                        option->get_items_expected_max() > 1 ? "*" : "", name, quoted(description),
                         is_flag(*option) ? std::string()
                                          : ":" + quoted(zsh_description(option->get_type_name())) +
                                                ":" + quoted(zsh_action(*option)));

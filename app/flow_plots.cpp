@@ -324,7 +324,9 @@ std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation) {
   auto fine = sides(picture.flow.mesh, view.window, kPieces / 4);
   while (fine.size() > kMostSides) {
     reach /= 2;
+    const double right = view.window.right;
     view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap, reach);
+    if (!(view.window.right < right)) break;  // a wide gap is seen whole
     fine = sides(picture.flow.mesh, view.window, kPieces / 4);
   }
   Panel panel = empty_panel("Mesh in the gap", picture, tabulation, view);

@@ -11,19 +11,6 @@
 namespace viscontact {
 namespace {
 
-/// Text between gnuplot's double quotes; it may have several lines.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n')
-      result += "\\n";
-    else
-      result += c;
-  }
-  return result + "\"";
-}
-
 std::string data_block(const std::string& name, const Curve& curve) {
   std::string text = fmt::format("${} << END_OF_CURVE\n", name);
   for (const auto& [x, y] : curve.points)
@@ -69,7 +56,8 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
     script += data_block(fmt::format("panel{}curve{}", index, i), panel.curves[i]);
   script += fmt::format("unset logscale\nset title {}\nset xlabel {}\nset ylabel {}\n",
-                        quoted(panel.title), quoted(panel.x_label), quoted(panel.y_label));
+                        quoted_for_gnuplot(panel.title), quoted_for_gnuplot(panel.x_label),
+                        quoted_for_gnuplot(panel.y_label));
   if (panel.x_log) script += "set logscale x\n";
   if (panel.y_log) script += "set logscale y\n";
   for (const auto& setting : panel.settings) script += setting + "\n";
@@ -82,14 +70,29 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const auto& curve = panel.curves[i];
     if (curve.points.empty()) continue;  // gnuplot refuses an empty block
-    plots += fmt::format("{}$panel{}curve{} using 1:2 with {} {}", plots.empty() ? "plot " : ", ",
-                         index, i, curve.style,
-                         curve.legend.empty() ? "notitle" : "title " + quoted(curve.legend));
+    plots +=
+        fmt::format("{}$panel{}curve{} using 1:2 with {} {}", plots.empty() ? "plot " : ", ", index,
+                    i, curve.style,
+                    curve.legend.empty() ? "notitle" : "title " + quoted_for_gnuplot(curve.legend));
   }
   return script + plots + "\n";
 }
 
 }  // namespace
+
+std::string quoted_for_gnuplot(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else if (c == '`')
+      result += "\\140";  // as it stands it would run a command of the shell
+    else
+      result += c;
+  }
+  return result + "\"";
+}
 
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   std::string script = fmt::format(

@@ -30,6 +30,9 @@ struct Panel {
   std::optional<ColourField> field{};  ///< below the curves
 };
 
+/// Any text as a string of gnuplot's, in which it finds no command; it may have several lines.
+std::string quoted_for_gnuplot(const std::string& text);
+
 /// The panels one below the other as one SVG element, to stand in an HTML page. Throws
 /// Error(kExternalProgram) if gnuplot is missing or fails.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height);

@@ -27,8 +27,13 @@ void add_init(CLI::App& app) {
     if (std::filesystem::exists(std::filesystem::symlink_status(path)))
       throw_bad_input({*file}, "is there; it is not replaced: remove it first, or write elsewhere");
     write_file(path, case_template());
-    say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file, shell_word(*file),
-                    shell_word((path.parent_path() / path.stem()).string())));
+    const auto named = [](std::string name) {  // no option
+      return shell_word(name.starts_with('-') ? "./" + name : name);
+    };
+    auto results = path;
+    results.replace_extension(path.has_extension() ? "" : ".results");
+    say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file, named(*file),
+                    named(results.string())));
   });
 }
 

@@ -220,6 +220,17 @@ int run(int argc, char** argv) {
   add_rerun(app);
   add_doctor(app, healthy);
   add_self_description(app);
+  if (argc > 1 && argv[1][0] != '-') {
+    std::string names;
+    bool known = false;
+    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+      names += (names.empty() ? "" : ", ") + command->get_name();
+      known = known || command->get_name() == argv[1];
+    }
+    if (!known)
+      throw Error(ExitCode::kWrongUsage,
+                  fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
 #include "app/report.hpp"
+#include "app/run_checks.hpp"
 #include "app/run_copies.hpp"
 #include "app/run_folder.hpp"
 #include "app/shift_plot.hpp"
@@ -43,7 +44,7 @@ bool up_to_date(const fs::path& path, const Test& test) {
 /// What identifies the inputs of a trajectory, in its "# key: value" lines.
 CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text) {
   CsvComments comments = {{"case", sha256(c.text)},
-                          {"fit", sha256(fit_text)},
+                          {"fit", content_sha256(fit_text)},
                           {"revision of the models", std::to_string(kModelsRevision)},
                           {"version of Viscontact", VISCONTACT_VERSION}};
   if (!c.force_files.empty()) comments["force"] = sha256(text_of_forces(c));
@@ -143,7 +144,8 @@ std::vector<fs::path> files_of_motion(const Case& c) {
 Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSettings& settings) {
   try {
     Fit fit = fit_force_table(table, settings);
-    fit.table_sha256 = sha256(read_file(table_path));
+    if (fs::is_regular_file(table_path))  // a pipe has been read
+      fit.table_sha256 = content_sha256(read_file(table_path));
     fit.versions = library_versions();
     return fit;
   } catch (const Error& error) {
@@ -194,8 +196,8 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   std::string text = write_csv_comments(
       {{"viscontact", "wall shift"},
        {"geometry", rough.geometry},
-       {"table", sha256(read_file(table_path))},
-       {"fit", sha256(read_file(fit_path))},
+       {"table", content_sha256(read_file(table_path))},
+       {"fit", content_sha256(read_file(fit_path))},
        {"shift", format_number(shift.shift)},
        {"largest_relative_residual", format_number(shift.largest_relative_residual)},
        {"rms_relative_residual", format_number(shift.rms_relative_residual)},
@@ -287,7 +289,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
     if (!up_to_date(fit, [&] { return without_provenance(read_file(fit)) == text; }))
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
-    (void)required_tabulation(c);
+    check_run(c, models_to_run(c, {}));
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));

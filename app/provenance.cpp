@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <charconv>
 #include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,6 @@
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
-#include "common/number.hpp"
 
 namespace viscontact {
 namespace {
@@ -36,10 +36,24 @@ std::vector<std::string> own_command() {
 /// Now, or when SOURCE_DATE_EPOCH says (reproducible-builds.org).
 std::string time_of_making() {
   std::time_t now = std::time(nullptr);
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
-    if (const auto seconds = parse_number(epoch); seconds && *seconds >= 0 && *seconds < 1e11)
-      now = static_cast<std::time_t>(*seconds);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr std::time_t kYear9999 = 253402300799;
+    const std::string_view text = epoch;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
+    if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
+      throw Error(ExitCode::kWrongUsage,
+                  fmt::format("SOURCE_DATE_EPOCH is '{}'; must be a whole number of seconds from 0 "
+                              "to {}",
+                              epoch, kYear9999));
+  }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+/// A pipe can be read but once.
+std::string hash_of(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)
+             ? ""
+             : sha256(read_file(file));
 }
 
 /// On one line.
@@ -52,6 +66,7 @@ std::string as_line(const Provenance& provenance) {
     json["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
     if (input.intermediate) json["inputs"].back()["intermediate"] = true;
   }
+  if (!provenance.output.empty()) json["output"] = provenance.output;
   json["versions"] = provenance.versions;
   json["made"] = provenance.made;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -145,9 +160,9 @@ Provenance provenance_of(const Inputs& inputs) {
   provenance.command = own_command();
   provenance.folder = std::filesystem::current_path().string();
   for (const auto& file : inputs.given)
-    provenance.inputs.push_back({file.string(), sha256(read_file(file)), false});
+    provenance.inputs.push_back({file.string(), hash_of(file), false});
   for (const auto& file : inputs.intermediate)
-    provenance.inputs.push_back({file.string(), sha256(read_file(file)), true});
+    provenance.inputs.push_back({file.string(), hash_of(file), true});
   provenance.versions = library_versions();
   return provenance;
 }
@@ -165,14 +180,22 @@ std::string without_provenance(const std::string& text) {
   return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
 }
 
+std::string content_sha256(const std::string& text) { return sha256(without_provenance(text)); }
+
 std::optional<Provenance> provenance_in(const std::string& text, const std::string& file) {
-  const auto line = find_line(text);
-  if (!line) return {};
-  const auto closing = text.rfind('}', line->end);
   try {
-    const auto json = Json::parse(closing == std::string::npos || closing < line->json
-                                      ? std::string()
-                                      : text.substr(line->json, closing + 1 - line->json));
+    Json json;
+    if (const auto line = find_line(text)) {
+      const auto closing = text.rfind('}', line->end);
+      json = Json::parse(closing == std::string::npos || closing < line->json
+                             ? std::string()
+                             : text.substr(line->json, closing + 1 - line->json));
+    } else {
+      // A JSON file that another program has written out again.
+      const auto whole = Json::parse(text, nullptr, false);
+      if (!whole.is_object() || !whole.contains("provenance")) return {};
+      json = whole.at("provenance");
+    }
     Provenance provenance;
     provenance.command = json.at("command").get<std::vector<std::string>>();
     provenance.folder = json.at("folder").get<std::string>();
@@ -181,6 +204,7 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
                                    input.at("sha256").get<std::string>(),
                                    input.value("intermediate", false)});
     provenance.versions = json.at("versions").get<std::map<std::string, std::string>>();
+    provenance.output = json.value("output", "");
     provenance.made = json.at("made").get<std::string>();
     return provenance;
   } catch (const Json::exception&) {
@@ -192,13 +216,15 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path) {
   return provenance_in(read_file(path), path.string());
 }
 
-std::string provenance_line(Provenance provenance) {
+std::string provenance_line(Provenance provenance, const std::filesystem::path& path) {
+  provenance.output = path.string();
   provenance.made = time_of_making();
   return with_provenance(TextKind::kHashComment, "", provenance);
 }
 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance) {
+  provenance.output = path.string();
   provenance.made = time_of_making();
   write_file(path, with_provenance(kind, text, provenance));
 }

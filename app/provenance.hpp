@@ -12,7 +12,7 @@ namespace viscontact {
 /// A file that went into an output. An intermediate one was made by the same command, as a run's table.
 struct InputFile {
   std::string file;    ///< path, relative to the folder of the command
-  std::string sha256;  ///< of its bytes
+  std::string sha256;  ///< of its bytes; empty for what is no file, as a pipe
   bool intermediate = false;
 };
 
@@ -21,6 +21,7 @@ struct Provenance {
   std::string folder;                           ///< in which it was typed, absolute
   std::vector<InputFile> inputs;                ///< in the order in which they are used
   std::map<std::string, std::string> versions;  ///< program: version
+  std::string output;                           ///< the file that was written, as named by the command
   std::string made;  ///< UTC, ISO 8601 to the second; that of SOURCE_DATE_EPOCH if it is set
 };
 
@@ -31,7 +32,7 @@ struct Inputs {
 };
 
 /// Of what this process makes from these files, which are read for their hashes: to be asked for before a long computation, in which a user may edit
-/// them. `made` is empty. Throws Error(kBadInput) if one cannot be read.
+/// them. `output` and `made` are empty. Throws Error(kBadInput) if one cannot be read.
 Provenance provenance_of(const Inputs& inputs);
 
 /// How a kind of text can carry a line that its readers pass over.
@@ -44,14 +45,17 @@ std::string with_provenance(TextKind kind, const std::string& text, const Proven
 /// `text` as it was before with_provenance: what two makings of the same have in common.
 std::string without_provenance(const std::string& text);
 
+/// The SHA-256 by which files of ours name each other: of what two makings have in common.
+std::string content_sha256(const std::string& text);
+
 /// The provenance in a text of any kind; nothing if it has none. Throws Error(kBadInput) naming `file` if it is damaged.
 std::optional<Provenance> provenance_in(const std::string& text, const std::string& file);
 
 /// The same of a file. Throws Error(kBadInput) if it cannot be read, too.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
-/// "# provenance: {...}\n", made now, for a CSV file that is written row by row.
-std::string provenance_line(Provenance provenance);
+/// "# provenance: {...}\n", made now, for the CSV file `path`, which is written row by row.
+std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
 
 /// write_file with the provenance, made now.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,

@@ -98,8 +98,10 @@ std::string summary(const RunResults& run) {
                                                 : "",
       escaped(comparison.reference_model));
   if (reference != comparison.models.end())
-    text += fmt::format(", whose smallest gap is <strong>{:.5g}</strong> at time {:.5g}",
-                        reference->minimal_gap, reference->minimal_gap_time);
+    text += fmt::format(
+        ", whose smallest gap is <strong>{}</strong> at time {:.5g}",
+        link_to(run.folder, "comparison.json", fmt::format("{:.5g}", reference->minimal_gap)),
+        reference->minimal_gap_time);
   return text + ".</p>\n";
 }
 
@@ -142,11 +144,13 @@ void write_report(const std::filesystem::path& folder,
   const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
   const auto pictures = draw(plots_of(run));
   const auto page = page_of(run, pictures);
-  for (const auto name : kPlotNames)
-    std::filesystem::remove(run.folder.plot(std::string(name)));  // of an earlier report
   for (const auto& [plot, svg] : pictures)
     write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
   write_output(run.folder.report(), TextKind::kHtml, page, provenance);
+  for (const auto name : kPlotNames)  // of an earlier report
+    if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
+        pictures.end())
+      std::filesystem::remove(run.folder.plot(std::string(name)));
   say(fmt::format("report: {}", run.folder.report().string()));
 }
 

@@ -6,7 +6,9 @@
 
 #include "app/html.hpp"
 #include "app/provenance.hpp"
+#include "app/slurm.hpp"
 #include "app/versions.hpp"
+#include "common/error.hpp"
 #include "common/file.hpp"
 
 namespace viscontact {
@@ -16,10 +18,17 @@ namespace {
 std::string command_line(const std::vector<std::string>& words) {
   std::string line;
   for (const auto& word : words) {
-    const bool plain = !word.empty() && word.find_first_of(" '\"\\$&|;<>()*?[]#~\t\n") == word.npos;
-    line += fmt::format("{}{}", line.empty() ? "" : " ", plain ? word : "'" + word + "'");
+    line += (line.empty() ? "" : " ") + shell_word(word);
   }
   return line;
+}
+
+std::optional<Provenance> provenance_or_none(const std::filesystem::path& path) {
+  try {
+    return read_provenance(path);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 std::string hash_cell(const std::string& sha256) {
@@ -39,9 +48,10 @@ std::string origin_section(const RunResults& run) {
   for (const auto& file : files) {
     const auto path = run.folder.path / file;
     if (!std::filesystem::exists(path)) continue;
-    const auto provenance = read_provenance(path);
+    const auto provenance = provenance_or_none(path);
     made += table_row(
-        link_to(run.folder, file), provenance ? escaped(provenance->made) : "not recorded",
+        link_to(run.folder, file),
+        provenance ? escaped(provenance->made) : "not recorded, or damaged",
         provenance ? "<code>" + escaped(command_line(provenance->command)) + "</code>" : "",
         hash_cell(sha256(read_file(path))));
     if (!provenance) continue;

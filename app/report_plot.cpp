@@ -11,6 +11,13 @@
 namespace viscontact {
 namespace {
 
+/// The name of a tick is a format.
+std::string doubled_percent(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '%' ? std::string("%%") : std::string(1, c);
+  return result;
+}
+
 constexpr int kWidth = 860;
 
 struct PointName {
@@ -63,7 +70,8 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   if (!panel.rows.empty()) {
     std::string ticks;
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
-      ticks += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", panel.rows[i], i + 1);
+      ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
+                           quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
     settings.push_back("set ytics (" + ticks + ")\nset lmargin 38\nset xlabel offset 0,0.2");
   }
   return settings;
@@ -137,9 +145,9 @@ std::string json_of(const Plot& plot) {
   std::string text =
       nlohmann::ordered_json{{"name", plot.name}, {"panels", std::move(panels)}}.dump(
           -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  // "</script>" in a title would end the element.
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
-    text.insert(at + 1, "\\");
+  // "</script>" in a title would end the element, "<!--" begin another.
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at)
+    text.replace(at, 1, "\u003c");
   return text;
 }
 

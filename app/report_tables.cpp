@@ -62,6 +62,15 @@ std::string parameters_table(const RunResults& run) {
   add("end time", number(motion.end_time), "T");
   add("time step of the contact models", number(motion.contact_time_step), "T");
   add("time step of the reference", number(motion.reference_time_step), "T");
+  add("roughness of sphere and plane",
+      fmt::format("{}, {}", motion.roughness[0], motion.roughness[1]), "L");
+  add("threshold gap", number(motion.threshold_gap), "L");
+  add("external force", link_to(run.folder, "plots/external_force.svg", "over time"),
+      "M L T<sup>-2</sup>");
+  if (run.table) {
+    add("geometry", escaped(run.table->geometry), "L");
+    add("container", escaped(run.table->container), "L");
+  }
   add("lubrication force", link_to(run.folder, "fit.json", drag_in_words(run)), "");
   if (c.tabulation && run.table)
     add("accuracy asked of the table",

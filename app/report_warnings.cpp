@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/provenance.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "reduced_model/models.hpp"
@@ -106,6 +107,23 @@ void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
   }
 }
 
+/// The gaps of models that do not know the solids, where these would touch.
+void add_roughness(Warnings& warnings, const RunResults& run) {
+  const auto& motion = run.c.motion.value();
+  const double roughness = motion.roughness[0] + motion.roughness[1];
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->model->contact != nullptr) continue;
+    const double smallest = std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
+    if (smallest < roughness)
+      warnings.push_back(
+          {fmt::format("{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
+                       "would touch at {:.4g}",
+                       trajectory.model, smallest, roughness),
+           trajectory_name(trajectory.model)});
+  }
+}
+
 void add_refused_draws(Warnings& warnings, const RunResults& run) {
   if (!run.uncertainty) return;
   const auto& u = *run.uncertainty;
@@ -119,7 +137,7 @@ void add_refused_draws(Warnings& warnings, const RunResults& run) {
 
 /// Files that carry another input's hash than that of the file here.
 void add_other_origin(Warnings& warnings, const RunResults& run) {
-  const auto fit_hash = sha256(read_file(run.folder.fit()));
+  const auto fit_hash = content_sha256(read_file(run.folder.fit()));
   const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},
                                                         {"fit", fit_hash}};
   for (const auto& trajectory : run.trajectories)
@@ -131,14 +149,16 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
                           trajectory_name(trajectory.model)});
     }
   if (run.table && !run.fit.table_sha256.empty() &&
-      run.fit.table_sha256 != sha256(read_file(run.folder.table())))
+      run.fit.table_sha256 != content_sha256(read_file(run.folder.table())))
     warnings.push_back(
         {"The fit was made from another table than the one in this folder", "fit.json"});
   for (const auto& model : run.comparison.models)
     if (std::ranges::find(run.trajectories, model.model, &Trajectory::model) ==
         run.trajectories.end())
       warnings.push_back(
-          {fmt::format("The trajectory of {} is not in this folder and in no plot", model.model),
+          {fmt::format("The trajectory of {} is not in this folder and in no plot; copy it into "
+                       "trajectories/ and compare again",
+                       model.model),
            "comparison.json"});
 }
 
@@ -150,6 +170,7 @@ std::vector<ReportWarning> warnings_of(const RunResults& run) {
   add_poor_fit(warnings, run.fit);
   add_unmet_accuracy(warnings, run);
   add_passage_through_plane(warnings, run);
+  add_roughness(warnings, run);
   add_refused_draws(warnings, run);
   add_other_origin(warnings, run);
   return warnings;

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/command_options.hpp"
 #include "app/progress.hpp"
@@ -29,26 +31,85 @@ struct Options {
 /// What has become of an input since; nothing if it is as it was.
 std::string change_of(const InputFile& input, const fs::path& folder) {
   const auto path = folder / input.file;
-  if (!fs::is_regular_file(path)) return fmt::format("{} is not there any more", path.string());
+  if (!fs::exists(path)) return fmt::format("{} is not there any more", path.string());
+  if (input.sha256.empty()) return fmt::format("{} was no file, but a pipe", path.string());
   if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
   return "";
 }
 
-/// The command with another output. Throws Error(kWrongUsage) if it has none.
-std::vector<std::string> with_output(std::vector<std::string> command, const std::string& output) {
-  for (std::size_t i = 1; i < command.size(); ++i) {
-    if ((command[i] == "-o" || command[i] == "--output") && i + 1 < command.size()) {
-      command[i + 1] = output;
+/// Only what writes files: not a rerun of itself, and nothing that another file may make us do.
+void check_command(const std::string& file, const std::vector<std::string>& command) {
+  constexpr std::string_view kWriting[] = {"run",      "tabulate", "fit",     "export", "shift",
+                                           "simulate", "sweep",    "compare", "report"};
+  const bool known =
+      command.size() > 1 && std::ranges::find(kWriting, command[1]) != std::end(kWriting);
+  const auto is_refused = [](const std::string& word) {
+    return word.find('\0') != std::string::npos || word.starts_with("--launcher") ||
+           word.starts_with("--slurm-options");
+  };
+  if (!known || std::ranges::any_of(command, is_refused))
+    throw_bad_input({file}, "its line 'provenance' has a command that makes no file");
+}
+
+/// Where an option of the command has its value: the word, and where in it the value begins.
+struct ValuePlace {
+  std::size_t word = 0, begin = 0;
+};
+
+/// The value of "-o VALUE", "-oVALUE", "--output VALUE", "--output=VALUE"; `letter` is 0 for an option without a short name.
+std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
+                                   const std::string& name) {
+  const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
+  for (std::size_t i = 2; i < command.size(); ++i) {
+    const auto& word = command[i];
+    if ((word == name || (!shorter.empty() && word == shorter)) && i + 1 < command.size())
+      return ValuePlace{i + 1, 0};
+    if (word.starts_with(name + "=")) return ValuePlace{i, name.size() + 1};
+    if (!shorter.empty() && word.size() > shorter.size() && word.starts_with(shorter))
+      return ValuePlace{i, shorter.size()};
+  }
+  return {};
+}
+
+std::string value_at(const std::vector<std::string>& command, const ValuePlace& place) {
+  return command[place.word].substr(place.begin);
+}
+
+/// The command that writes `output` in place of the file of this provenance. Throws Error(kWrongUsage) if it cannot be told to.
+std::vector<std::string> with_output(const Options& o, const Provenance& provenance) {
+  auto command = provenance.command;
+  const auto put = [&](const ValuePlace& place) {
+    auto& word = command[place.word];
+    word = word.substr(0, place.begin) + fs::absolute(o.output).string();
+    return command;
+  };
+  // A picture beside the output: that stays where it is, and as it is if nothing has changed.
+  if (const auto plot = value_of(command, '\0', "--plot");
+      plot && value_at(command, *plot) == provenance.output)
+    return put(*plot);
+  const auto output = value_of(command, 'o', "--output");
+  if (!output) {
+    if (command[1] == "compare") {
+      command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
       return command;
     }
-    for (const std::string begin : {"--output=", "-o="})
-      if (command[i].starts_with(begin)) {
-        command[i] = begin + output;
-        return command;
-      }
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("the command that made {} ('{}') writes to one place; leave out -o",
+                            o.file, command[1]));
   }
-  throw Error(ExitCode::kWrongUsage,
-              "the command that made the file has no -o to be replaced; leave out rerun's");
+  const bool one_of_many = value_at(command, *output) != provenance.output;
+  if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must "
+                            "be a folder for all of them, it is '{}'",
+                            o.file, command[1], value_at(command, *output), o.output));
+  put(*output);
+  // Its picture would be drawn over the first one.
+  if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
+    const auto begin = command.begin() + static_cast<std::ptrdiff_t>(plot->word);
+    command.erase(plot->begin == 0 ? begin - 1 : begin, begin + 1);
+  }
+  return command;
 }
 
 std::string in_words(const std::vector<std::string>& command) {
@@ -73,8 +134,10 @@ void rerun(const Options& o) {
     throw_bad_input({o.file}, fmt::format("was made from other inputs: {}; with --changed-inputs "
                                           "what is there now is used",
                                           list));
-  auto command = provenance->command;
-  if (!o.output.empty()) command = with_output(command, fs::absolute(o.output).string());
+  check_command(o.file, provenance->command);
+  auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
+  // The rows that were gathered may be gone: what is missing is computed here.
+  std::erase(command, "--gather");
   if (const auto ours = provenance->versions.find("Viscontact");
       ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
     warn(fmt::format("rerun: warning: made by Viscontact {}; this is {}", ours->second,
@@ -113,8 +176,8 @@ void add_rerun(CLI::App& app) {
       ->type_name(kFile);
   command
       ->add_option("-o,--output", o->output,
-                   "write there, from nothing; default: where the command wrote, what is up to "
-                   "date there is left")
+                   "write there, from nothing; of one of the files of a run: a folder for all; "
+                   "default: where the command wrote, what is up to date there is left")
       ->type_name(kFile);
   command->add_flag("--changed-inputs", o->changed_inputs,
                     "go on although inputs have changed since");

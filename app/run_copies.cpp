@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/provenance.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 void check_copy(const RunFolder& run, const fs::path& copy, const std::string& text,
                 std::string_view kind) {
   if (fs::is_directory(run.trajectories()) || !fs::is_regular_file(copy)) return;
-  if (read_file(copy) != text)
+  if (without_provenance(read_file(copy)) != without_provenance(text))
     throw_bad_input(
         {copy.string()},
         fmt::format("is there and is another {}; remove it first, or write elsewhere", kind));

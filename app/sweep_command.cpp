@@ -151,7 +151,7 @@ void run(const Options& o) {
   Remaining remaining;
   auto shown = std::chrono::steady_clock::now();
   const auto computed = write_sweep(
-      sweep, o.output, o.jobs, VISCONTACT_VERSION, provenance_line(provenance),
+      sweep, o.output, o.jobs, VISCONTACT_VERSION, provenance_line(provenance, o.output),
       [&](std::uint64_t done, std::uint64_t size) {
         const auto now = std::chrono::steady_clock::now();
         if (now - shown < std::chrono::milliseconds(200)) return;

@@ -9,6 +9,21 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // as some spreadsh
 
 }  // namespace
 
+std::string hint_of_separator(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    if (line.find(',') != std::string::npos) return "";
+    if (line.find('\0') != std::string::npos) return "; is it UTF-16? must be UTF-8";
+    if (line.find(';') != std::string::npos)
+      return ", whose fields are separated by semicolons; must be by commas, with decimal points";
+    if (line.find('\t') != std::string::npos)
+      return ", whose fields are separated by tabs; must be by commas";
+    return "";
+  }
+  return "";
+}
+
 CsvComments read_csv_comments(const std::string& text) {
   CsvComments comments;
   std::istringstream stream(text);

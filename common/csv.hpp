@@ -49,6 +49,9 @@ std::string write_csv_comments(const CsvComments& comments);
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
+/// For a message about missing columns: ", whose fields seem to be separated by ..." if the header line has no comma but that.
+std::string hint_of_separator(const std::string& text);
+
 /// Text fit to be shown in a message: its beginning, if it is long.
 std::string shortened(const std::string& text);
 
@@ -76,7 +79,8 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
         names);
     for (std::size_t i = 0; i < required; ++i)
       if (!reader.has_column(names[i]))
-        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line");
+        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
+                                    hint_of_separator(text));
     std::array<char*, columns> fields{};
     while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
       CsvRow<columns> row;

@@ -28,11 +28,11 @@ namespace {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 
-constexpr std::string_view kUnfinished = ".tmp";
+constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
-/// Takes away the files NAME.PID.tmp beside `place` whose process was killed before it could.
+/// Takes away the files NAME.viscontact-PID.tmp beside `place` whose process was killed before it could.
 void remove_left_behind(const std::filesystem::path& place) {
-  const std::string front = place.filename().string() + ".";
+  const std::string front = place.filename().string() + std::string(kUnfinishedOf);
   const auto folder = place.has_parent_path() ? place.parent_path() : ".";
   std::error_code ignored;  // they are in nobody's way
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
@@ -46,7 +46,7 @@ void remove_left_behind(const std::filesystem::path& place) {
     if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
     // On a shared disk it may be a process of another machine: then the file is locked.
-    const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC));
+    const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       ::unlink(entry.path().c_str());
   }
@@ -116,7 +116,7 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   if (place.has_parent_path()) make_folder(place.parent_path());
   // The process number keeps two runs that write the same file apart.
   const std::filesystem::path beside =
-      place.string() + fmt::format(".{}{}", ::getpid(), kUnfinished);
+      place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
   try {
     const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_system_error(path, "written", errno);

@@ -12,7 +12,7 @@ namespace viscontact {
 std::string read_file(const std::filesystem::path& path);
 
 /// Replaces `path` by `content` in one step: written to a new file in the same folder, flushed to
-/// disk, renamed. Missing parent folders are made. What a killed process left of a file NAME.PID.tmp is taken away. Throws Error(kBadInput) naming the path; then
+/// disk, renamed. Missing parent folders are made. What a killed process left of a file NAME.viscontact-PID.tmp is taken away. Throws Error(kBadInput) naming the path; then
 /// the old file, if any, is untouched.
 void write_file(const std::filesystem::path& path, std::string_view content);
 

@@ -93,7 +93,10 @@ void LubricationForce::check_gap(double gap) const {
   if (exact_) throw Error(ExitCode::kBadInput, fmt::format("gap {} is no number > 0", gap));
   if (gap < smallest && below_ == BelowInterval::kError)
     remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";
-  if (gap > largest) remedy = ", or ask for Stokes' drag far above it (simulate --stokes-limit)";
+  if (gap > largest)
+    remedy =
+        ", or ask for Stokes' drag far above it (simulate --stokes-limit, or [fit] above = "
+        "\"stokes_limit\" in a case)";
   throw Error(
       ExitCode::kBadInput,
       fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,

@@ -145,7 +145,7 @@ std::uint64_t write_sweep(
 
 std::uint64_t finished_rows(const Sweep& sweep, const fs::path& path, const std::string& version) {
   const std::string header = header_of(sweep.plan(), version);
-  fs::path part = path;
+  fs::path part = check_output_file(path);
   part += ".part";
   const auto whole = kept_rows(path, header, sweep);
   const auto begun = kept_rows(part, header, sweep);

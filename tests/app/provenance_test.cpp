@@ -117,7 +117,8 @@ TEST_F(Provenance, StandsInEveryExportAndLeavesItWhole) {
   fit();
   for (const auto& [target, checker] : std::map<std::string, std::string>{
            {"c-header", "gcc -x c -fsyntax-only -Wall -Werror "},
-           {"fortran", "gfortran -x f95 -fsyntax-only -Wall "},
+           {"fortran",
+            "gfortran -x f95 -fsyntax-only -Wall -J '" + scratch_.path().string() + "' "},
            {"python", "python3 -c 'import ast,sys; ast.parse(open(sys.argv[1]).read())' "},
            {"json", "python3 -m json.tool "},
            {"csv", "test -s "}}) {
@@ -189,6 +190,90 @@ TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
                  HasSubstr("is not there any more"));
 }
 
+TEST_F(Rerun, OfASweepAndOfItsPictureLeavesTheFirstOnesAsTheyAre) {
+  const std::string study = VISCONTACT_SOURCE_FOLDER "/data/cases/vanishing_viscosity.toml";
+  expect_done(run({"sweep", study, "-o", path("rows.csv"), "--plot", path("rows.svg")}));
+  const auto before = files_below(scratch_.path());
+  expect_done(run({"rerun", path("rows.csv"), "-o", path("again.csv")}));
+  EXPECT_EQ(rest_of(path("again.csv")), rest_of(path("rows.csv")));
+  expect_done(run({"rerun", path("rows.svg"), "-o", path("again.svg")}));
+  EXPECT_EQ(rest_of(path("again.svg")), rest_of(path("rows.svg")));
+  for (const auto& [file, content] : before) EXPECT_EQ(read_file(file), content) << file;
+}
+
+TEST_F(Rerun, OfOneFileOfARunRepeatsTheRunIntoAFolder) {
+  put_text(path("case.toml"),
+           replaced(replaced(lecture_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
+                    "weights = \"relative\"", ""));
+  expect_done(run({"run", path("case.toml"), "-o", path("run")}));
+  expect_refusal(run({"rerun", path("run/fit.json"), "-o", path("fit.json")}),
+                 ExitCode::kWrongUsage, HasSubstr("-o must be a folder"));
+  EXPECT_FALSE(fs::exists(path("fit.json")));
+  expect_done(run_viscontact({"rerun", path("run/fit.json"), "-o", path("again")},
+                             {"SOURCE_DATE_EPOCH=1000000001"}));
+  // Equal but for how and how fast they were made.
+  const std::regex seconds("\"?seconds\"?: [^\n]*\n|\"made\":\"[^\n]*");
+  for (const auto& entry : fs::recursive_directory_iterator(path("run"))) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".html") continue;
+    const auto twin = fs::path(path("again")) / entry.path().lexically_relative(path("run"));
+    EXPECT_EQ(std::regex_replace(rest_of(twin), seconds, ""),
+              std::regex_replace(rest_of(entry.path()), seconds, ""))
+        << twin;
+  }
+}
+
+TEST_F(Rerun, OfAGatheredTableComputesItsRows) {
+  const FakeFreeFem fake(scratch_.path());
+  const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
+  put_text(path("case.toml"), gentle_case_text());
+  const std::vector<std::string> tabulate = {"tabulate", path("case.toml"), "-o", path("t.csv")};
+  auto share = tabulate, gather = tabulate;
+  share.insert(share.end(), {"--task", "0/1"});
+  gather.emplace_back("--gather");
+  expect_done(run_viscontact(share, environment));
+  expect_done(run_viscontact(gather, environment));
+  expect_done(run_viscontact({"rerun", path("t.csv"), "-o", path("again.csv")}, environment));
+  EXPECT_EQ(without_seconds(path("again.csv")), without_seconds(path("t.csv")));
+}
+
+TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
+  fit();
+  const auto forged = [&](const std::string& command) {
+    put_text(path("forged.json"),
+             std::regex_replace(read_file(path("fit.json")),
+                                std::regex("\"command\":\\[[^\\]]*\\]"), "\"command\":" + command));
+    return run({"rerun", path("forged.json")});
+  };
+  for (const std::string command :
+       {R"(["viscontact","rerun","forged.json"])", R"(["viscontact","init","x.toml"])",
+        R"(["viscontact"])",
+        R"(["viscontact","tabulate","case.toml","-o","t.csv","--launcher","slurm"])",
+        R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
+    expect_refusal(forged(command), ExitCode::kBadInput, HasSubstr("makes no file"));
+}
+
+TEST_F(Rerun, FindsItInAJsonFileThatWasWrittenOutAgain) {
+  fit();
+  put_text(path("pretty.json"), Json::parse(read_file(path("fit.json"))).dump(4));
+  expect_done(run({"rerun", path("pretty.json"), "-o", path("again.json")}));
+  EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
+}
+
+TEST_F(Provenance, OfAPipeHasNoHash) {
+  expect_done(run_viscontact({"fit", "/dev/stdin", "-o", path("fit.json")}, {},
+                             "cat '" + path("table.csv") + "' |"));
+  EXPECT_EQ(provenance_of(path("fit.json")).at("inputs").at(0).at("sha256"), "");
+  expect_refusal(run({"rerun", path("fit.json")}), ExitCode::kBadInput, HasSubstr("pipe"));
+}
+
+TEST_F(Provenance, TimeThatIsNoneIsRefused) {
+  for (const std::string time : {"-5", "1.5", "1e9", "abc", "99999999999999999999"})
+    expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")},
+                                  {"SOURCE_DATE_EPOCH=" + time}),
+                   ExitCode::kWrongUsage, HasSubstr("SOURCE_DATE_EPOCH is '" + time + "'"));
+  EXPECT_FALSE(fs::exists(path("fit.json")));
+}
+
 TEST_F(Rerun, RefusesWhatDoesNotSayHowItWasMade) {
   fit();
   expect_refusal(run({"rerun", path("table.csv")}), ExitCode::kBadInput,
@@ -201,7 +286,7 @@ TEST_F(Rerun, RefusesWhatDoesNotSayHowItWasMade) {
   expect_done(run({"compare", path("run")}));
   expect_done(run({"report", path("run")}));
   expect_refusal(run({"rerun", path("run/report.html"), "-o", path("other")}),
-                 ExitCode::kWrongUsage, HasSubstr("has no -o"));
+                 ExitCode::kWrongUsage, HasSubstr("leave out -o"));
 }
 
 }  // namespace

@@ -64,6 +64,20 @@ TEST_F(Report, LinksTheFileOfEveryNumberAndIsSmall) {
   EXPECT_LT(text.size(), kTwoMegabytes);
 }
 
+TEST_F(Report, NamesOfModelsAreTextToGnuplotAndToTheBrowser) {
+  // A user's file names its model: what the name holds must not be run.
+  run_lecture();
+  const std::string canary = (scratch_.path() / "canary").string();
+  const std::string name = "a' 1); system(\"touch " + canary + "\"); set ytics ('`touch " + canary +
+                           "` 50% #<!--<script>";
+  put_text(folder() / "trajectories/own.csv",
+           "# model: " + name + "\ntime,gap,velocity\n0,1,0\n1,0.5,-1\n4,0.5,0\n");
+  expect_done(run_viscontact({"compare", folder().string()}));
+  expect_done(run_viscontact({"report", folder().string()}));
+  EXPECT_FALSE(std::filesystem::exists(canary));
+  EXPECT_THAT(page(), AllOf(Not(HasSubstr("<!--<script>")), HasSubstr("50% #")));
+}
+
 TEST_F(Report, SaysThatThereIsNothingToWarnOf) {
   // The exact drag, and models whose film stays thicker than nothing.
   auto text = replaced(lecture_case_text(), "basis = \"lecture\"", "exact = \"plane\"");

@@ -38,7 +38,10 @@ INSTANTIATE_TEST_SUITE_P(
     Each, WrongCommandLine,
     ::testing::Values(
         WrongUsage{"NoCommand", {}, "subcommand"},
-        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "subcommand"},
+        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "no subcommand 'tabulte'"},
+        WrongUsage{"OutputTwiceUnderTwoNames",
+                   {"sweep", "case.toml", "-o", "a.csv", "--plot", "./a.csv"},
+                   "./a.csv would be written twice"},
         WrongUsage{
             "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
         WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},

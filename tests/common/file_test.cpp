@@ -165,11 +165,12 @@ TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
   ASSERT_GE(killed, 0);
   if (killed == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(killed, nullptr, 0), killed);
-  const auto left = folder.file(fmt::format("out.csv.{}.tmp", killed), "ti");
+  const auto left = folder.file(fmt::format("out.csv.viscontact-{}.tmp", killed), "ti");
   const std::vector<std::filesystem::path> others = {
-      folder.file(fmt::format("out.csv.{}.tmp", ::getppid()), "of a process that is there"),
-      folder.file(fmt::format("other.csv.{}.tmp", killed), "another file's"),
-      folder.file("out.csv.tmp", "a user's"), folder.file("out.csv.7a.tmp", "a user's")};
+      folder.file(fmt::format("out.csv.viscontact-{}.tmp", ::getppid()), "of a process that is there"),
+      folder.file(fmt::format("other.csv.viscontact-{}.tmp", killed), "another file's"),
+      folder.file("out.csv.tmp", "a user's"), folder.file("out.csv.viscontact-7a.tmp", "a user's"),
+      folder.file("out.csv.20261121.tmp", "a user's")};
   write_file(folder.path() / "out.csv", "time\n");
   EXPECT_FALSE(std::filesystem::exists(left));
   for (const auto& other : others) EXPECT_TRUE(std::filesystem::exists(other)) << other;

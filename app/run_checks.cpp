@@ -1,0 +1,42 @@
+#include "app/run_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/error.hpp"
+#include "reduced_model/models.hpp"
+
+namespace viscontact {
+
+void check_run(const Case& c, const std::vector<std::string>& models) {
+  const auto& gaps = required_tabulation(c).gaps;
+  const auto& request = required_fit(c);
+  const auto& motion = required_motion(c);
+  const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
+  const std::size_t terms =
+      request.settings.basis.terms.size() - (request.settings.hold_leading ? 1 : 0);
+  if (different < terms)
+    throw_bad_input({c.path.string()},
+                    fmt::format("tabulation.gaps are {}; basis {} needs at least {}", different,
+                                request.settings.basis.name, terms));
+  const auto [smallest, largest] = std::ranges::minmax(gaps);
+  const auto refuse = [&](const std::string& model, const char* what, double bound,
+                          const char* remedy) {
+    throw_bad_input({c.path.string()},
+                    fmt::format("motion.initial_gap is {}, {} gap of tabulation.gaps, {}, and {} "
+                                "needs the drag there; tabulate further, or [fit] {}",
+                                motion.initial_gap, what, bound, model, remedy));
+  };
+  for (const auto& name : models) {
+    const auto choice = find_model(name);
+    if (choice.exact_drag || choice.model->contact != nullptr) continue;
+    if (motion.initial_gap < smallest && request.below == BelowInterval::kError)
+      refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
+    if (motion.initial_gap > largest && request.above == AboveInterval::kError)
+      refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
+  }
+}
+
+}  // namespace viscontact
