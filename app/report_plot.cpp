@@ -147,7 +147,7 @@ std::string json_of(const Plot& plot) {
           -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   // "</script>" in a title would end the element, "<!--" begin another.
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at)
-    text.replace(at, 1, "\u003c");
+    text.replace(at, 1, "\\u003c");
   return text;
 }
 

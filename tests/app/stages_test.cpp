@@ -172,7 +172,7 @@ TEST_F(Stages, SimulateWritesOneTrajectoryForEachModelAndCopiesCaseAndFit) {
     EXPECT_EQ(result.rows.front().gap, 1);
     EXPECT_EQ(result.rows.back().time, 4);
     EXPECT_EQ(result.provenance.at("case"), sha256(lecture_case_text()));
-    EXPECT_EQ(result.provenance.at("fit"), sha256(read_file(path("fit.json"))));
+    EXPECT_EQ(result.provenance.at("fit"), sha256(rest_of(path("fit.json"))));
     EXPECT_EQ(result.rows.back().gamma.has_value(), model.contact != nullptr);
   }
   EXPECT_EQ(files_below(path("run/trajectories")).size(), number_of_models());
