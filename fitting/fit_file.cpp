@@ -103,6 +103,8 @@ Fit read_fit(const std::filesystem::path& path) {
   fit.condition_number = root.number_above("condition_number", 1, true);
   fit.covariance = read_covariance(root, fit.terms.size());
   fit.table_sha256 = root.text("table_sha256");
+  if (root.has("provenance") && !root.at("provenance").is_object())
+    root.fail("provenance", "must be an object");
   if (!root.at("versions").is_object()) root.fail("versions", "must be an object");
   for (const auto& [program, version] : root.at("versions").items()) {
     if (!version.is_string()) root.fail("versions." + program, "must be text");
