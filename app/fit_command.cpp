@@ -74,7 +74,8 @@ void add_fit(CLI::App& app) {
   auto* fix =
       command
           ->add_option("--fix", o->fix,
-                       "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE")
+                       "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE (of the "
+                       "force at the table's first velocity)")
           ->expected(0, 1)
           ->type_name("[1/q[=VALUE]]");
   auto* bases = command->add_flag("--compare-bases", o->compare_bases,

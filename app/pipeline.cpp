@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/command_options.hpp"
 #include "app/comparison_table.hpp"
 #include "app/fit_summary.hpp"
 #include "app/progress.hpp"
@@ -290,6 +291,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
     check_run(c, models_to_run(c, {}));
+    refuse_other_kind(run.table().string(), "# viscontact: force table", "table of ours");
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));

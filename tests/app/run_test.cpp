@@ -110,6 +110,15 @@ TEST_F(Run, ChangedMotionIsSimulatedAgainButNotTabulated) {
   EXPECT_EQ(read_file(folder() / "case.toml"), read_file(case_file()));
 }
 
+TEST_F(Run, NeverReplacesATableThatItDidNotWrite) {
+  const auto table = folder() / "table.csv";
+  fs::create_directories(folder());
+  put_text(table, "# viscosity: 3\n# radius: 1\ngap,reference_velocity,force\n0.1,-1,900\n");
+  const auto before = read_file(table);
+  expect_refusal(run(), ExitCode::kBadInput, HasSubstr("is there and is no table of ours"));
+  EXPECT_EQ(read_file(table), before);
+}
+
 TEST_F(Run, ChangedTabulationIsMadeAgain) {
   expect_done(run());
   const std::string table = read_file(folder() / "table.csv");
