@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 
 #include "app/command_options.hpp"
@@ -29,15 +28,6 @@ void read_fix(const std::string& word, FitSettings& settings) {
     throw Error(
         ExitCode::kWrongUsage,
         fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
-}
-
-TextKind kind_of_target(const std::string& target) {
-  static const std::map<std::string, TextKind> kinds = {{"c-header", TextKind::kC},
-                                                        {"fortran", TextKind::kFortran},
-                                                        {"python", TextKind::kHashComment},
-                                                        {"json", TextKind::kJson},
-                                                        {"csv", TextKind::kHashComment}};
-  return kinds.at(target);
 }
 
 }  // namespace
@@ -73,9 +63,10 @@ void add_fit(CLI::App& app) {
       ->capture_default_str();
   auto* fix =
       command
-          ->add_option("--fix", o->fix,
-                       "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE (of the "
-                       "force at the table's first velocity)")
+          ->add_option(
+              "--fix", o->fix,
+              "hold the coefficient of 1/q: at theory's value, or at that of 1/q=VALUE (of the "
+              "force at the table's first velocity)")
           ->expected(0, 1)
           ->type_name("[1/q[=VALUE]]");
   auto* bases = command->add_flag("--compare-bases", o->compare_bases,
@@ -143,7 +134,8 @@ void add_export(CLI::App& app) {
       throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
-      write_output(o->output, kind_of_target(o->target), text, provenance_of({{o->fit}, {}}));
+      write_output(o->output, find_named(export_targets(), o->target)->kind, text,
+                   provenance_of({{o->fit}, {}}));
     else
       fmt::print("{}", text);
   });

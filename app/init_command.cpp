@@ -9,7 +9,7 @@
 #include "app/case_template.hpp"
 #include "app/command_options.hpp"
 #include "app/progress.hpp"
-#include "app/slurm.hpp"
+#include "app/shell_words.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/text_kind.hpp"
+
 namespace viscontact {
 
 /// A file that went into an output. An intermediate one was made by the same command, as a run's table.
@@ -21,8 +23,8 @@ struct Provenance {
   std::string folder;                           ///< in which it was typed, absolute
   std::vector<InputFile> inputs;                ///< in the order in which they are used
   std::map<std::string, std::string> versions;  ///< program: version
-  std::string output;                           ///< the file that was written, as named by the command
-  std::string made;  ///< UTC, ISO 8601 to the second; that of SOURCE_DATE_EPOCH if it is set
+  std::string output;  ///< the file that was written, as named by the command
+  std::string made;    ///< UTC, ISO 8601 to the second; that of SOURCE_DATE_EPOCH if it is set
 };
 
 /// The files that an output is made from.
@@ -34,9 +36,6 @@ struct Inputs {
 /// Of what this process makes from these files, which are read for their hashes: to be asked for before a long computation, in which a user may edit
 /// them. `output` and `made` are empty. Throws Error(kBadInput) if one cannot be read.
 Provenance provenance_of(const Inputs& inputs);
-
-/// How a kind of text can carry a line that its readers pass over.
-enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran };  // "#": CSV, Python
 
 /// `text` with the provenance in it, as one line: a comment at its head, for kJson the first key, for kSvg metadata, for kHtml a data script in <head>.
 /// `text` is whole and of that kind; an object with keys, for kJson.

@@ -6,7 +6,7 @@
 
 #include "app/html.hpp"
 #include "app/provenance.hpp"
-#include "app/slurm.hpp"
+#include "app/shell_words.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"

@@ -14,7 +14,7 @@
 #include "app/command_options.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
-#include "app/slurm.hpp"
+#include "app/shell_words.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 

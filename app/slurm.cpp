@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/progress.hpp"
+#include "app/shell_words.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/process.hpp"
@@ -156,45 +157,6 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
                   "\n  {}",
                   job, tasks.size(), folder.string(), job, gather));
   fmt::print("{}\n", job);
-}
-
-std::vector<std::string> split_words(const std::string& text) {
-  std::vector<std::string> words;
-  bool in_word = false;
-  char quote = '\0';
-  for (const char character : text) {
-    if (quote != '\0') {
-      if (character == quote)
-        quote = '\0';
-      else
-        words.back() += character;
-      continue;
-    }
-    if (character == ' ' || character == '\t' || character == '\n') {
-      in_word = false;
-      continue;
-    }
-    if (!in_word) words.emplace_back();
-    in_word = true;
-    if (character == '\'' || character == '"')
-      quote = character;
-    else
-      words.back() += character;
-  }
-  if (quote != '\0')
-    throw Error(ExitCode::kWrongUsage, fmt::format("the {} of '{}' has no end", quote, text));
-  return words;
-}
-
-std::string shell_word(const std::string& text) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=+,:@").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
-  std::string word = "'";
-  for (const char character : text) word += character == '\'' ? "'\\''" : std::string(1, character);
-  return word + "'";
 }
 
 }  // namespace viscontact

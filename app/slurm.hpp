@@ -25,11 +25,4 @@ std::filesystem::path slurm_folder(const std::filesystem::path& output);
 /// Error(kExternalProgram) with what Slurm says if it does not take the job.
 void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& request);
 
-/// The words of a command line: blanks part them, except between ' or ". Throws Error(kWrongUsage) for a quote
-/// without an end.
-std::vector<std::string> split_words(const std::string& text);
-
-/// A word as a POSIX shell must be given it.
-std::string shell_word(const std::string& text);
-
 }  // namespace viscontact

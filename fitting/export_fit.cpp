@@ -231,11 +231,11 @@ std::string write_csv(const Fit& fit) {
 }
 
 constexpr std::array kTargets = {
-    ExportTarget{"c-header", "functions of C99 and C++", write_c_header},
-    ExportTarget{"fortran", "a module of Fortran 2008", write_fortran},
-    ExportTarget{"python", "a module of Python 3", write_python},
-    ExportTarget{"json", "terms, formulas and 201 samples", write_json},
-    ExportTarget{"csv", "201 samples", write_csv},
+    ExportTarget{"c-header", "functions of C99 and C++", TextKind::kC, write_c_header},
+    ExportTarget{"fortran", "a module of Fortran 2008", TextKind::kFortran, write_fortran},
+    ExportTarget{"python", "a module of Python 3", TextKind::kHashComment, write_python},
+    ExportTarget{"json", "terms, formulas and 201 samples", TextKind::kJson, write_json},
+    ExportTarget{"csv", "201 samples", TextKind::kHashComment, write_csv},
 };
 
 }  // namespace

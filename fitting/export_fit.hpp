@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/text_kind.hpp"
 #include "fitting/fit.hpp"
 
 namespace viscontact {
@@ -12,6 +13,7 @@ namespace viscontact {
 struct ExportTarget {
   std::string_view name;         ///< what users type
   std::string_view description;  ///< a line for --help
+  TextKind kind;                 ///< of the text
   std::string (*write)(const Fit& fit);
 };
 

@@ -167,7 +167,8 @@ TEST(WriteFile, TakesAwayWhatAKilledProcessLeftAndNothingElse) {
   ASSERT_EQ(::waitpid(killed, nullptr, 0), killed);
   const auto left = folder.file(fmt::format("out.csv.viscontact-{}.tmp", killed), "ti");
   const std::vector<std::filesystem::path> others = {
-      folder.file(fmt::format("out.csv.viscontact-{}.tmp", ::getppid()), "of a process that is there"),
+      folder.file(fmt::format("out.csv.viscontact-{}.tmp", ::getppid()),
+                  "of a process that is there"),
       folder.file(fmt::format("other.csv.viscontact-{}.tmp", killed), "another file's"),
       folder.file("out.csv.tmp", "a user's"), folder.file("out.csv.viscontact-7a.tmp", "a user's"),
       folder.file("out.csv.20261121.tmp", "a user's")};

@@ -123,7 +123,8 @@ TEST_F(SweepFile, KeepsItsRowsWhenSomethingElseEndsIt) {
   const auto stop = [](std::uint64_t done, std::uint64_t) {
     if (done == 13) throw std::domain_error("the end");
   };
-  EXPECT_THROW(write_sweep(Sweep(plan_), path("table.csv"), 2, version_, "", stop), std::domain_error);
+  EXPECT_THROW(write_sweep(Sweep(plan_), path("table.csv"), 2, version_, "", stop),
+               std::domain_error);
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   EXPECT_EQ(write("table.csv"), kRows - 13);
   EXPECT_EQ(read_file(path("table.csv")), whole);

@@ -1,0 +1,44 @@
+// Sweeps of the shipped studies and their rows, by column.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweep/sweep.hpp"
+
+namespace viscontact {
+
+std::filesystem::path data(const std::string& name);
+
+/// A shipped study's text, that runs from any folder, with `from` (there once) replaced.
+std::string study_text(const std::string& name,
+                       const std::vector<std::pair<std::string, std::string>>& changes);
+
+/// The sweep that a case asks for.
+SweepPlan plan_of(const std::filesystem::path& path);
+
+SweepPlan shipped(const std::string& name);
+
+SweepPlan varied(SweepPlan plan, const std::vector<std::string>& vary);
+
+SweepPlan with_models(SweepPlan plan, std::vector<std::string> models,
+                      const std::string& reference);
+
+/// The fields of a row by their columns; a failure of the test if there are more or fewer.
+std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::string& row);
+
+std::map<std::string, std::string> row_of(const SweepPlan& plan, std::uint64_t index);
+
+double number(const std::map<std::string, std::string>& fields, const std::string& column);
+
+/// All rows, none of which may have failed.
+std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan);
+
+std::vector<double> column(const std::vector<std::map<std::string, std::string>>& rows,
+                           const std::string& name);
+
+}  // namespace viscontact
