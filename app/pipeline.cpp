@@ -291,7 +291,8 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
     check_run(c, models_to_run(c, {}));
-    refuse_other_kind(run.table().string(), "# viscontact: force table", "table of ours");
+    // Its first line, which a table cut short still has.
+    refuse_other_kind(run.table().string(), "# case: ", "table of ours");
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));
