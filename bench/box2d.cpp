@@ -1,0 +1,122 @@
+// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--threads N] [--method NAME]
+// Discs on a lattice of spacing 2.1 in a box of width 2.1 ceil(sqrt N) with floor and two walls, jitter +-0.05, radii 0.8 to 1, m = r^2, g = 1,
+// h = 0.05, gamma_min = -2; prints CPU time, iterations, residual and memory by stretches of time, the projection and all else.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <string>
+
+#include "particles/simulation.hpp"
+
+namespace {
+
+using namespace viscontact::particles;
+
+/// x <- 6364136223846793005 x + 1442695040888963407 mod 2^64 from 12345; the top 53 bits.
+class Uniform {
+ public:
+  double operator()() {
+    x_ = 6364136223846793005U * x_ + 1442695040888963407U;
+    return static_cast<double>(x_ >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::uint64_t x_ = 12345;
+};
+
+State box_of_discs(int count) {
+  State state;
+  auto& p = state.particles;
+  Uniform uniform;
+  const int n = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int k = 0; k < count; ++k) {
+    const double radius = 0.8 + 0.2 * uniform();
+    const double x = 0.1 * (uniform() - 0.5), y = 0.1 * (uniform() - 0.5);
+    p.radii.push_back(radius);
+    p.masses.push_back(radius * radius);
+    p.positions.insert(p.positions.end(), {1.05 + 2.1 * (k % n) + x, 1.05 + 2.1 * (k / n) + y});
+  }
+  p.velocities.assign(p.positions.size(), 0.0);
+  return state;
+}
+
+Setting box(int count) {
+  Setting setting;
+  const double width = 2.1 * std::ceil(std::sqrt(count));
+  const auto plane = [&](Vector point, Vector normal) {
+    Plane p;
+    p.start = {point, normal};
+    setting.planes.push_back(p);
+  };
+  plane({}, {0, 1, 0});
+  plane({}, {1, 0, 0});
+  plane({width, 0, 0}, {-1, 0, 0});
+  setting.gravity = {0, -1, 0};
+  setting.time_step = 0.05;
+  setting.law.gamma_min = -2;
+  return setting;
+}
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::map<std::string, std::string> o = {
+      {"--count", "1000"},     {"--until", "10"},  {"--max-iterations", "10000"},
+      {"--tolerance", "1e-6"}, {"--threads", "1"}, {"--method", "auto"},
+      {"--print", "2.5"}};
+  for (int i = 1; i + 1 < argc; i += 2) o[argv[i]] = argv[i + 1];
+  const int count = std::stoi(o["--count"]);
+  auto setting = box(count);
+  setting.solver = {std::stod(o["--tolerance"]), std::stoi(o["--max-iterations"]), o["--method"]};
+  const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
+  Simulation simulation(setting, box_of_discs(count), std::stoi(o["--threads"]));
+  double shown = 0, all = 0, worst_overlap = 0;
+  int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
+  double spent = 0, residual = 0, longest = 0;
+  fmt::print(
+      "t          CPU ms/step  longest  iterations  contacts  glued  residual  not converged\n");
+  while (simulation.state().time < until * (1 - 1e-9)) {
+    const double before = cpu_seconds();
+    const auto report = simulation.step(until);
+    const double took = cpu_seconds() - before;
+    spent += took;
+    all += took;
+    longest = std::max(longest, took);
+    ++steps;
+    ++all_steps;
+    iterations += report.iterations;
+    residual = std::max(residual, report.residual);
+    unconverged += report.converged ? 0 : 1;
+    all_unconverged += report.converged ? 0 : 1;
+    worst_overlap = std::max(worst_overlap, report.largest_overlap);
+    if (report.time >= shown + stretch * (1 - 1e-9) || report.time >= until * (1 - 1e-9)) {
+      fmt::print("{:4.2f}-{:5.2f}  {:10.3f}  {:7.2f}  {:10.1f}  {:8}  {:5}  {:.1e}  {}\n", shown,
+                 report.time, 1e3 * spent / steps, 1e3 * longest, double(iterations) / steps,
+                 report.contacts, report.glued, residual, unconverged);
+      shown = report.time;
+      spent = residual = longest = 0;
+      steps = iterations = unconverged = 0;
+    }
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  fmt::print(
+      "N = {}: {:.3f} ms CPU a step, {:.1f} ns a disc and step; {} of {} steps not converged; "
+      "largest overlap {:.1e} mean radii, at the end {:.1e}; "
+      "{:.0f} MiB, {:.0f} bytes a disc\n",
+      count, 1e3 * all / all_steps, 1e9 * all / all_steps / count, all_unconverged, all_steps,
+      worst_overlap, largest_overlap(setting, simulation.state()),
+      static_cast<double>(usage.ru_maxrss) / 1024,
+      1024.0 * static_cast<double>(usage.ru_maxrss) / count);
+}

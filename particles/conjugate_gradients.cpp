@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "particles/projection.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// What one pass over the contacts finds at z with gradient g.
+struct Look {
+  double violation = 0;  ///< largest [L]
+  double free =
+      0;  ///< phi.g of the free gradient phi, cut so that a step of kStep along it stays within the bounds
+  double chopped =
+      0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
+  double room = std::numeric_limits<double>::infinity();  ///< smallest z - bound
+  Look& operator+=(const Look& other) {
+    violation = std::max(violation, other.violation);
+    free += other.free;
+    chopped += other.chopped;
+    room = std::min(room, other.room);
+    return *this;
+  }
+};
+
+/// Length of a projected gradient step. W has the diagonal 1, so that its largest eigenvalue is near 2 to 3 in packings; any length below 2 over that
+/// makes the objective fall. Measured: 1/1.5 to 1/4 differ by 5 % in iterations.
+constexpr double kStep = 0.5;
+
+/// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner, on the free contacts of one of
+/// the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
+template <int D>
+class Iteration {
+ public:
+  explicit Iteration(ContactGraph<D>& graph)
+      : graph_(graph),
+        y_(graph.bodies() * D),
+        y_direction_(graph.bodies() * D),
+        gradient_(graph.count()),
+        direction_(graph.count()),
+        half_swept_(graph.count()),
+        swept_(graph.count()) {
+    refresh();
+  }
+
+  /// The gradient from z itself, without the rounding of many updates.
+  void refresh() {
+    graph_.to_bodies(graph_.z, y_);
+    look_ = graph_.team().template sum_of_blocks<Look>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          Look look;
+          for (std::size_t c = begin; c < end; ++c) {
+            gradient_[c] = graph_.free[c] + graph_.to_contact(c, y_.data());
+            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.scale[c], look);
+          }
+          return look;
+        });
+    restart_ = true;
+  }
+
+  double violation() const { return look_.violation; }
+
+  /// One step. Returns how many products with W it took.
+  int step() {
+    if (look_.chopped > look_.free) return leave_bounds();
+    if (restart_) start_directions();
+    const double length = curvature_ > 0 ? slope_ / curvature_ : 0;
+    move_and_half_sweep(length);
+    if (look_.room < 0) return expand(length);
+    // Conjugate: the next direction from the swept gradient and the one before.
+    const double slope = sweep_back();
+    const double beta = slope / slope_;
+    slope_ = slope;
+    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) direction_[c] = swept_[c] + beta * direction_[c];
+    });
+    add_to_bodies(beta);
+    return 1;
+  }
+
+ private:
+  bool is_free(std::size_t c) const { return graph_.z[c] > graph_.bound[c]; }
+
+  /// Without branches: which contacts are free is as irregular as the packing.
+  static void add(double g, double room, double scale, Look& look) {
+    look.violation = std::max(look.violation, scale * std::abs(std::min(g, room)));
+    const bool is_free = room > 0;
+    const double phi = is_free ? g : 0.0;
+    look.free += phi * std::min(g, room * (1 / kStep));
+    const double beta = is_free ? 0.0 : std::min(g, 0.0);
+    look.chopped += beta * beta;
+    look.room = std::min(look.room, room);
+  }
+
+  /// z^T W z/2 + b^T z.
+  double objective() const {
+    return graph_.team().template sum_of_blocks<double>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          double sum = 0;
+          for (std::size_t c = begin; c < end; ++c)
+            sum += graph_.z[c] * (gradient_[c] + graph_.free[c]) / 2;
+          return sum;
+        });
+  }
+
+  void start_directions() {
+    restart_ = false;
+    std::fill(direction_.begin(), direction_.end(), 0.0);
+    std::fill(y_direction_.begin(), y_direction_.end(), 0.0);
+    curvature_ = 0;
+    move_and_half_sweep(0);
+    slope_ = sweep_back();
+    direction_ = swept_;
+    add_to_bodies(0);
+  }
+
+  /// z -= length * direction, its gradient and what there is to see then; and, the contact's rows being at hand, the sweep's way forth:
+  /// half_swept = (I + L)^-1 gradient, L the lower triangle of W between the free contacts of a block.
+  void move_and_half_sweep(double length) {
+    look_ = graph_.team().template sum_of_blocks<Look>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          Look look;
+          auto sums = graph_.block_bodies(begin);
+          for (std::size_t c = begin; c < end; ++c) {
+            const double z = graph_.z[c] - length * direction_[c];
+            const double g = gradient_[c] - length * graph_.to_contact(c, y_direction_.data());
+            graph_.z[c] = z;
+            gradient_[c] = g;
+            const double room = z - graph_.bound[c];
+            add(g, room, graph_.scale[c], look);
+            const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
+            half_swept_[c] = t;
+            graph_.add_in_block(c, t, sums.data());
+          }
+          return look;
+        });
+  }
+
+  /// The sweep's way back: swept = (I + L^T)^-1 half_swept. Returns its product with the gradient.
+  double sweep_back() {
+    return graph_.team().template sum_of_blocks<double>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          double product = 0;
+          auto sums = graph_.block_bodies(begin);
+          for (std::size_t c = end; c-- > begin;) {
+            const double s =
+                is_free(c) ? half_swept_[c] - graph_.to_contact_in_block(c, sums.data()) : 0.0;
+            swept_[c] = s;
+            product += s * gradient_[c];
+            graph_.add_in_block(c, s, sums.data());
+          }
+          if (graph_.count() <= Team::kBlock) std::swap(y_, sums);  // B swept, there already
+          return product;
+        });
+  }
+
+  /// y_direction = B swept + beta * y_direction, and the direction's curvature.
+  void add_to_bodies(double beta) {
+    if (graph_.count() > Team::kBlock) graph_.to_bodies(swept_, y_);
+    curvature_ = graph_.combine(y_, beta, y_direction_);
+  }
+
+  /// The step of that length led out of the bounds: all of it, cut at them. Where that does not make the objective fall, as far as the first bound and a
+  /// projected gradient step from there, which does.
+  int expand(double length) {
+    // That of before the step: the objective is quadratic along it.
+    const double before = objective() + length * (slope_ - length * curvature_ / 2);
+    const auto here = graph_.z;
+    cut();
+    if (objective() < before) return 1;
+    graph_.z = here;
+    double feasible = length;  // from where the step began
+    for (std::size_t c = 0; c < graph_.count(); ++c)
+      if (direction_[c] > 0)
+        feasible = std::min(feasible, length + (graph_.z[c] - graph_.bound[c]) / direction_[c]);
+    for (std::size_t c = 0; c < graph_.count(); ++c)
+      graph_.z[c] += (length - std::max(0.0, feasible)) * direction_[c];
+    cut();
+    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c)
+        if (is_free(c)) graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - kStep * gradient_[c]);
+    });
+    refresh();
+    return 3;
+  }
+
+  /// Back within the bounds.
+  void cut() {
+    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c)
+        graph_.z[c] = std::max(graph_.z[c], graph_.bound[c]);
+    });
+    refresh();
+  }
+
+  /// The best step along the chopped gradient, which leads away from bounds only.
+  int leave_bounds() {
+    for (std::size_t c = 0; c < graph_.count(); ++c)
+      direction_[c] = !is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
+    const double curvature = graph_.to_bodies(direction_, y_direction_);
+    move_and_half_sweep(look_.chopped / curvature);
+    restart_ = true;
+    return 1;
+  }
+
+  ContactGraph<D>& graph_;
+  std::vector<double> y_, y_direction_;  // of bodies
+  std::vector<double> gradient_, direction_, half_swept_, swept_;
+  Look look_;
+  double slope_ = 0;      // gradient.direction
+  double curvature_ = 0;  // direction^T W direction
+  bool restart_ = true;
+};
+
+}  // namespace
+
+template <int D>
+Solved conjugate_gradients(ContactGraph<D>& graph, double tolerance, int max_iterations) {
+  Iteration<D> iteration(graph);
+  Solved solved;
+  bool fresh = true;
+  for (;;) {
+    solved.violation = iteration.violation();
+    if (solved.violation <= tolerance || solved.iterations >= max_iterations) {
+      if (fresh) return solved;
+      iteration.refresh();  // believe no updated gradient
+      fresh = true;
+      continue;
+    }
+    solved.iterations += iteration.step();
+    fresh = false;
+  }
+}
+
+template Solved conjugate_gradients<2>(ContactGraph<2>&, double, int);
+template Solved conjugate_gradients<3>(ContactGraph<3>&, double, int);
+
+}  // namespace viscontact::particles

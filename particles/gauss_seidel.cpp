@@ -1,0 +1,47 @@
+#include <vector>
+
+#include "particles/projection.hpp"
+
+namespace viscontact::particles {
+
+template <int D>
+Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations) {
+  const std::size_t count = graph.count();
+  std::vector<double> y(graph.bodies() * D);
+  Solved solved;
+  // The bodies' y is kept up to date contact by contact; its rounding is far below any tolerance that double precision can ask for, but it is
+  // made anew before a solution is believed.
+  const auto look = [&] {
+    graph.to_bodies(graph.z, y);
+    solved.violation = 0;
+    for (std::size_t c = 0; c < count; ++c)
+      solved.violation = std::max(
+          solved.violation, graph.violation(c, graph.free[c] + graph.to_contact(c, y.data())));
+    return solved.violation <= tolerance;
+  };
+  if (look()) return solved;
+  while (solved.iterations < max_iterations) {
+    double largest = 0;
+    const auto relax = [&](std::size_t c) {
+      const double gradient = graph.free[c] + graph.to_contact(c, y.data());
+      const double next = std::max(graph.bound[c], graph.z[c] - gradient);
+      const double change = next - graph.z[c];
+      largest = std::max(largest, graph.scale[c] * std::abs(change));
+      graph.z[c] = next;
+      graph.add(c, change, y.data());
+    };
+    if (solved.iterations % 2 == 0)
+      for (std::size_t c = 0; c < count; ++c) relax(c);
+    else
+      for (std::size_t c = count; c-- > 0;) relax(c);
+    ++solved.iterations;
+    // `largest` is what the contacts' violations were as the sweep met them.
+    if ((largest <= tolerance || solved.iterations == max_iterations) && look()) break;
+  }
+  return solved;
+}
+
+template Solved gauss_seidel<2>(ContactGraph<2>&, double, int);
+template Solved gauss_seidel<3>(ContactGraph<3>&, double, int);
+
+}  // namespace viscontact::particles

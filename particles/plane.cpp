@@ -1,0 +1,27 @@
+#include "particles/plane.hpp"
+
+#include <cmath>
+
+namespace viscontact::particles {
+namespace {
+
+/// Rodrigues' formula: `a` turned by `angle` about the unit axis.
+Vector turned(const Vector& a, const Vector& axis, double angle) {
+  const double c = std::cos(angle);
+  return c * a + std::sin(angle) * cross(axis, a) + (1 - c) * dot(axis, a) * axis;
+}
+
+}  // namespace
+
+PlanePlace Plane::at(double t) const {
+  PlanePlace place = start;
+  if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
+    const Vector axis = (1 / speed) * angular_velocity;
+    place.point = pivot + turned(start.point - pivot, axis, speed * t);
+    place.normal = turned(start.normal, axis, speed * t);
+  }
+  place.point = place.point + velocity.integral(t);
+  return place;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,62 @@
+// The methods that solve the projection of a time step.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "particles/contact_graph.hpp"
+
+namespace viscontact::particles {
+
+struct SolverSettings {
+  double tolerance = 1e-6;           ///< of the residual, > 0
+  int max_iterations = 10000;        ///< of a step, >= 1: products with W, or sweeps
+  std::string_view method = "auto";  ///< a name in kSolverMethods
+};
+
+struct Solved {
+  int iterations = 0;
+  double violation = 0;  ///< largest over the contacts [L]: ContactGraph::violation
+};
+
+/// Improves graph.z from its guess until no contact is further than `tolerance` [L] from its conditions or the iterations are used up. Impulses of
+/// redundant contacts, of which the velocities know only a part, depend on the guess.
+template <int D>
+using SolverMethod = Solved (*)(ContactGraph<D>& graph, double tolerance, int max_iterations);
+
+/// Projected conjugate gradients (MPRGP: Dostal & Schoeberl 2005, "Minimizing quadratic functions subject to bound constraints with the rate of
+/// convergence and finite termination"): conjugate gradients while the set of held contacts stays, projected gradients where it changes.
+template <int D>
+Solved conjugate_gradients(ContactGraph<D>& graph, double tolerance, int max_iterations);
+
+/// Accelerated projected gradient (Nesterov) with the restart of O'Donoghue & Candes 2015 and a step that shrinks where the quadratic is steeper than it
+/// allows (Mazhar et al. 2015, "Using Nesterov's method to accelerate multibody dynamics").
+template <int D>
+Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_iterations);
+
+/// Projected Gauss-Seidel, sweeps to and fro, on one core.
+template <int D>
+Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations);
+
+/// gauss_seidel for few contacts, conjugate_gradients for more (docs/particles.md says why).
+template <int D>
+Solved solve_by_size(ContactGraph<D>& graph, double tolerance, int max_iterations);
+
+struct SolverMethodRow {
+  std::string_view name, words;
+  SolverMethod<2> discs;
+  SolverMethod<3> spheres;
+};
+
+/// All methods; "auto" first.
+inline constexpr std::array<SolverMethodRow, 4> kSolverMethods = {{
+    {"auto", "Gauss-Seidel for few contacts, conjugate gradients for more", solve_by_size<2>,
+     solve_by_size<3>},
+    {"conjugate_gradients", "projected conjugate gradients", conjugate_gradients<2>,
+     conjugate_gradients<3>},
+    {"accelerated_gradient", "accelerated projected gradient", accelerated_gradient<2>,
+     accelerated_gradient<3>},
+    {"gauss_seidel", "projected Gauss-Seidel", gauss_seidel<2>, gauss_seidel<3>},
+}};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,86 @@
+// Many particles with viscous contact.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "particles/contact_law.hpp"
+#include "particles/history.hpp"
+#include "particles/particles.hpp"
+#include "particles/plane.hpp"
+#include "particles/projection.hpp"
+#include "particles/state.hpp"
+
+namespace viscontact::particles {
+
+/// What moves the particles, and how it is computed.
+struct Setting {
+  std::vector<Plane> planes;
+  Vector gravity{};                        ///< [L/T^2]
+  std::map<std::int32_t, History> forces;  ///< of single particles, beside gravity [M L/T^2]
+  ContactLaw law;
+  double time_step = 0;  ///< h [T], > 0
+  SolverSettings solver;
+};
+
+/// One step, for the record.
+struct StepReport {
+  double time = 0;           ///< at its end [T]
+  std::size_t contacts = 0;  ///< in the projection
+  std::size_t glued = 0;     ///< with gamma < 0 after it
+  int iterations = 0;
+  double residual =
+      0;  ///< physics.md (5): largest violation of a contact's conditions over the mean radius, over all pairs
+  bool converged = true;       ///< residual <= tolerance
+  double largest_overlap = 0;  ///< of linearised gaps, which no gap is below, over the mean radius
+};
+
+/// The lecture's problem for many particles (physics.md, section 5; Maury 2006, "A time-stepping scheme for inelastic collisions";
+/// Lefebvre 2009, "Numerical simulation of gluey particles"):
+///
+///     D_ij >= 0,  gamma_ij <= 0,  D_ij gamma_ij = 0,     M d^2q/dt^2 = M f + sum lambda_ij G_ij,   dgamma_ij/dt = -lambda_ij,
+///
+/// velocities projected, in the norm of M, on G_ij.v = 0 where gamma_ij < 0 and G_ij.v >= 0 where gamma_ij = 0 and D_ij = 0. One convex projection
+/// (contact_graph.hpp) a step: a film holds a pair by at most the impulse that it has taken, so that the pair leaves within the step in which gamma
+/// comes to 0, with what is left of the pull; at gamma_min the solids carry the rest. As the linearised gap of two spheres is never above their gap, a
+/// converged step leaves no overlap beyond the tolerance.
+class Simulation {
+ public:
+  /// `state` as read_restart gave it, or one with its particles only. `threads` >= 1; they do not change a bit of the result.
+  Simulation(Setting setting, State state, int threads);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  /// One step of size h; less if `end` comes first by more than a millionth of h. Throws Error(kNotConverged) if a position or velocity is beyond what
+  /// double precision holds.
+  StepReport step(double end);
+
+  const State& state() const { return state_; }
+  const Setting& setting() const { return setting_; }
+
+ private:
+  struct Work;
+  template <int D>
+  StepReport step_of(double end);
+
+  Setting setting_;
+  State state_;
+  std::unique_ptr<Work> work_;
+};
+
+/// Largest overlap of two particles, or of one and a plane, over the mean radius; 0 if there is none.
+double largest_overlap(const Setting& setting, const State& state);
+
+/// A contact of a state, for output.
+struct ContactNow {
+  std::int32_t first;   ///< particle, or -1 - k: plane k
+  std::int32_t second;  ///< particle
+  double gap;           ///< [L]
+  double gamma;         ///< [M L/T]
+};
+
+/// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
+std::vector<ContactNow> contacts_of(const Setting& setting, const State& state);
+
+}  // namespace viscontact::particles

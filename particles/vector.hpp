@@ -1,0 +1,34 @@
+// Points and vectors of the plane or of space, and arrays of them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace viscontact::particles {
+
+/// In 2D the third component is 0.
+using Vector = std::array<double, 3>;
+
+inline double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vector operator+(const Vector& a, const Vector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vector operator-(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
+
+/// The k-th of the points in an array that holds them one after the other.
+inline Vector point_of(const double* values, std::size_t k, int dimension) {
+  const double* at = values + k * static_cast<std::size_t>(dimension);
+  return {at[0], at[1], dimension == 3 ? at[2] : 0.0};
+}
+
+}  // namespace viscontact::particles
