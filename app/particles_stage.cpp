@@ -1,0 +1,300 @@
+#include "app/particles_stage.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "app/particles_page.hpp"
+#include "app/particles_picture.hpp"
+#include "app/progress.hpp"
+#include "app/provenance.hpp"
+#include "case_file/particles_case.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "common/interrupt.hpp"
+#include "common/number.hpp"
+#include "particles/particle_file.hpp"
+#include "particles/playback.hpp"
+#include "particles/restart.hpp"
+#include "particles/vtk.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using particles::Playback;
+using particles::Simulation;
+using particles::StepReport;
+using Clock = std::chrono::steady_clock;
+
+/// What run.json says.
+struct Record {
+  std::int64_t steps = 0, unconverged = 0, iterations = 0;
+  int most_iterations = 0;
+  double first_time = 0, last_time = 0;
+  double largest_residual = 0, largest_overlap = 0;
+  std::string rows = "step,time,contacts,glued,iterations,residual,largest_overlap,converged\n";
+
+  void add(std::int64_t step, const StepReport& report) {
+    ++steps;
+    unconverged += report.converged ? 0 : 1;
+    iterations += report.iterations;
+    most_iterations = std::max(most_iterations, report.iterations);
+    largest_residual = std::max(largest_residual, report.residual);
+    largest_overlap = std::max(largest_overlap, report.largest_overlap);
+    last_time = report.time;
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{}\n", step,
+                   format_number(report.time), report.contacts, report.glued, report.iterations,
+                   format_number(report.residual), format_number(report.largest_overlap),
+                   report.converged ? 1 : 0);
+  }
+};
+
+/// Frames written as they come, and kept to be drawn.
+class Frames {
+ public:
+  Frames(fs::path folder, const Provenance& provenance, const particles::Particles& particles)
+      : folder_(std::move(folder)), provenance_(provenance) {
+    playback_.dimension = particles.dimension;
+    playback_.radii.assign(particles.radii.begin(), particles.radii.end());
+  }
+
+  void add(const Simulation& simulation) {
+    const auto& state = simulation.state();
+    auto contacts = particles::contacts_of(simulation.setting(), state);
+    const auto name = fmt::format("particles_{:05}.vtp", files_.size());
+    write_output(folder_ / name, TextKind::kXml, particles::write_vtp(state.particles, contacts),
+                 provenance_);
+    files_.emplace_back(state.time, name);
+    if ((files_.size() - 1) % every_ != 0) return;
+    keep(simulation, std::move(contacts));
+  }
+
+  /// The last state is always among those that are drawn.
+  void end(const Simulation& simulation) {
+    if (playback_.frames.back().time < simulation.state().time)
+      keep(simulation, particles::contacts_of(simulation.setting(), simulation.state()));
+  }
+
+  const Playback& playback() const { return playback_; }
+  const std::vector<std::pair<double, std::string>>& files() const { return files_; }
+
+ private:
+  void keep(const Simulation& simulation, std::vector<particles::ContactNow> contacts) {
+    const auto& state = simulation.state();
+    particles::Frame frame;
+    frame.time = state.time;
+    frame.positions.assign(state.particles.positions.begin(), state.particles.positions.end());
+    for (const auto& plane : simulation.setting().planes)
+      frame.planes.push_back(plane.at(state.time));
+    frame.contacts = std::move(contacts);
+    kept_bytes_ += frame.positions.size() * sizeof(float) +
+                   frame.contacts.size() * sizeof(particles::ContactNow);
+    playback_.frames.push_back(std::move(frame));
+    // Beyond what a page can show, every second is enough.
+    constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
+    if (kept_bytes_ > kMostBytes && playback_.frames.size() > 4) {
+      std::vector<particles::Frame> half;
+      for (std::size_t i = 0; i < playback_.frames.size(); i += 2)
+        half.push_back(std::move(playback_.frames[i]));
+      playback_.frames = std::move(half);
+      kept_bytes_ /= 2;
+      every_ *= 2;
+    }
+  }
+
+  fs::path folder_;
+  const Provenance& provenance_;
+  Playback playback_;
+  std::vector<std::pair<double, std::string>> files_;
+  std::size_t every_ = 1, kept_bytes_ = 0;
+};
+
+particles::State first_state(const ParticlesCase& c, const std::string& restart) {
+  particles::State state;
+  if (restart.empty()) {
+    state.particles = c.particles;
+    return state;
+  }
+  state = particles::read_restart(restart);
+  const auto& p = state.particles;
+  const auto differs = [&](const std::string& what) {
+    throw_bad_input({restart}, fmt::format("is of other particles than {}: {}; the case that is "
+                                           "continued has the same, in the same order",
+                                           c.path.string(), what));
+  };
+  if (p.dimension != c.particles.dimension)
+    differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
+  if (p.count() != c.particles.count())
+    differs(fmt::format("{}, not {}", p.count(), c.particles.count()));
+  if (p.radii != c.particles.radii) differs("with other radii");
+  if (p.masses != c.particles.masses) differs("with other masses");
+  for (const auto& film : state.walls)
+    if (static_cast<std::size_t>(-1 - film.first) >= c.setting.planes.size())
+      differs(fmt::format("at plane {}, which is not there", -film.first));
+  if (state.time > c.end_time * (1 - 1e-9))
+    throw_bad_input({restart}, fmt::format("is at time {}; {} ends at {}: nothing is left to do",
+                                           state.time, c.path.string(), c.end_time));
+  // Another step than before begins a grid of times of its own.
+  const double on_grid =
+      state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
+  if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
+    state.grid_time = state.time;
+    state.grid_step = state.steps;
+  }
+  return state;
+}
+
+nlohmann::ordered_json record_of(const ParticlesCase& c, const Record& record,
+                                 const Simulation& simulation, double seconds) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
+  nlohmann::ordered_json json;
+  json["title"] = c.title;
+  json["particles"] = simulation.state().particles.count();
+  json["dimension"] = simulation.state().particles.dimension;
+  json["from_time"] = record.first_time;
+  json["to_time"] = record.last_time;
+  json["time_step"] = c.setting.time_step;
+  json["steps"] = record.steps;
+  json["unconverged_steps"] = record.unconverged;
+  json["iterations"] = record.iterations;
+  json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
+  json["largest_iterations"] = record.most_iterations;
+  json["tolerance"] = c.setting.solver.tolerance;
+  json["largest_residual"] = record.largest_residual;
+  json["largest_overlap"] = record.largest_overlap;
+  json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
+  json["seconds"] = seconds;
+  json["peak_memory_mebibytes"] = static_cast<double>(usage.ru_maxrss) / 1024;
+  return json;
+}
+
+/// Frames that an earlier, longer run left behind.
+void remove_other_frames(const fs::path& folder,
+                         const std::vector<std::pair<double, std::string>>& files) {
+  std::set<std::string> ours;
+  for (const auto& [time, name] : files) ours.insert(name);
+  constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || ours.contains(name)) continue;
+    const auto digits =
+        std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+    if (!digits.empty() && std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; }))
+      fs::remove(entry.path());
+  }
+}
+
+/// Refuses to write over what the run is made from.
+void check_inputs_stay(const ParticlesCase& c, const fs::path& folder) {
+  for (const auto& input : {c.path, c.particles_file}) {
+    if (input.empty()) continue;
+    for (const auto* output : {"final_particles.csv", "final_contacts.csv", "steps.csv", "run.json",
+                               "particles.html", "particles.svg", "particles.pvd"}) {
+      std::error_code ignored;
+      if (fs::equivalent(input, folder / output, ignored))
+        throw_bad_input({input.string()}, "would be written over by the run's " +
+                                              std::string(output) + "; choose another folder");
+    }
+  }
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  const ParticlesCase c = read_particles_case(request.case_file);
+  std::vector<fs::path> inputs = {c.path};
+  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
+  if (!request.restart.empty()) inputs.emplace_back(request.restart);
+  const Provenance provenance = provenance_of({inputs, {}});
+  const fs::path folder = request.folder;
+  check_inputs_stay(c, folder);
+  Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
+  make_folder(folder);
+
+  const auto begin = Clock::now();
+  auto last_word = begin, last_saved = begin;
+  const auto seconds_since = [](Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  };
+  const auto save = [&] {
+    write_output(folder / "restart.bin", TextKind::kHashComment,
+                 particles::write_restart(simulation.state()), provenance);
+    last_saved = Clock::now();
+  };
+  Record record;
+  record.first_time = record.last_time = simulation.state().time;
+  Frames frames(folder, provenance, simulation.state().particles);
+  frames.add(simulation);
+  double next_frame = record.first_time + c.frame_interval;
+  // Times that differ by rounding are equal.
+  const double tiny = 1e-6 * c.setting.time_step;
+  while (simulation.state().time < c.end_time - tiny && !interrupted()) {
+    const auto report = simulation.step(c.end_time);
+    record.add(simulation.state().steps, report);
+    const bool last = report.time >= c.end_time - tiny;
+    if (report.time >= next_frame - tiny || last) {
+      frames.add(simulation);
+      while (next_frame <= report.time + tiny) next_frame += c.frame_interval;
+    }
+    constexpr double kWordsEvery = 0.2, kSaveEvery = 60;  // seconds
+    if (seconds_since(last_word) > kWordsEvery) {
+      show_progress(fmt::format(
+          "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
+          c.end_time, report.contacts, report.iterations, seconds_since(begin)));
+      last_word = Clock::now();
+    }
+    if (seconds_since(last_saved) > kSaveEvery) save();
+  }
+  clear_progress();
+  frames.end(simulation);
+  save();
+  const auto& state = simulation.state();
+  const auto write = [&](const char* name, TextKind kind, const std::string& text) {
+    write_output(folder / name, kind, text, provenance);
+  };
+  write("particles.pvd", TextKind::kXml, particles::write_pvd(frames.files()));
+  remove_other_frames(folder, frames.files());
+  write("final_particles.csv", TextKind::kHashComment, particles::write_particles(state.particles));
+  write("final_contacts.csv", TextKind::kHashComment,
+        particles::write_contacts(particles::contacts_of(c.setting, state)));
+  write("steps.csv", TextKind::kHashComment, record.rows);
+  constexpr int kPanels = 4;
+  write("particles.html", TextKind::kHtml, particles_page(frames.playback(), c.title));
+  write("particles.svg", TextKind::kSvg, particles_picture(frames.playback(), c.title, kPanels));
+  const auto json = record_of(c, record, simulation, seconds_since(begin)).dump(2) + "\n";
+  write("run.json", TextKind::kJson, json);
+  if (request.json) fmt::print("{}", json);
+  say(fmt::format(
+      "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
+      "largest overlap {:.2g} mean radii; {}",
+      record.steps, record.last_time,
+      static_cast<double>(record.iterations) /
+          static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
+      record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
+  if (record.unconverged > 0)
+    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerance {}",
+                     record.unconverged, record.steps, c.setting.solver.tolerance));
+  throw_if_interrupted();
+  if (record.unconverged > 0)
+    throw Error(
+        ExitCode::kNotConverged,
+        fmt::format(
+            "{}: {} of {} steps have a residual up to {:.2g}, not {}; all is written, steps.csv "
+            "says which; raise solver.max_iterations or solver.tolerance",
+            c.path.string(), record.unconverged, record.steps, record.largest_residual,
+            c.setting.solver.tolerance));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,262 @@
+#include "case_file/particles_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "case_file/toml_section.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
+#include "particles/neighbours.hpp"
+#include "particles/particle_file.hpp"
+
+namespace viscontact {
+namespace {
+
+using particles::History;
+using particles::Particles;
+using particles::Vector;
+using particles::operator-;
+using particles::operator*;
+
+constexpr double kLargest = 1e100;
+constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargest; },
+                               "at most 1e100 in magnitude"};
+constexpr Allowed kModeratelyPositive = {[](double v) { return v > 0 && v <= kLargest; },
+                                         "> 0 and at most 1e100"};
+constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
+constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
+                                "between 1e-12 and 0.1"};
+
+/// An array with a number for each dimension.
+Vector read_vector(const TomlSection& section, std::string_view key, int dimension) {
+  const auto numbers = section.numbers(key, kModerate);
+  if (numbers.size() != static_cast<std::size_t>(dimension))
+    section.fail(key,
+                 fmt::format("has {} numbers; space.dimension is {}", numbers.size(), dimension));
+  return {numbers[0], numbers[1], dimension == 3 ? numbers[2] : 0.0};
+}
+
+/// A vector, or pieces { until, value } that reach the end.
+History read_history(const TomlSection& section, std::string_view key, int dimension,
+                     double end_time) {
+  History history;
+  std::optional<std::vector<TomlSection>> pieces;
+  try {
+    pieces = section.sections(key);
+  } catch (const Error&) {
+    history.pieces.push_back(
+        {std::numeric_limits<double>::max(), read_vector(section, key, dimension)});
+    return history;
+  }
+  double before = 0;
+  for (const auto& piece : *pieces) {
+    const double until = piece.number("until", kPositive);
+    if (!(until > before))
+      piece.fail("until", fmt::format("is {}; must be after the piece before, {}", until, before));
+    history.pieces.push_back({until, read_vector(piece, "value", dimension)});
+    piece.finish();
+    before = until;
+  }
+  if (before < end_time * (1 - 1e-9))
+    section.fail(
+        key, fmt::format("ends at {}; must reach viscous_contact.end_time, {}", before, end_time));
+  // At the end itself round-off must not find it over.
+  history.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
+  return history;
+}
+
+void read_law(const TomlSection& section, particles::ContactLaw& law) {
+  if (section.has("gamma_min")) law.gamma_min = section.number("gamma_min", kNotPositive);
+  if (section.has("viscosity")) law.viscosity = section.number("viscosity", kModeratelyPositive);
+  if (section.has("roughness")) law.roughness = section.number("roughness", kModeratelyPositive);
+  if (law.gamma_min && law.viscosity)
+    section.fail("viscosity", "must not be there beside gamma_min, which it would give");
+  if (law.viscosity.has_value() != law.roughness.has_value())
+    section.fail(law.viscosity ? "viscosity" : "roughness",
+                 "must be there with the other of viscosity and roughness, or not at all");
+}
+
+particles::Plane read_plane(const TomlSection& section, int dimension, double end_time) {
+  particles::Plane plane;
+  plane.start.point = read_vector(section, "point", dimension);
+  Vector normal = read_vector(section, "normal", dimension);
+  const double length = particles::norm(normal);
+  if (!(length > 1e-100)) section.fail("normal", "is 0; must point into the free side");
+  plane.start.normal = (1 / length) * normal;
+  if (section.has("velocity"))
+    plane.velocity = read_history(section, "velocity", dimension, end_time);
+  if (section.has("angular_velocity"))
+    plane.angular_velocity = dimension == 2
+                                 ? Vector{0, 0, section.number("angular_velocity", kModerate)}
+                                 : read_vector(section, "angular_velocity", dimension);
+  plane.pivot = section.has("pivot") ? read_vector(section, "pivot", dimension) : plane.start.point;
+  section.finish();
+  return plane;
+}
+
+void add(Particles& p, const Vector& centre, const Vector& velocity, double radius, double mass) {
+  for (int d = 0; d < p.dimension; ++d) {
+    p.positions.push_back(centre[static_cast<std::size_t>(d)]);
+    p.velocities.push_back(velocity[static_cast<std::size_t>(d)]);
+  }
+  p.radii.push_back(radius);
+  p.masses.push_back(mass);
+}
+
+/// How messages name a particle.
+class Names {
+ public:
+  Names(const ParticlesCase& c, std::vector<int> lines) : case_(c), lines_(std::move(lines)) {}
+  std::string operator()(std::size_t k) const {
+    const auto x = case_.particles.position(k);
+    const auto place = case_.particles.dimension == 2 ? fmt::format("{}, {}", x[0], x[1])
+                                                      : fmt::format("{}, {}, {}", x[0], x[1], x[2]);
+    return fmt::format("particle {} ({}centre {}, radius {})", k,
+                       k < lines_.size() ? fmt::format("line {}, ", lines_[k]) : "", place,
+                       case_.particles.radii[k]);
+  }
+  FilePosition at(std::size_t k) const {
+    return k < lines_.size() ? FilePosition{case_.particles_file.string(), lines_[k]}
+                             : FilePosition{case_.path.string()};
+  }
+
+ private:
+  const ParticlesCase& case_;
+  std::vector<int> lines_;
+};
+
+void check_start(const ParticlesCase& c, const Names& names) {
+  const auto& p = c.particles;
+  const double allowed = c.setting.solver.tolerance * particles::mean_radius(p);
+  particles::Team team(1);
+  for (const auto& [first, second] :
+       particles::close_pairs(p.dimension, p.positions, p.radii, team)) {
+    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+    const double overlap = p.radii[i] + p.radii[j] - particles::norm(p.position(j) - p.position(i));
+    if (overlap > allowed)
+      throw_bad_input(
+          names.at(j),
+          fmt::format("{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
+                      names(i), names(j), overlap, allowed));
+  }
+  for (std::size_t w = 0; w < c.setting.planes.size(); ++w) {
+    const auto place = c.setting.planes[w].at(0);
+    for (std::size_t k = 0; k < p.count(); ++k)
+      if (const double gap = particles::gap(place, p.position(k), p.radii[k]); gap < -allowed)
+        throw_bad_input(
+            names.at(k),
+            fmt::format("{} is {:.3g} into plane {} at the start, or behind it; a plane's "
+                        "normal points into the free side",
+                        names(k), -gap, w + 1));
+  }
+}
+
+/// [[force]]: the same force on particles named by their number.
+void read_forces_by_number(const TomlSection& root, int dimension, double end_time,
+                           ParticlesCase& c) {
+  for (const auto& section : root.sections("force")) {
+    const auto history = read_history(section, "value", dimension, end_time);
+    for (const double number : section.numbers("particles", kNotNegative)) {
+      if (number != std::floor(number) || number >= static_cast<double>(c.particles.count()))
+        section.fail("particles", fmt::format("has {}; the particles' numbers are 0 to {}", number,
+                                              c.particles.count() - 1));
+      if (!c.setting.forces.emplace(static_cast<std::int32_t>(number), history).second)
+        section.fail("particles", fmt::format("has {}, which has a force already", number));
+    }
+    section.finish();
+  }
+}
+
+std::string_view read_method(const TomlSection& solver) {
+  const auto text = solver.text("method");
+  std::string names;
+  for (const auto& row : particles::kSolverMethods) {
+    if (row.name == text) return row.name;
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", row.name);
+  }
+  solver.fail("method", fmt::format("is '{}'; must be one of {}", text, names));
+}
+
+}  // namespace
+
+ParticlesCase read_particles_case(const std::filesystem::path& path) {
+  ParticlesCase c;
+  c.path = path;
+  c.text = read_file(path);
+  const auto root = TomlSection::parse(c.text, path.string());
+  c.title = root.text("title");
+
+  const auto space = root.section("space");
+  const int dimension = space.count("dimension", 2, 3);
+  c.particles.dimension = dimension;
+  if (space.has("gravity")) c.setting.gravity = read_vector(space, "gravity", dimension);
+  space.finish();
+
+  const auto contact = root.section("viscous_contact");
+  c.end_time = contact.number("end_time", kModeratelyPositive);
+  c.setting.time_step = contact.number("time_step", kModeratelyPositive);
+  if (c.setting.time_step > c.end_time)
+    contact.fail("time_step", fmt::format("is {}; must be at most end_time, {}",
+                                          c.setting.time_step, c.end_time));
+  if (constexpr double kMostSteps = 1e9; c.end_time / c.setting.time_step > kMostSteps)
+    contact.fail("time_step",
+                 fmt::format("is {}: {:.3g} steps to end_time; at most {:.0e} are allowed",
+                             c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
+  read_law(contact, c.setting.law);
+  contact.finish();
+
+  if (root.has("solver")) {
+    const auto solver = root.section("solver");
+    auto& settings = c.setting.solver;
+    if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
+    if (solver.has("max_iterations"))
+      settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
+    if (solver.has("method")) settings.method = read_method(solver);
+    solver.finish();
+  }
+  c.frame_interval = c.end_time / 100;
+  if (root.has("output")) {
+    const auto output = root.section("output");
+    c.frame_interval = output.number("every", kModeratelyPositive);
+    output.finish();
+  }
+  if (root.has("plane"))
+    for (const auto& section : root.sections("plane"))
+      c.setting.planes.push_back(read_plane(section, dimension, c.end_time));
+
+  std::vector<int> lines;
+  if (root.has("particles")) {
+    const auto section = root.section("particles");
+    c.particles_file = path.parent_path() / section.text("file");
+    section.finish();
+    auto file = particles::read_particles(c.particles_file, dimension);
+    c.particles = std::move(file.particles);
+    lines = std::move(file.lines);
+  }
+  if (root.has("particle"))
+    for (const auto& section : root.sections("particle")) {
+      if (section.has("force"))
+        c.setting.forces[static_cast<std::int32_t>(c.particles.count())] =
+            read_history(section, "force", dimension, c.end_time);
+      add(c.particles, read_vector(section, "centre", dimension),
+          section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
+          section.number("radius", kModeratelyPositive),
+          section.number("mass", kModeratelyPositive));
+      section.finish();
+    }
+  if (c.particles.count() == 0)
+    throw_bad_input({path.string()},
+                    "has no particle; name a file in [particles] or add a [[particle]]");
+  if (root.has("force")) read_forces_by_number(root, dimension, c.end_time, c);
+  root.finish();
+  check_start(c, Names(c, std::move(lines)));
+  return c;
+}
+
+}  // namespace viscontact

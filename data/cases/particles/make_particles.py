@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Writes the CSV files of the cases in this folder, beside itself; run again, the same bytes."""
+import math
+import pathlib
+import random
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def write(name, dimension, rows):
+    axes = "xyz"[:dimension]
+    header = ",".join([*axes, *("v" + axis for axis in axes), "radius", "mass"])
+    lines = [",".join(f"{value:.6g}" for value in row) for row in rows]
+    (HERE / name).write_text("\n".join([f"# rows: {len(rows)}", header, *lines]) + "\n")
+
+
+def triangle(apex, rows, spacing):
+    """Centres of a rack of balls that opens to the right."""
+    for row in range(rows):
+        for k in range(row + 1):
+            yield (apex[0] + row * spacing * math.sqrt(3) / 2, apex[1] + (k - row / 2) * spacing)
+
+
+def billiard_break():
+    """Fifteen balls racked with gaps of a hundredth of a radius, and the cue ball, a little off the middle line."""
+    balls = [(x, y, 0, 0, 1, 1) for x, y in triangle((40, 20), 5, 2.01)]
+    write("billiard_break.csv", 2, [(15, 20.3, 12, 0, 1, 1), *balls])
+
+
+def billiards():
+    """Balls at random places of a table, one of them shot."""
+    random.seed(2)
+    balls = [(6, 20, 14, 2.5, 1, 1)]
+    while len(balls) < 12:
+        x, y = random.uniform(14, 77), random.uniform(3, 37)
+        if all(math.hypot(x - b[0], y - b[1]) > 3 for b in balls):
+            balls.append((x, y, 0, 0, 1, 1))
+    write("billiards.csv", 2, balls)
+
+
+def lottery():
+    """Spheres on a lattice within a cube of side 12 about the origin."""
+    random.seed(3)
+    rows = []
+    for k in range(64):
+        centre = [2.4 * (k // 4**axis % 4 - 1.5) + random.uniform(-0.1, 0.1) for axis in range(3)]
+        radius = random.uniform(0.7, 1.0)
+        rows.append((*centre, 0, 0, 0, radius, radius**3))
+    write("lottery.csv", 3, rows)
+
+
+def settling():
+    """Discs of radii 0.3 to 1 on a lattice over the floor."""
+    random.seed(4)
+    rows = []
+    for k in range(300):
+        radius = 0.3 * (1 / 0.3) ** random.random()
+        x = 1.05 + 2.1 * (k % 15) + random.uniform(-0.05, 0.05)
+        rows.append((x, 1.05 + 2.1 * (k // 15), 0, 0, radius, radius**2))
+    write("settling.csv", 2, rows)
+
+
+def raft():
+    """Five rows of eight discs, square, with gaps of 0.05: columns are pushed together and pulled apart."""
+    rows = []
+    for row in range(5):
+        for column in range(8):
+            rows.append((2.05 * column, 2.05 * row, 0, 0, 1, 1))
+    write("raft.csv", 2, rows)
+
+
+if __name__ == "__main__":
+    for make in (billiard_break, billiards, lottery, settling, raft):
+        make()

@@ -1,0 +1,102 @@
+#include "tests/particles/systems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viscontact::particles {
+
+Vector Random::direction(int dimension) {
+  std::normal_distribution<double> normal;
+  for (;;) {
+    const Vector v{normal(generator_), normal(generator_),
+                   dimension == 3 ? normal(generator_) : 0.0};
+    if (const double length = norm(v); length > 0.1) return (1 / length) * v;
+  }
+}
+
+State no_particles(int dimension) {
+  State state;
+  state.particles.dimension = dimension;
+  return state;
+}
+
+void add_particle(State& state, const Vector& position, double radius, double mass,
+                  const Vector& velocity) {
+  auto& p = state.particles;
+  const auto numbers = static_cast<std::size_t>(p.dimension);
+  for (std::size_t d = 0; d < numbers; ++d) {
+    p.positions.push_back(position[d]);
+    p.velocities.push_back(velocity[d]);
+  }
+  p.radii.push_back(radius);
+  p.masses.push_back(mass);
+}
+
+Plane plane_at_rest(const Vector& point, const Vector& normal) {
+  Plane plane;
+  plane.start = {point, normal};
+  return plane;
+}
+
+State random_cloud(int dimension, std::size_t count, double width,
+                   const std::function<double()>& radius, Random& random) {
+  State state = no_particles(dimension);
+  const auto& p = state.particles;
+  // The largest first: the small ones find room between them.
+  std::vector<double> radii;
+  for (std::size_t k = 0; k < count; ++k) radii.push_back(radius());
+  std::ranges::sort(radii, std::greater<>());
+  for (const double r : radii) {
+    for (bool free = false; !free; width *= 1.0005) {
+      Vector x{};
+      for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+        x[d] = random.uniform(-width / 2, width / 2);
+      free = true;
+      for (std::size_t k = 0; free && k < p.count(); ++k)
+        free = norm(x - p.position(k)) > 1.001 * (r + p.radii[k]);
+      if (free) add_particle(state, x, r, std::pow(r, dimension));
+    }
+  }
+  return state;
+}
+
+void run(Simulation& simulation, double end, const std::function<void(const StepReport&)>& see) {
+  const double h = simulation.setting().time_step;
+  while (simulation.state().time < end - 1e-6 * h) see(simulation.step(end));
+}
+
+Film film_of(const State& state, std::int32_t first, std::int32_t second) {
+  for (const auto& film : first < 0 ? state.walls : state.pairs)
+    if (film.first == first && film.second == second) return film;
+  return {first, second, 0, 0};
+}
+
+double pair_gap(const State& state, std::int32_t first, std::int32_t second) {
+  const auto& p = state.particles;
+  const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+  return norm(p.position(j) - p.position(i)) - p.radii[i] - p.radii[j];
+}
+
+Vector momentum(const Particles& particles) {
+  Vector sum{};
+  for (std::size_t k = 0; k < particles.count(); ++k)
+    sum = sum + particles.masses[k] * particles.velocity(k);
+  return sum;
+}
+
+Vector angular_momentum(const Particles& particles) {
+  Vector sum{};
+  for (std::size_t k = 0; k < particles.count(); ++k)
+    sum = sum + particles.masses[k] * cross(particles.position(k), particles.velocity(k));
+  return sum;
+}
+
+double kinetic_energy(const Particles& particles) {
+  double sum = 0;
+  for (std::size_t k = 0; k < particles.count(); ++k)
+    sum += particles.masses[k] * dot(particles.velocity(k), particles.velocity(k)) / 2;
+  return sum;
+}
+
+}  // namespace viscontact::particles
