@@ -83,8 +83,7 @@ Grid grid_of(const Playback& playback) {
     grid.step[d] = (high - low) / kSteps;
   }
   const auto smallest = std::ranges::min_element(playback.radii);
-  const double largest_step = *std::ranges::max_element(
-      std::span(grid.step).first(dimension));
+  const double largest_step = *std::ranges::max_element(std::span(grid.step).first(dimension));
   // The negation takes in what is not finite.
   if (smallest != playback.radii.end() && !(largest_step <= kSmall * *smallest))
     grid = {4, {0, 0, 0}, {1, 1, 1}};
@@ -202,10 +201,10 @@ Bytes positions_of(const Playback& playback, const Choice& choice, const Grid& g
         if (grid.bytes == 4)
           append(bytes, x);
         else
-          append(bytes, static_cast<std::uint16_t>(std::lround(
-                            grid.step[d] > 0 ? std::clamp((x - grid.low[d]) / grid.step[d], 0.0,
-                                                          65535.0)
-                                             : 0.0)));
+          append(bytes,
+                 static_cast<std::uint16_t>(std::lround(
+                     grid.step[d] > 0 ? std::clamp((x - grid.low[d]) / grid.step[d], 0.0, 65535.0)
+                                      : 0.0)));
       }
   return bytes;
 }
@@ -252,8 +251,8 @@ std::string data_of(const Playback& playback, const Choice& choice, const Contac
 
 std::string words_for(const Playback& playback, const Choice& choice) {
   const auto count = playback.radii.size(), frames = playback.frames.size();
-  std::string words =
-      fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere", count == 1 ? "" : "s");
+  std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
+                                  count == 1 ? "" : "s");
   if (frames == 0) return words + ", no frames.";
   words += fmt::format(", t = {:.4g}", playback.frames.front().time);
   if (frames > 1)
@@ -277,8 +276,8 @@ std::string legend(double lowest, bool touching) {
       colours += "," + film_colour(static_cast<double>(c) / (kColours - 1));
     std::string ticks;
     for (const double tick : film_ticks(lowest))
-      ticks += fmt::format("<span style=\"left:{:.2f}%\">{:.3g}</span>",
-                           100 * (1 - tick / lowest), tick);
+      ticks +=
+          fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100 * (1 - tick / lowest), tick);
     text += fmt::format(
         "<div class=films><span>{}</span>\n<div class=scale><div class=bar "
         "style=\"background:linear-gradient(to right{})\"></div>\n<div class=ticks>{}</div>"

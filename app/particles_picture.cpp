@@ -17,6 +17,12 @@ using particles::Frame;
 using particles::PlanePlace;
 using particles::Playback;
 using particles::Vector;
+using particles::operator+;
+using particles::operator-;
+using particles::operator*;
+using particles::cross;
+using particles::dot;
+using particles::norm;
 using Polygon = std::vector<Vector>;
 
 // ---- What is seen
@@ -153,8 +159,8 @@ std::string path_of(const Polygon& polygon, const View& view) {
 
 std::string plane_2d_solids(const Drawing& d, const Frame& frame) {
   const auto& [low, high] = d.room;
-  const Polygon all = {{low[0], low[1], 0}, {high[0], low[1], 0}, {high[0], high[1], 0},
-                       {low[0], high[1], 0}};
+  const Polygon all = {
+      {low[0], low[1], 0}, {high[0], low[1], 0}, {high[0], high[1], 0}, {low[0], high[1], 0}};
   std::string text;
   for (const auto& plane : frame.planes)
     if (const auto solid = clipped(all, plane.point, -1.0 * plane.normal); !solid.empty())
@@ -168,7 +174,8 @@ std::string plane_2d_lines(const Drawing& d, const Frame& frame) {
     const auto& [point, normal] = frame.planes[j];
     const double far = norm(d.room.high - d.room.low) + norm(d.room.low - point);
     const Vector along = {-normal[1], normal[0], 0};
-    const auto line = in_room({point - far * along, point + far * along}, d.room, frame.planes, j, 2);
+    const auto line =
+        in_room({point - far * along, point + far * along}, d.room, frame.planes, j, 2);
     if (line.size() > 1)
       text += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n",
                           path_of(line, d.view));
@@ -191,10 +198,9 @@ std::string plane_3d_patches(const Drawing& d, const Frame& frame, bool from_fre
     u = (1 / norm(u)) * u;
     const Vector v = cross(normal, u);
     const double far = norm(d.room.high - d.room.low) + norm(d.room.low - point);
-    const auto patch =
-        in_room({point - far * u - far * v, point + far * u - far * v, point + far * u + far * v,
-                 point - far * u + far * v},
-                d.room, frame.planes, j, 3);
+    const auto patch = in_room({point - far * u - far * v, point + far * u - far * v,
+                                point + far * u + far * v, point - far * u + far * v},
+                               d.room, frame.planes, j, 3);
     if (patch.size() > 2)
       text += fmt::format(
           "<path d=\"{}Z\" fill=\"#8a8a80\" fill-opacity=\"{}\" stroke=\"#777\" "
@@ -307,12 +313,13 @@ std::string spheres(const Drawing& d, const Frame& frame) {
 std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   const auto& frames = playback.frames;
   if (frames.empty()) return {};
-  panels = std::min(std::clamp(panels, 1, 6), static_cast<int>(std::min<std::size_t>(frames.size(), 6)));
+  panels =
+      std::min(std::clamp(panels, 1, 6), static_cast<int>(std::min<std::size_t>(frames.size(), 6)));
   if (panels == 1) return {frames.size() - 1};
   std::vector<std::size_t> chosen;
   for (int i = 0; i < panels; ++i) {
-    const double time = std::lerp(frames.front().time, frames.back().time,
-                                  static_cast<double>(i) / (panels - 1));
+    const double time =
+        std::lerp(frames.front().time, frames.back().time, static_cast<double>(i) / (panels - 1));
     const auto nearest = std::ranges::min_element(
         frames, {}, [&](const Frame& frame) { return std::abs(frame.time - time); });
     chosen.push_back(static_cast<std::size_t>(nearest - frames.begin()));
@@ -344,16 +351,17 @@ std::string colour_bar(double lowest, double left, double top, double width) {
   std::string text;
   const double step = width / kColours;
   for (int c = 0; c < kColours; ++c)
-    text += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n",
-                        left + width - (c + 1) * step, top, step + 0.3, kHeight,
-                        film_colour(static_cast<double>(c) / (kColours - 1)));
+    text += fmt::format(
+        "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n",
+        left + width - (c + 1) * step, top, step + 0.3, kHeight,
+        film_colour(static_cast<double>(c) / (kColours - 1)));
   text += "<g font-size=\"12\" text-anchor=\"middle\">\n";
   for (const double tick : film_ticks(lowest)) {
     const double x = left + width * (1 - tick / lowest);
     text += fmt::format(
         "<path d=\"M{0:.2f} {1:.2f}v4\" stroke=\"#333\"/>"
-        "<text x=\"{0:.2f}\" y=\"{2:.2f}\">{3:.3g}</text>\n",
-        x, top + kHeight, top + kHeight + 16, tick);
+        "<text x=\"{0:.2f}\" y=\"{2:.2f}\">{3}</text>\n",
+        x, top + kHeight, top + kHeight + 16, film_tick_text(tick));
   }
   return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text></g>\n", left + width / 2,
                             top + kHeight + 34, kFilmWords);
@@ -383,8 +391,7 @@ Room room_of(const Playback& playback, const std::vector<std::size_t>& frames) {
   }
   if (!(size > 0)) size = 1;
   for (const auto f : frames)
-    for (const auto& plane : playback.frames[f].planes)
-      reach_for(room, plane, playback.dimension);
+    for (const auto& plane : playback.frames[f].planes) reach_for(room, plane, playback.dimension);
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(room, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -419,8 +426,8 @@ std::string film_colour(double share) {
   const auto i = std::min(static_cast<std::size_t>(place), kViridis.size() - 2);
   std::array<long, 3> rgb{};
   for (std::size_t c = 0; c < rgb.size(); ++c)
-    rgb[c] = std::lround(
-        std::lerp(kViridis[i][c], kViridis[i + 1][c], place - static_cast<double>(i)));
+    rgb[c] =
+        std::lround(std::lerp(kViridis[i][c], kViridis[i + 1][c], place - static_cast<double>(i)));
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
@@ -435,12 +442,21 @@ std::vector<double> film_ticks(double lowest) {
   return ticks;
 }
 
+std::string film_tick_text(double tick) {
+  return fmt::format("{}{:.3g}", tick < 0 ? "−" : "", std::abs(tick));
+}
+
 std::string particles_picture(const Playback& playback, const std::string& title, int panels) {
   constexpr double kWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
   const auto chosen = chosen_frames(playback, panels);
   const int count = static_cast<int>(chosen.size());
-  Drawing d{playback, room_of(playback, chosen), view_of(playback.dimension), 0, 0,
-            lowest_gamma(playback), playback.radii.size() / (kMostParticles + 1) + 1};
+  Drawing d{playback,
+            room_of(playback, chosen),
+            view_of(playback.dimension),
+            0,
+            0,
+            lowest_gamma(playback),
+            playback.radii.size() / (kMostParticles + 1) + 1};
   double wide = 0, high = 0;  // of a panel [L]
   {
     Reach x, y;
@@ -486,16 +502,17 @@ std::string particles_picture(const Playback& playback, const std::string& title
     const double left = place * (i % columns) + (place - d.width) / 2;
     const double top = kTitle + (i / columns) * (d.height + kCaption);
     svg += fmt::format(
-        "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}</svg>\n"
+        "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
+        "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
         "{:.4g}</text>\n",
-        left, top, d.width, d.height,
-        playback.dimension == 2 ? discs(d, frame) : spheres(d, frame), left + d.width / 2,
-        top + d.height + 20, frame.time);
+        left, top, d.width, d.height, playback.dimension == 2 ? discs(d, frame) : spheres(d, frame),
+        left + d.width / 2, top + d.height + 20, frame.time);
   }
   if (d.every > 1)
     svg += fmt::format(
-        "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} is "
+        "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "
+        "is "
         "drawn</text>\n",
         kWidth - kEdge, bottom + 4, d.every);
   if (films) svg += colour_bar(d.lowest, kWidth / 2 - 180, bottom, 360);

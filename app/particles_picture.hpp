@@ -31,6 +31,7 @@ std::string film_colour(double share);
 
 /// Round numbers from `lowest` < 0 to 0, in falling order.
 std::vector<double> film_ticks(double lowest);
+std::string film_tick_text(double tick);
 
 inline constexpr const char* kFilmWords = "gamma: what the film remembers [mass × length/time]";
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< of contacts without film

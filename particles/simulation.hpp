@@ -63,9 +63,14 @@ class Simulation {
   struct Work;
   template <int D>
   StepReport step_of(double end);
+  template <int D>
+  void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
+  template <int D>
+  void move(double h, double time);
 
   Setting setting_;
   State state_;
+  double mean_radius_;
   std::unique_ptr<Work> work_;
 };
 
