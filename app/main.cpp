@@ -14,6 +14,7 @@
 #include "app/fit_command.hpp"
 #include "app/init_command.hpp"
 #include "app/manual.hpp"
+#include "app/particles_command.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
@@ -215,6 +216,7 @@ int run(int argc, char** argv) {
   add_shift(app);
   add_simulate(app);
   add_sweep(app);
+  add_particles(app);
   add_compare(app);
   add_report(app);
   add_rerun(app);

@@ -276,8 +276,8 @@ std::string legend(double lowest, bool touching) {
       colours += "," + film_colour(static_cast<double>(c) / (kColours - 1));
     std::string ticks;
     for (const double tick : film_ticks(lowest))
-      ticks +=
-          fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100 * (1 - tick / lowest), tick);
+      ticks += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100 * (1 - tick / lowest),
+                           film_tick_text(tick));
     text += fmt::format(
         "<div class=films><span>{}</span>\n<div class=scale><div class=bar "
         "style=\"background:linear-gradient(to right{})\"></div>\n<div class=ticks>{}</div>"

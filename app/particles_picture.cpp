@@ -331,13 +331,13 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
 
 /// Of the panels' sides for a picture of a slide's proportions with few empty places.
 int columns_for(int panels, double width_over_height) {
-  constexpr double kSlide = 1.9;
+  constexpr double kSlide = 2.2;
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
     const int rows = (panels + columns - 1) / columns;
-    const double misfit = std::abs(std::log(columns * width_over_height / rows / kSlide)) +
-                          0.3 * (rows * columns - panels);
+    const double misfit =
+        std::abs(std::log(columns * width_over_height / rows / kSlide)) + (rows * columns - panels);
     if (misfit < least) {
       least = misfit;
       best = columns;
@@ -435,8 +435,12 @@ std::vector<double> film_ticks(double lowest) {
   constexpr double kAbout = 4;
   const double rough = -lowest / kAbout, decade = std::pow(10, std::floor(std::log10(rough)));
   double step = 10 * decade;
-  for (const double mantissa : {5.0, 2.0, 1.0})
-    if (rough <= mantissa * decade) step = mantissa * decade;
+  if (rough < 1.5 * decade)
+    step = decade;
+  else if (rough < 3 * decade)
+    step = 2 * decade;
+  else if (rough < 7 * decade)
+    step = 5 * decade;
   std::vector<double> ticks;
   for (int i = 0; i * step <= -lowest * (1 + 1e-9); ++i) ticks.push_back(i == 0 ? 0 : -i * step);
   return ticks;

@@ -30,10 +30,10 @@ def billiard_break():
 def billiards():
     """Balls at random places of a table, one of them shot."""
     random.seed(2)
-    balls = [(6, 20, 14, 2.5, 1, 1)]
-    while len(balls) < 12:
-        x, y = random.uniform(14, 77), random.uniform(3, 37)
-        if all(math.hypot(x - b[0], y - b[1]) > 3 for b in balls):
+    balls = [(6, 20, 14 * math.cos(math.radians(3)), 14 * math.sin(math.radians(3)), 1, 1)]
+    while len(balls) < 40:
+        x, y = random.uniform(12, 78), random.uniform(2, 38)
+        if all(math.hypot(x - b[0], y - b[1]) > 2.8 for b in balls):
             balls.append((x, y, 0, 0, 1, 1))
     write("billiards.csv", 2, balls)
 

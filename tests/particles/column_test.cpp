@@ -1,0 +1,98 @@
+// A column on a floor: each contact carries all that is above it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+State column(int dimension, int count, double gap) {
+  State state = no_particles(dimension);
+  for (int k = 0; k < count; ++k) add_particle(state, {0, 1 + gap + (2 + gap) * k, 0}, 1, 1);
+  return state;
+}
+
+Setting on_the_floor(double h) {
+  Setting setting;
+  setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  setting.gravity = {0, -1, 0};
+  setting.time_step = h;
+  setting.solver.tolerance = 1e-12;
+  setting.solver.max_iterations = 100'000;
+  return setting;
+}
+
+/// Contact forces over the weight of one: n at the floor, then n - 1, ..., 1.
+void expect_weights(const State& state, int count, double h, double tolerance) {
+  EXPECT_NEAR(film_of(state, -1, 0).impulse / h, count, tolerance);
+  for (int k = 1; k < count; ++k)
+    EXPECT_NEAR(film_of(state, k - 1, k).impulse / h, count - k, tolerance) << k;
+}
+
+/// Of forces, when every gap is within the solver's tolerance: W is h/m times the matrix of second differences with one end free, whose inverse has row
+/// sums up to n (n + 1)/2; gaps h^2 times forces. And gaps are rounded, heights 2 n.
+double tolerance_of(const Setting& setting, int count) {
+  const double gaps = setting.solver.tolerance + 2.0 * count * 4e-16;
+  return gaps * count * (count + 1) / 2 / (setting.time_step * setting.time_step);
+}
+
+class Column : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Dimensions, Column, ::testing::Values(2, 3));
+
+TEST_P(Column, AtRestCarriesItsWeights) {
+  for (const int count : {1, 2, 10, 50}) {
+    SCOPED_TRACE(count);
+    const auto setting = on_the_floor(0.02);
+    const double tolerance = tolerance_of(setting, count);
+    Simulation simulation(setting, column(GetParam(), count, 0), 1);
+    for (int n = 1; n <= 10; ++n) {
+      EXPECT_TRUE(simulation.step(1).converged);
+      expect_weights(simulation.state(), count, setting.time_step, tolerance);
+      // Smooth: the films have taken all of it.
+      EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma, -count * setting.time_step * n,
+                  n * tolerance * setting.time_step);
+    }
+    EXPECT_LE(largest_overlap(setting, simulation.state()), 1e-12);
+  }
+}
+
+TEST_P(Column, ThatHasFallenCarriesItsWeights) {
+  for (const int count : {2, 10}) {
+    SCOPED_TRACE(count);
+    auto setting = on_the_floor(0.02);
+    setting.law.gamma_min = 0;
+    const double tolerance = tolerance_of(setting, count);
+    Simulation simulation(setting, column(GetParam(), count, 0.01), 1);
+    run(simulation, 1.5, [](const StepReport& report) { EXPECT_TRUE(report.converged); });
+    expect_weights(simulation.state(), count, setting.time_step, tolerance);
+    EXPECT_LE(kinetic_energy(simulation.state().particles), 1e-12);
+  }
+}
+
+TEST_P(Column, OfRisingMassesCarriesTheirWeights) {
+  // Heavy above light, 1 : 4^9, is the hard way round for a solver that goes from contact to contact.
+  auto state = column(GetParam(), 10, 0);
+  double above = 0;
+  for (std::size_t k = 0; k < 10; ++k)
+    above += state.particles.masses[k] = std::pow(4, static_cast<double>(k));
+  auto setting = on_the_floor(0.02);
+  setting.solver.max_iterations = 1'000'000;
+  for (const auto* method : {"conjugate_gradients", "auto"}) {
+    setting.solver.method = method;
+    Simulation simulation(setting, state, 1);
+    EXPECT_TRUE(simulation.step(1).converged) << method;
+    double carried = above;
+    for (int k = 0; k < 10; ++k) {
+      // As above; W's inverse is that of masses of up to 4^9.
+      EXPECT_NEAR(film_of(simulation.state(), k == 0 ? -1 : k - 1, k).impulse / 0.02 / carried, 1,
+                  1e-6)
+          << method << ' ' << k;
+      carried -= state.particles.masses[static_cast<std::size_t>(k)];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
