@@ -558,7 +558,9 @@
       const others = [...held].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
       if (others.length) {
         const gap = (a, b) => Math.hypot(a.x - b.x, a.y - b.y) || 1;
-        zoom(gap(now, others[0]) / gap(before, others[0]), others[0].x, others[0].y);
+        zoom(gap(now, others[0]) / gap(before, others[0]), (before.x + others[0].x) / 2, (before.y + others[0].y) / 2);
+        view.x += dx / 2;
+        view.y += dy / 2;
       } else if (flat || event.shiftKey) {
         view.x += dx;
         view.y += dy;
@@ -575,14 +577,15 @@
 
   const letGo = event => {
     held.delete(event.pointerId);
-    if (event.type === 'pointerleave') pointer.inside = false;
+    // A finger that is lifted leaves what it has read off.
+    if (event.type === 'pointerleave' && event.pointerType === 'mouse') pointer.inside = false;
     redraw();
   };
   for (const name of ['pointerup', 'pointercancel', 'pointerleave']) canvas.addEventListener(name, letGo);
   canvas.addEventListener('wheel', event => {
     event.preventDefault();
-    const at = onCanvas(event), lines16 = event.deltaMode === 1 ? 16 : 1;
-    zoom(Math.exp(-0.0015 * Math.max(-400, Math.min(400, event.deltaY * lines16))), at.x, at.y);
+    const at = onCanvas(event), lineHeight = event.deltaMode === 1 ? 16 : 1;
+    zoom(Math.exp(-0.0015 * Math.max(-400, Math.min(400, event.deltaY * lineHeight))), at.x, at.y);
   }, {passive: false});
   canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
 

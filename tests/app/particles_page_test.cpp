@@ -1,0 +1,360 @@
+// The page that plays a motion of particles, in a browser (chromium), and the still picture of it.
+#include "app/particles_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "app/particles_picture.hpp"
+#include "app/provenance.hpp"
+#include "common/file.hpp"
+#include "common/process.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using particles::Frame;
+using particles::Playback;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+/// Discs or spheres in a row on the first axis, unit radius, that fall on a floor; neighbours and the floor have films from the second frame on.
+Playback falling_row(int dimension, int count, int frames) {
+  Playback playback;
+  playback.dimension = dimension;
+  playback.radii.assign(static_cast<std::size_t>(count), 1);
+  for (int f = 0; f < frames; ++f) {
+    Frame frame;
+    frame.time = 0.5 * f;
+    const float height = static_cast<float>(frames - f);
+    for (int k = 0; k < count; ++k) {
+      frame.positions.push_back(2 * static_cast<float>(k));
+      if (dimension == 3) frame.positions.push_back(0);
+      frame.positions.push_back(height);
+      if (f > 0 && k > 0) frame.contacts.push_back({k - 1, k, 0, -1.0 * k});
+      if (f + 1 == frames) frame.contacts.push_back({-1, k, 0, k % 2 == 0 ? 0.0 : -0.5});
+    }
+    frame.planes.push_back(dimension == 2
+                               ? particles::PlanePlace{.point = {0, 0, 0}, .normal = {0, 1, 0}}
+                               : particles::PlanePlace{.point = {0, 0, 0}, .normal = {0, 0, 1}});
+    playback.frames.push_back(frame);
+  }
+  return playback;
+}
+
+Playback one_particle() {
+  Playback playback;
+  playback.radii = {0.5F};
+  playback.frames.resize(1);
+  playback.frames[0].positions = {3, 4};
+  return playback;
+}
+
+/// Appended to a page: looks at the canvas at both ends, plays, points, zooms, turns, and leaves what it saw as JSON.
+constexpr std::string_view kReader = R"JS(
+<script>
+(async () => {
+  const pause = ms => new Promise(done => setTimeout(done, ms));
+  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
+  const copy = document.createElement('canvas');
+  const look = () => {
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const pen = copy.getContext('2d', {willReadFrequently: true});
+    pen.drawImage(canvas, 0, 0);
+    const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+    const colours = new Map();
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = data[i] << 16 | data[i + 1] << 8 | data[i + 2];
+      colours.set(colour, (colours.get(colour) || 0) + 1);
+      sum = (sum * 31 + colour) % 4294967291;
+    }
+    return {colours: colours.size, paper: Math.max(...colours.values()) / (data.length / 4), sum};
+  };
+  const press = (key, target = document.body) => target.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+  const send = (Kind, type, x, y, more = {}) => {
+    const box = canvas.getBoundingClientRect();
+    canvas.dispatchEvent(new Kind(type, {bubbles: true, cancelable: true, pointerId: 1, pointerType: 'mouse',
+      clientX: box.left + x * box.width, clientY: box.top + y * box.height, ...more}));
+  };
+  const found = {width: innerWidth, bodyWidth: document.documentElement.scrollWidth, heading: document.querySelector('h1').textContent,
+                 words: document.querySelector('header p').textContent, ticks: document.querySelectorAll('.ticks span').length};
+  await pause(100);
+  found.first = look();
+  player.seek(player.last);
+  await pause(100);
+  found.last = {...look(), time: Number(canvas.dataset.time), contacts: Number(canvas.dataset.contacts), clock: document.getElementById('clock').textContent};
+  document.getElementById('films').click();
+  await pause(100);
+  found.withoutContacts = {...look(), contacts: Number(canvas.dataset.contacts)};
+  document.getElementById('films').click();
+  press('Home');
+  await pause(100);
+  found.home = player.time;
+  press('ArrowRight');
+  found.second = player.time;
+  press('ArrowLeft');
+  found.again = player.time;
+  press(' ');
+  await pause(1500);
+  found.played = player.time;
+  press(' ');
+  const stopped = player.time;
+  await pause(300);
+  found.stays = player.time === stopped;
+  player.seek(player.last);
+  for (let y = 0.02; y < 1 && !found.readout; y += 0.02)
+    for (let x = 0.02; x < 1 && !found.readout; x += 0.02) {
+      send(PointerEvent, 'pointermove', x, y);
+      await pause(20);
+      found.readout = document.getElementById('readout').textContent;
+    }
+  send(PointerEvent, 'pointerleave', 0, 0);
+  await pause(100);
+  const before = look();
+  send(PointerEvent, 'pointerdown', 0.5, 0.5);
+  send(PointerEvent, 'pointermove', 0.6, 0.55);
+  send(PointerEvent, 'pointerup', 0.6, 0.55);
+  send(PointerEvent, 'pointerleave', 0, 0);
+  await pause(100);
+  const dragged = look();
+  send(WheelEvent, 'wheel', 0.3, 0.3, {deltaY: -300});
+  await pause(100);
+  const zoomed = look();
+  document.getElementById('whole').click();
+  await pause(100);
+  found.drags = dragged.sum !== before.sum;
+  found.zooms = zoomed.sum !== dragged.sum;
+  found.comesBack = look().sum === before.sum;
+  const pre = parent.document.createElement('pre');
+  pre.id = 'found';
+  pre.textContent = JSON.stringify(found);
+  parent.document.body.append(pre);
+  console.log('reader has finished');
+})();
+</script>
+)JS";
+
+std::string attribute(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+  return result;
+}
+
+/// What the reader saw in a frame of this width (a window of chromium's is never narrower than 500); a failure if the browser says anything but
+/// that he has finished.
+Json read_page(const std::string& page, int width) {
+  const TemporaryFolder scratch;
+  const auto file =
+      scratch.file("read.html",
+                   "<!DOCTYPE html><meta charset=utf-8><body style=\"margin:0\"><iframe "
+                   "style=\"border:0;height:800px;width:" +
+                       std::to_string(width) + "px\" srcdoc=\"" +
+                       attribute(page + std::string(kReader)) + "\"></iframe></body>");
+  const auto errors = scratch.path() / "browser.log";
+  const auto result =
+      run_process({"/bin/sh", "-c", "exec chromium \"$@\" 2>'" + errors.string() + "'", "sh",
+                   "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                   "--no-first-run", "--user-data-dir=" + (scratch.path() / "profile").string(),
+                   "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr",
+                   "--virtual-time-budget=120000", "--window-size=1300,1000", "--dump-dom",
+                   "file://" + file.string()});
+  const std::string log = read_file(errors);
+  constexpr int kNotFound = 127;  // of the shell
+  if (result.exit_status == kNotFound) {
+    ADD_FAILURE() << "no chromium; run scripts/setup";
+    return {};
+  }
+  std::istringstream lines(log);
+  int finished = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(":CONSOLE") != std::string::npos) {
+      EXPECT_THAT(line, HasSubstr("reader has finished"));
+      ++finished;
+    }
+  EXPECT_EQ(finished, 1) << log;
+  constexpr std::string_view kStart = "<pre id=\"found\">";
+  const auto start = result.output.find(kStart);
+  if (start == std::string::npos) {
+    ADD_FAILURE() << "the page did not finish:\n" << log;
+    return {};
+  }
+  const auto begin = start + kStart.size();
+  return Json::parse(result.output.substr(begin, result.output.find("</pre>", begin) - begin));
+}
+
+class ParticlesInBrowser : public ::testing::TestWithParam<int> {};
+
+TEST_P(ParticlesInBrowser, MotionIsPlayedReadOffAndLookedAtFromElsewhere) {
+  const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), 390);
+  ASSERT_TRUE(found.is_object());
+  // A phone: nothing sticks out.
+  EXPECT_EQ(found["width"], 390);
+  EXPECT_LE(found["bodyWidth"], 390);
+  EXPECT_EQ(found["heading"], "Five in a row");
+  EXPECT_THAT(found["words"].get<std::string>(), HasSubstr("t = 0 to 2 in 5 frames."));
+  EXPECT_THAT(found["words"].get<std::string>(), Not(HasSubstr("shown")));
+  EXPECT_GE(found["ticks"], 3);
+  // Neither blank nor one colour; a canvas without particles has at most a few.
+  EXPECT_GT(found["first"]["colours"], 10);
+  EXPECT_LT(found["first"]["paper"], 0.99);
+  EXPECT_NE(found["first"]["sum"], found["last"]["sum"]);
+  EXPECT_EQ(found["last"]["time"], 2);
+  EXPECT_EQ(found["last"]["clock"], "t = 2.00");
+  EXPECT_EQ(found["last"]["contacts"], 4 + 5);
+  EXPECT_EQ(found["withoutContacts"]["contacts"], 0);
+  EXPECT_NE(found["withoutContacts"]["sum"], found["last"]["sum"]);
+  EXPECT_EQ(found["home"], 0);
+  EXPECT_EQ(found["second"], 0.5);
+  EXPECT_EQ(found["again"], 0);
+  EXPECT_GT(found["played"], 0);
+  EXPECT_EQ(found["stays"], true);
+  EXPECT_TRUE(std::regex_search(found["readout"].get<std::string>(),
+                                std::regex("^particle [0-4]: radius 1, at \\([0-9., ]*\\), ")))
+      << found["readout"];
+  EXPECT_EQ(found["drags"], true);
+  EXPECT_EQ(found["zooms"], true);
+  EXPECT_EQ(found["comesBack"], true);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
+
+TEST(ParticlesPage, OneParticleInOneFrameStands) {
+  const auto found = read_page(particles_page(one_particle(), "One"), 1200);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["first"]["colours"], 2);
+  EXPECT_EQ(found["last"]["contacts"], 0);
+  EXPECT_EQ(found["played"], 0);
+  EXPECT_EQ(found["ticks"], 0);
+  EXPECT_EQ(found["readout"], "particle 0: radius 0.5, at (3, 4), 0 contacts");
+}
+
+TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {
+  const auto page =
+      particles_page(falling_row(2, 3, 3), "</title><script>alert(1)</script> & \"so\"");
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;so&quot;"));
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href|action|data)=[\"']?(https?:)?//")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(ParticlesPage, SaysHowItWasMade) {
+  Provenance provenance;
+  provenance.command = {"viscontact", "particles"};
+  const auto playback = falling_row(2, 3, 3);
+  for (const auto& [kind, text] :
+       {std::pair(TextKind::kHtml, particles_page(playback, "A title")),
+        std::pair(TextKind::kSvg, particles_picture(playback, "A title", 2))}) {
+    const auto made = with_provenance(kind, text, provenance);
+    ASSERT_TRUE(provenance_in(made, "file"));
+    EXPECT_EQ(provenance_in(made, "file")->command, provenance.command);
+    EXPECT_EQ(without_provenance(made), text);
+  }
+}
+
+TEST(ParticlesPage, NeverOutgrowsABrowser) {
+  // 40 000 numbers of two bytes in a frame, whose text is 107 kB: 24 MB hold some 220 of 300.
+  const auto page = particles_page(falling_row(2, 20000, 300), "Many");
+  EXPECT_LT(page.size(), 24'000'000U);
+  EXPECT_GT(page.size(), 12'000'000U);
+  EXPECT_THAT(page, HasSubstr("t = 0 to 149.5 in 300 frames. Every 2nd frame is shown."));
+}
+
+TEST(ParticlesPage, DrawsSomeOfVeryMany) {
+  const auto page = particles_page(falling_row(3, 450000, 2), "Very many");
+  EXPECT_LT(page.size(), 24'000'000U);
+  EXPECT_THAT(page, HasSubstr("One particle in 3 is shown"));
+}
+
+TEST(ParticlesPage, WithoutFramesSaysSo) {
+  EXPECT_THAT(particles_page({}, "Nothing"), HasSubstr("0 discs, no frames."));
+}
+
+std::size_t count_of(const std::string& what, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+/// Every element that opens closes, in order: enough of XML for what we write, which has no comments and no ">" in attributes.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  const std::regex tag("<(/?)([A-Za-z]+)((?:\\s+[a-zA-Z:-]+=\"[^\"<]*\")*)\\s*(/?)>|<");
+  const auto body = xml.substr(xml.find("?>") + 2);
+  for (std::sregex_iterator m(body.begin(), body.end(), tag), end; m != end; ++m) {
+    ASSERT_TRUE((*m)[2].matched) << body.substr(static_cast<std::size_t>(m->position()), 100);
+    if ((*m)[1].length() > 0) {
+      ASSERT_FALSE(open.empty());
+      ASSERT_EQ(open.back(), (*m)[2].str());
+      open.pop_back();
+    } else if ((*m)[4].length() == 0) {
+      open.push_back((*m)[2].str());
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_FALSE(std::regex_search(body, std::regex("&(?!(amp|lt|gt|quot);)")));
+}
+
+TEST(ParticlesPicture, HoldsEveryDiscInEveryPanel) {
+  for (const int dimension : {2, 3})
+    for (const int panels : {1, 2, 4, 5}) {
+      const auto svg =
+          particles_picture(falling_row(dimension, 7, 5), "Seven <fall> & \"rest\"", panels);
+      SCOPED_TRACE(svg);
+      expect_well_formed(svg);
+      EXPECT_EQ(count_of("<circle ", svg), static_cast<std::size_t>(panels * 7));
+      EXPECT_EQ(count_of(">t = ", svg), static_cast<std::size_t>(panels));
+      EXPECT_THAT(svg, HasSubstr(">t = 2<"));
+      EXPECT_THAT(svg, HasSubstr("Seven &lt;fall&gt; &amp; &quot;rest&quot;"));
+      EXPECT_THAT(svg, HasSubstr(kFilmWords));
+      EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    }
+}
+
+TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {
+  const auto svg = particles_picture(one_particle(), "One", 6);
+  expect_well_formed(svg);
+  EXPECT_EQ(count_of("<circle ", svg), 1U);
+  EXPECT_THAT(svg, Not(HasSubstr(kFilmWords)));
+  expect_well_formed(particles_picture({}, "Nothing", 3));
+}
+
+TEST(ParticlesPicture, StaysSmall) {
+  EXPECT_LT(particles_picture(falling_row(2, 1000, 10), "Discs", 6).size(), 1'000'000U);
+  EXPECT_LT(particles_picture(falling_row(3, 1000, 10), "Spheres", 6).size(), 1'300'000U);
+}
+
+TEST(ParticlesPicture, OneThatHasFlownAwayDoesNotShrinkTheOthers) {
+  auto playback = falling_row(2, 300, 3);
+  const auto room = room_of(playback, {0, 1, 2});
+  playback.frames[2].positions[1] = 1e6F;
+  const auto with_flown = room_of(playback, {0, 1, 2});
+  EXPECT_DOUBLE_EQ(with_flown.high[1], room.high[1]);
+  // The floor is next to the row, and seen.
+  EXPECT_LT(room.low[1], 0);
+}
+
+TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
+  const auto lightness = [](const std::string& colour) {
+    double sum = 0;
+    for (const std::size_t at : {1U, 3U, 5U}) sum += std::stoi(colour.substr(at, 2), nullptr, 16);
+    return sum;
+  };
+  EXPECT_EQ(film_colour(0), "#fde725");
+  EXPECT_EQ(film_colour(1), "#440154");
+  EXPECT_GT(lightness(film_colour(0)), lightness(film_colour(0.5)));
+  EXPECT_GT(lightness(film_colour(0.5)), lightness(film_colour(1)));
+  EXPECT_THAT(film_ticks(-8.9), ::testing::ElementsAre(0, -2, -4, -6, -8));
+  EXPECT_THAT(film_ticks(-2), ::testing::ElementsAre(0, -0.5, -1, -1.5, -2));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,341 @@
+// viscontact particles as its users meet it: what it writes, what it refuses, and how it goes on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <regex>
+#include <sstream>
+
+#include "common/file.hpp"
+#include "particles/particle_file.hpp"
+#include "particles/restart.hpp"
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// The example of docs/interfaces.md: three discs on a floor, two of them in a file, the last pushed and pulled.
+constexpr const char* kCase = R"(title = "Three discs on a floor"
+
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+
+[viscous_contact]
+time_step = 0.05
+end_time = 10.0
+gamma_min = -2.0
+
+[solver]
+tolerance = 1e-6
+max_iterations = 10000
+
+[output]
+every = 0.5
+
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+
+[particles]
+file = "discs.csv"
+
+[[particle]]
+centre = [0.0, 2.0]
+radius = 1.0
+mass = 1.0
+velocity = [0.0, 0.0]
+force = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]
+)";
+constexpr const char* kDiscs = "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25\n";
+
+class ParticlesCommand : public ::testing::Test {
+ protected:
+  ParticlesCommand() { folder_.file("discs.csv", kDiscs); }
+  fs::path put_case(const std::string& text, const std::string& name = "case.toml") const {
+    return folder_.file(name, text);
+  }
+  fs::path out(const std::string& name = "out") const { return folder_.path() / name; }
+  static ProgramResult run(const fs::path& file, const fs::path& out,
+                           std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"particles", file.string(), "-o", out.string()});
+    return run_viscontact(more);
+  }
+  /// Lines of a text that are no comments.
+  static std::string content(const fs::path& file) {
+    return std::regex_replace(read_file(file), std::regex("#[^\n]*\n"), "");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
+  expect_done(run(put_case(kCase), out()));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(out())) names.push_back(entry.path().filename());
+  std::vector<std::string> expected = {
+      "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
+      "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
+  for (int frame = 0; frame <= 20; ++frame)
+    expected.push_back("particles_000" + std::string(frame < 10 ? "0" : "") +
+                       std::to_string(frame) + ".vtp");
+  EXPECT_THAT(names, ::testing::UnorderedElementsAreArray(expected));
+
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  EXPECT_EQ(record["steps"], 200);
+  EXPECT_EQ(record["unconverged_steps"], 0);
+  EXPECT_LE(record["largest_residual"], 1e-6);
+  EXPECT_LE(record["final_overlap"], 1e-6);
+  EXPECT_GT(record["peak_memory_mebibytes"], 1);
+  EXPECT_TRUE(record.contains("provenance"));
+
+  const auto end = particles::read_particles(out() / "final_particles.csv", 2).particles;
+  ASSERT_EQ(end.count(), 3U);
+  EXPECT_THAT(end.radii, ElementsAre(1, 0.5, 1));  // the file's, then the table's
+  // All lie on the floor, as well as the tolerance says.
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(end.position(k)[1], end.radii[k], 1e-6);
+  EXPECT_THAT(content(out() / "final_contacts.csv"), HasSubstr("0,-1,"));
+  // Glued since they fell: gravity and push have given the floor all that it remembers.
+  EXPECT_THAT(content(out() / "final_contacts.csv"), ::testing::ContainsRegex("2,-1,[^,]*,-2\n"));
+}
+
+/// What VTK reads, by name.
+std::map<std::string, std::vector<double>> read_by_vtk(const fs::path& file) {
+  // Debian's python3, for which python3-vtk9 is.
+  const std::string command = "/usr/bin/python3 " VISCONTACT_SOURCE_FOLDER
+                              "/tests/app/read_vtk.py " +
+                              file.string() + " > " + file.string() + ".txt 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(file.string() + ".txt");
+  std::map<std::string, std::vector<double>> read;
+  std::istringstream lines(read_file(file.string() + ".txt"));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name, kind;
+    words >> name;
+    if (name == "cell") {
+      words >> kind;
+      name = kind;
+    }
+    auto& values = read[name];
+    for (double value = 0; words >> value;) values.push_back(value);
+  }
+  return read;
+}
+
+TEST_F(ParticlesCommand, VtkReadsTheFrames) {
+  expect_done(run(put_case(kCase), out()));
+  const auto end = particles::read_particles(out() / "final_particles.csv", 2).particles;
+  const auto frame = read_by_vtk(out() / "particles_00020.vtp");
+  EXPECT_EQ(frame.at("radius"), end.radii);
+  EXPECT_EQ(frame.at("id"), (std::vector<double>{0, 1, 2}));
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_EQ(frame.at("points")[3 * k + d], end.position(k)[d]);
+      EXPECT_EQ(frame.at("velocity")[3 * k + d], end.velocity(k)[d]);
+    }
+  // Vertices of the three on the floor, then the line between those that touch; as in final_contacts.csv.
+  EXPECT_EQ(frame.at("vtkVertex"), (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(frame.at("vtkLine"), (std::vector<double>{0, 2}));
+  EXPECT_EQ(frame.at("i"), (std::vector<double>{0, 1, 2, 0}));
+  EXPECT_EQ(frame.at("j"), (std::vector<double>{-1, -1, -1, 2}));
+  EXPECT_EQ(frame.at("gamma").size(), 4U);
+  EXPECT_EQ(frame.at("gap").size(), 4U);
+  const auto series = read_file(out() / "particles.pvd");
+  EXPECT_THAT(series, AllOf(HasSubstr("timestep=\"0\""), HasSubstr("timestep=\"10\""),
+                            HasSubstr("file=\"particles_00020.vtp\"")));
+}
+
+TEST_F(ParticlesCommand, ARestartContinuesBitForBit) {
+  const std::string half = replaced(kCase, "end_time = 10.0", "end_time = 4.35");
+  expect_done(run(put_case(kCase), out("whole")));
+  expect_done(run(put_case(half, "half.toml"), out("half")));
+  expect_done(run(put_case(kCase), out("rest"),
+                  {"--restart", (out("half") / "restart.bin").string(), "-j", "3"}));
+  for (const auto* file : {"final_particles.csv", "final_contacts.csv", "restart.bin"})
+    EXPECT_EQ(content(out("whole") / file), content(out("rest") / file)) << file;
+  const auto record = nlohmann::json::parse(read_file(out("rest") / "run.json"));
+  EXPECT_DOUBLE_EQ(record["from_time"], 4.35);
+}
+
+TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
+  expect_done(run(put_case(kCase), out()));
+  const auto restart = (out() / "restart.bin").string();
+  const auto longer = replaced(replaced(kCase, "end_time = 10.0", "end_time = 11.0"),
+                               "until = 10.0", "until = 11.0");
+  const auto refused = [&](const std::string& text, const std::string& said,
+                           const std::string& file) {
+    expect_refusal(run(put_case(text, "other.toml"), out("no"), {"--restart", file}),
+                   ExitCode::kBadInput, HasSubstr(said));
+    EXPECT_FALSE(fs::exists(out("no")));
+  };
+  refused(kCase, "nothing is left to do", restart);
+  refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "other masses", restart);
+  refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "other radii", restart);
+  refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3, not 1", restart);
+  refused(replaced(longer, "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n", ""),
+          "at plane 1, which is not there", restart);
+  refused(longer, "no restart file", (folder_.path() / "discs.csv").string());
+  auto bytes = read_file(restart);
+  refused(longer, "cut short",
+          folder_.file("half.bin", bytes.substr(0, bytes.size() - 100)).string());
+  bytes[bytes.size() - 50] = static_cast<char>(bytes[bytes.size() - 50] + 1);
+  refused(longer, "cut short", folder_.file("bit.bin", bytes).string());
+}
+
+TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
+  // A stack of five on the floor needs more than an iteration.
+  std::string text = replaced(kCase, "max_iterations = 10000", "max_iterations = 1");
+  for (int k = 1; k < 5; ++k)
+    text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
+            "]\nradius = 1.0\nmass = 1.0\n";
+  const auto result = run(put_case(text), out());
+  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("all is written"));
+  EXPECT_THAT(result.errors, HasSubstr("warning"));
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  EXPECT_GT(record["unconverged_steps"], 0);
+  EXPECT_GT(record["largest_residual"], 1e-6);
+  EXPECT_THAT(read_file(out() / "steps.csv"), ::testing::ContainsRegex(",0\n"));
+  EXPECT_TRUE(fs::exists(out() / "particles.html"));
+}
+
+TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {
+  expect_done(run(put_case(kCase), out()));
+  put_text(out() / "particles_mine.vtp", "a user's own");
+  expect_done(run(put_case(replaced(kCase, "every = 0.5", "every = 5.0")), out()));
+  EXPECT_FALSE(fs::exists(out() / "particles_00003.vtp"));
+  EXPECT_TRUE(fs::exists(out() / "particles_00002.vtp"));
+  EXPECT_TRUE(fs::exists(out() / "particles_mine.vtp"));
+}
+
+TEST_F(ParticlesCommand, RerunMakesTheSameAgain) {
+  expect_done(run(put_case(kCase), out()));
+  expect_done(run_viscontact(
+      {"rerun", (out() / "particles_00007.vtp").string(), "-o", out("again").string()}));
+  for (const auto* file : {"final_particles.csv", "final_contacts.csv"})
+    EXPECT_EQ(content(out() / file), content(out("again") / file));
+}
+
+TEST_F(ParticlesCommand, ForcesByNumberAndTurningPlanesAndSpheres) {
+  const auto file = put_case(R"(title = "A sphere in a corner that turns"
+[space]
+dimension = 3
+gravity = [0.0, 0.0, -1.0]
+[viscous_contact]
+time_step = 0.01
+end_time = 1.0
+viscosity = 0.1
+roughness = 1e-3
+[[plane]]
+point = [0.0, 0.0, 0.0]
+normal = [0.0, 0.0, 2.0]
+angular_velocity = [0.0, 0.1, 0.0]
+pivot = [0.0, 0.0, 0.0]
+[[particle]]
+centre = [0.0, 0.0, 1.0]
+radius = 1.0
+mass = 2.0
+[[force]]
+particles = [0]
+value = [0.0, 1.0, 0.0]
+)");
+  expect_done(run(file, out()));
+  const auto end = particles::read_particles(out() / "final_particles.csv", 3).particles;
+  // 1/2 mean to the end of each step: h = 0.01 adds a half of h.
+  EXPECT_NEAR(end.position(0)[1], 0.5 * 1.0 / 2 * (1 + 0.01), 1e-12);
+  EXPECT_NEAR(end.velocity(0)[1], 0.5, 1e-12);
+  // It slides down the plane that has turned by 0.1, and stays on it.
+  EXPECT_GT(end.position(0)[0], 0);
+  EXPECT_NEAR(end.position(0)[0] * std::sin(0.1) + end.position(0)[2] * std::cos(0.1), 1, 1e-6);
+}
+
+struct BadParticles {
+  std::string name, from, to, said;
+};
+std::ostream& operator<<(std::ostream& out, const BadParticles& bad) { return out << bad.name; }
+
+class BadParticlesCase : public ParticlesCommand,
+                         public ::testing::WithParamInterface<BadParticles> {};
+
+TEST_P(BadParticlesCase, IsRefusedBeforeAnythingIsWritten) {
+  const auto& bad = GetParam();
+  const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
+  if (in_file) folder_.file("discs.csv", replaced(kDiscs, bad.from, bad.to));
+  const auto file = put_case(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to));
+  expect_refusal(run(file, out()), ExitCode::kBadInput, HasSubstr(bad.said));
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, BadParticlesCase,
+    ::testing::ValuesIn(std::vector<BadParticles>{
+        {"NanInTheFile", "3,1,", "nan,1,", "discs.csv:2: x is not a finite number"},
+        {"InfinityInTheFile", "3,1,", "3,inf,", "discs.csv:2: y is not a finite number"},
+        {"ZeroMassInTheFile", "0.5,0.25", "0.5,0", "discs.csv:3: mass is 0; must be > 0"},
+        {"NegativeRadiusInTheFile", "0.5,0.25", "-0.5,0.25", "discs.csv:3: radius is -0.5"},
+        {"HugePosition", "3,1,", "3e200,1,", "discs.csv:2: x is 3e+200"},
+        {"NoColumn", "radius,mass", "radius,weight", "column 'mass' is missing"},
+        {"ThirdDimension", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
+         "x,y,z,vx,vy,vz,radius,mass\n3,1,0,0,0,0,1,1", "discs.csv:2: has a third dimension"},
+        {"Overlap", "6.5,4,0", "3.5,2,0", "overlap by"},
+        {"Twice", "6.5,4,0", "3,1,0", "discs.csv:3: particle 0"},
+        {"BehindThePlane", "6.5,4,0", "6.5,-4,0", "plane 1"},
+        {"InThePlane", "6.5,4,0", "6.5,0.4,0", "discs.csv:3: particle 1"},
+        {"OtherDimension", "dimension = 2", "dimension = 3", "has 2 numbers; space.dimension is 3"},
+        {"NoDimension", "dimension = 2", "dimension = 4", "from 2 to 3"},
+        {"NoNormal", "normal = [0.0, 1.0]", "normal = [0.0, 0.0]", "must point into the free side"},
+        {"LongStep", "time_step = 0.05", "time_step = 50", "must be at most end_time"},
+        {"ManySteps", "time_step = 0.05", "time_step = 1e-12", "at most 1e+09 are allowed"},
+        {"PositiveGamma", "gamma_min = -2.0", "gamma_min = 2.0", "must be a number <= 0"},
+        {"BothLaws", "gamma_min = -2.0", "gamma_min = -2.0\nviscosity = 1.0\nroughness = 0.1",
+         "must not be there beside gamma_min"},
+        {"ViscosityAlone", "gamma_min = -2.0", "viscosity = 1.0", "of viscosity and roughness"},
+        {"ForceEndsEarly", "until = 10.0", "until = 9.0", "ends at 9; must reach"},
+        {"ForceBackwards", "until = 10.0", "until = 4.0", "must be after the piece before"},
+        {"ForceOfThreeNumbers", "value = [0.7, -0.7]", "value = [0.7, -0.7, 0]", "has 3 numbers"},
+        {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
+        {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "between 1e-12 and 0.1"},
+        {"Method", "tolerance = 1e-6", "method = \"magic\"", "must be one of"},
+        {"UnknownKey", "every = 0.5", "evry = 0.5", "every"},
+        {"NoFile", "file = \"discs.csv\"", "file = \"discs\"", "discs"},
+        {"ForceOnNobody", "[output]", "[[force]]\nparticles = [3]\nvalue = [0.0, 0.0]\n[output]",
+         "the particles' numbers are 0 to 2"},
+        {"ForceTwice", "[output]", "[[force]]\nparticles = [2]\nvalue = [0.0, 0.0]\n[output]",
+         "has a force already"},
+    }),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
+  folder_.file("final_particles.csv", kDiscs);
+  const auto file = put_case(replaced(kCase, "discs.csv", "final_particles.csv"));
+  expect_refusal(run(file, folder_.path()), ExitCode::kBadInput, HasSubstr("written over"));
+  EXPECT_EQ(read_file(folder_.path() / "final_particles.csv"), kDiscs);
+}
+
+TEST_F(ParticlesCommand, NoParticleIsRefused) {
+  const std::string text = kCase;
+  expect_refusal(run(put_case(text.substr(0, text.find("[particles]"))), out()),
+                 ExitCode::kBadInput, HasSubstr("has no particle"));
+}
+
+TEST_F(ParticlesCommand, PrintsItsRecordAsJson) {
+  const auto result = run(put_case(kCase), out(), {"--json"});
+  expect_done(result);
+  EXPECT_EQ(nlohmann::json::parse(result.output)["steps"], 200);
+}
+
+TEST_F(ParticlesCommand, FilesOfTheResultAreInputsAgain) {
+  expect_done(run(put_case(kCase), out()));
+  const auto file = put_case(replaced(kCase, "\"discs.csv\"", "\"out/final_particles.csv\""));
+  const std::string text = read_file(file);
+  expect_done(run(put_case(text.substr(0, text.find("[[particle]]"))), out("second")));
+}
+
+}  // namespace
+}  // namespace viscontact

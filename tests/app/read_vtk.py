@@ -1,0 +1,30 @@
+"""Reads a .pvd or .vtp file by VTK and prints what is in it, a line for each thing."""
+import sys
+import xml.etree.ElementTree as xml
+
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+
+def show(name, array):
+    values = [array.GetTuple(k) for k in range(array.GetNumberOfTuples())]
+    print(name, " ".join(repr(float(x)) for row in values for x in row))
+
+
+if sys.argv[1].endswith(".pvd"):
+    for data in xml.parse(sys.argv[1]).getroot().iter("DataSet"):
+        print(data.get("timestep"), data.get("file"))
+    sys.exit()
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+if reader.GetErrorCode():
+    sys.exit("VTK cannot read it")
+data = reader.GetOutput()
+show("points", data.GetPoints().GetData())
+for name in ("radius", "velocity", "id"):
+    show(name, data.GetPointData().GetArray(name))
+for name in ("gap", "gamma", "i", "j"):
+    show(name, data.GetCellData().GetArray(name))
+for k in range(data.GetNumberOfCells()):
+    cell = data.GetCell(k)
+    print("cell", cell.GetClassName(), *(cell.GetPointId(p) for p in range(cell.GetNumberOfPoints())))

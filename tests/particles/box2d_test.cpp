@@ -1,0 +1,85 @@
+// The benchmark box2d to rest, N = 200.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// As bench/box2d.cpp, and issue 7, have it: x <- 6364136223846793005 x + 1442695040888963407 mod 2^64 from 12345, the top 53 bits.
+class Uniform {
+ public:
+  double operator()() {
+    x_ = 6364136223846793005U * x_ + 1442695040888963407U;
+    return static_cast<double>(x_ >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::uint64_t x_ = 12345;
+};
+
+State box_of_discs(int count) {
+  State state = no_particles(2);
+  Uniform uniform;
+  const int n = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int k = 0; k < count; ++k) {
+    const double radius = 0.8 + 0.2 * uniform();
+    const double x = 0.1 * (uniform() - 0.5), y = 0.1 * (uniform() - 0.5);
+    add_particle(state, {1.05 + 2.1 * (k % n) + x, 1.05 + 2.1 * (k / n) + y, 0}, radius,
+                 radius * radius);
+  }
+  return state;
+}
+
+Setting box(int count) {
+  Setting setting;
+  const double width = 2.1 * std::ceil(std::sqrt(count));
+  setting.planes = {plane_at_rest({}, {0, 1, 0}), plane_at_rest({}, {1, 0, 0}),
+                    plane_at_rest({width, 0, 0}, {-1, 0, 0})};
+  setting.gravity = {0, -1, 0};
+  setting.time_step = 0.05;
+  setting.law.gamma_min = -2;
+  return setting;
+}
+
+/// Every pair, not only those in the list.
+double largest_overlap_of_all(const State& state) {
+  double largest = 0;
+  const auto count = static_cast<std::int32_t>(state.particles.count());
+  for (std::int32_t i = 0; i < count; ++i)
+    for (std::int32_t j = i + 1; j < count; ++j)
+      largest = std::max(largest, -pair_gap(state, i, j));
+  return largest / mean_radius(state.particles);
+}
+
+TEST(Box2d, ComesToRestWithoutOverlapsAndEveryStepConverges) {
+  constexpr int kCount = 200;
+  const auto setting = box(kCount);
+  Simulation simulation(setting, box_of_discs(kCount), 1);
+  const auto& state = simulation.state();
+  double moving = 0, at_rest = 0, highest = 0;
+  run(simulation, 30, [&](const StepReport& report) {
+    EXPECT_TRUE(report.converged) << report.time;
+    EXPECT_LE(report.residual, 1e-6) << report.time;
+    // A gap is no less than the linearised one, which is within the tolerance; the rest is rounding of heights up to 30.
+    EXPECT_LE(largest_overlap(setting, state), 1e-6 + 1e-13) << report.time;
+    if (state.steps % 20 == 0) EXPECT_LE(largest_overlap_of_all(state), 1e-6 + 1e-13);
+    const double energy = kinetic_energy(state.particles);
+    ASSERT_TRUE(std::isfinite(energy));
+    highest = std::max(highest, energy);
+    (report.time < 25 ? moving : at_rest) =
+        std::max(report.time < 20 || report.time > 25 ? (report.time < 25 ? 0 : at_rest) : moving,
+                 energy);
+  });
+  RecordProperty("moving", std::to_string(moving));
+  printf("highest %g, 20..25 %g, 25..30 %g\n", highest, moving, at_rest);
+  EXPECT_LE(at_rest, moving);
+  for (std::size_t k = 0; k < kCount; ++k) EXPECT_GT(state.particles.position(k)[1], 0) << k;
+}
+
+}  // namespace
+}  // namespace viscontact::particles
