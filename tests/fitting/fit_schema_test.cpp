@@ -185,11 +185,10 @@ TEST_F(Schema, KnowsEveryWeights) {
 }
 
 TEST_F(Schema, KnowsEveryLossAndMisfit) {
-  for (const std::string word : schema().at("/properties/loss/enum"_json_pointer))
-    EXPECT_NO_THROW(parse_loss(word));
-  for (const std::string word :
-       schema().at("/properties/diagnostics/properties/misfit/enum"_json_pointer))
-    EXPECT_NO_THROW(parse_misfit(word));
+  const Json losses = schema().at("/properties/loss/enum"_json_pointer);
+  for (const std::string word : losses) EXPECT_NO_THROW(parse_loss(word));
+  const Json misfits = schema().at("/properties/diagnostics/properties/misfit/enum"_json_pointer);
+  for (const std::string word : misfits) EXPECT_NO_THROW(parse_misfit(word));
 }
 
 TEST_F(Schema, IsOfTheDraftItClaims) {

@@ -25,11 +25,11 @@ struct Line {
 Line noisy_parabola(double noise) {
   Line line;
   std::mt19937_64 random(7);
-  std::normal_distribution<double> normal(0, noise);
+  std::normal_distribution<double> normal;
   for (Eigen::Index i = 0; i < kRows; ++i) {
     const double x = static_cast<double>(i) / (kRows - 1);
     line.matrix.row(i) << 1, x, x * x;
-    line.right_hand_side(i) = line.matrix.row(i) * kTrue + normal(random);
+    line.right_hand_side(i) = line.matrix.row(i) * kTrue + noise * normal(random);
   }
   return line;
 }
