@@ -310,7 +310,7 @@ std::string particles_page(const Playback& playback, const std::string& title) {
       "<meta http-equiv=Content-Security-Policy content=\"default-src 'none'; style-src "
       "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
       "<meta name=color-scheme content=\"light dark\">\n"
-      "<title>{0}</title>\n<style>\n{1}</style></head>\n<body>\n"
+      "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n"
       "<header><h1>{0}</h1>\n<p>{2}</p></header>\n",
       escaped(title), particles_style(), words);
   page += fmt::format(

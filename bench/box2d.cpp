@@ -73,7 +73,7 @@ double cpu_seconds() {
 int main(int argc, char** argv) {
   std::map<std::string, std::string> o = {
       {"--count", "1000"},     {"--until", "10"},  {"--max-iterations", "10000"},
-      {"--tolerance", "1e-6"}, {"--threads", "1"}, {"--method", "auto"},
+      {"--tolerance", "1e-6"}, {"--threads", "1"}, {"--method", "conjugate_gradients"},
       {"--print", "2.5"}};
   for (int i = 1; i + 1 < argc; i += 2) o[argv[i]] = argv[i + 1];
   const int count = std::stoi(o["--count"]);

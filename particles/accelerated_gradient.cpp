@@ -105,17 +105,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
   return solved;
 }
 
-template <int D>
-Solved solve_by_size(ContactGraph<D>& graph, double tolerance, int max_iterations) {
-  // Measured in bench/: below, sweeps cost less than the passes and sums of conjugate gradients.
-  constexpr std::size_t kFew = 24;
-  return graph.count() <= kFew ? gauss_seidel(graph, tolerance, max_iterations)
-                               : conjugate_gradients(graph, tolerance, max_iterations);
-}
-
 template Solved accelerated_gradient<2>(ContactGraph<2>&, double, int);
 template Solved accelerated_gradient<3>(ContactGraph<3>&, double, int);
-template Solved solve_by_size<2>(ContactGraph<2>&, double, int);
-template Solved solve_by_size<3>(ContactGraph<3>&, double, int);
 
 }  // namespace viscontact::particles

@@ -9,9 +9,9 @@
 namespace viscontact::particles {
 
 struct SolverSettings {
-  double tolerance = 1e-6;           ///< of the residual, > 0
-  int max_iterations = 10000;        ///< of a step, >= 1: products with W, or sweeps
-  std::string_view method = "auto";  ///< a name in kSolverMethods
+  double tolerance = 1e-6;                          ///< of the residual, > 0
+  int max_iterations = 10000;                       ///< of a step, >= 1: products with W, or sweeps
+  std::string_view method = "conjugate_gradients";  ///< a name in kSolverMethods
 };
 
 struct Solved {
@@ -25,7 +25,8 @@ template <int D>
 using SolverMethod = Solved (*)(ContactGraph<D>& graph, double tolerance, int max_iterations);
 
 /// Projected conjugate gradients (MPRGP: Dostal & Schoeberl 2005, "Minimizing quadratic functions subject to bound constraints with the rate of
-/// convergence and finite termination"): conjugate gradients while the set of held contacts stays, projected gradients where it changes.
+/// convergence and finite termination"): conjugate gradients, preconditioned by symmetric Gauss-Seidel, while the set of held contacts stays; projected
+/// steps where it changes.
 template <int D>
 Solved conjugate_gradients(ContactGraph<D>& graph, double tolerance, int max_iterations);
 
@@ -38,25 +39,17 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
 template <int D>
 Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations);
 
-/// gauss_seidel for few contacts, conjugate_gradients for more (docs/particles.md says why).
-template <int D>
-Solved solve_by_size(ContactGraph<D>& graph, double tolerance, int max_iterations);
-
 struct SolverMethodRow {
-  std::string_view name, words;
+  std::string_view name;
   SolverMethod<2> discs;
   SolverMethod<3> spheres;
 };
 
-/// All methods; "auto" first.
-inline constexpr std::array<SolverMethodRow, 4> kSolverMethods = {{
-    {"auto", "Gauss-Seidel for few contacts, conjugate gradients for more", solve_by_size<2>,
-     solve_by_size<3>},
-    {"conjugate_gradients", "projected conjugate gradients", conjugate_gradients<2>,
-     conjugate_gradients<3>},
-    {"accelerated_gradient", "accelerated projected gradient", accelerated_gradient<2>,
-     accelerated_gradient<3>},
-    {"gauss_seidel", "projected Gauss-Seidel", gauss_seidel<2>, gauss_seidel<3>},
+/// All methods, the default first.
+inline constexpr std::array<SolverMethodRow, 3> kSolverMethods = {{
+    {"conjugate_gradients", conjugate_gradients<2>, conjugate_gradients<3>},
+    {"accelerated_gradient", accelerated_gradient<2>, accelerated_gradient<3>},
+    {"gauss_seidel", gauss_seidel<2>, gauss_seidel<3>},
 }};
 
 }  // namespace viscontact::particles

@@ -75,7 +75,8 @@ TEST(Box2d, ComesToRestWithoutOverlapsAndEveryStepConverges) {
     highest = std::max(highest, energy);
     if (report.time > 20) (report.time < 25 ? before : after) = std::max(report.time < 25 ? before : after, energy);
   });
-  printf("highest %g, 20..25 %g, 25..30 %g\n", highest, before, after);
+  // What is left slides and settles: 0.13, then 0.007, of 218 in the fall.
+  EXPECT_LT(before, 2e-3 * highest);
   EXPECT_LE(after, before);
   for (std::size_t k = 0; k < kCount; ++k) EXPECT_GT(state.particles.position(k)[1], 0) << k;
 }

@@ -50,9 +50,9 @@ TEST_P(Convergence, InTheLimitCaseIsOfFirstOrder) {
   // C h (1 + O(h)): 2 h after the flight of 2.
   EXPECT_NEAR(order(coarse[0], fine[0], 10), 1, 0.02);
   EXPECT_LT(fine[0], 6e-3);
-  // What the film has taken is exact: m u + gamma = int f.
-  EXPECT_LT(coarse[1], 1e-11);
-  EXPECT_LT(fine[1], 1e-11);
+  // What the film has taken is exact, m u + gamma = int f, but for what the solver leaves: gaps of 1e-14 over h/m.
+  EXPECT_LT(coarse[1], 3e-11);
+  EXPECT_LT(fine[1], 3e-11);
 }
 
 /// Two of masses 1 and 2, touching at t = 0, pushed together by 2 cos t until pi/2 and pulled apart after: gamma = -2 sin t is 0 at pi, then the gap is

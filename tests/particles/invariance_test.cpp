@@ -142,9 +142,9 @@ Scene big_lattice(int dimension) {
 }
 
 TEST_P(Invariance, ThreadsDoNotChangeABit) {
-  for (const auto* method : {"conjugate_gradients", "accelerated_gradient"}) {
+  for (const auto& row : kSolverMethods) {
     auto scene = big_lattice(GetParam());
-    scene.setting.solver.method = method;
+    scene.setting.solver.method = row.name;
     std::vector<State> results;
     for (const int threads : {1, 2, 5}) {
       Simulation simulation(scene.setting, scene.state, threads);
@@ -154,11 +154,11 @@ TEST_P(Invariance, ThreadsDoNotChangeABit) {
       results.push_back(simulation.state());
     }
     for (const auto& result : results) {
-      EXPECT_TRUE(result.particles.positions == results[0].particles.positions) << method;
-      EXPECT_TRUE(result.particles.velocities == results[0].particles.velocities) << method;
-      EXPECT_TRUE(result.pairs == results[0].pairs) << method;
-      EXPECT_TRUE(result.walls == results[0].walls) << method;
-      EXPECT_TRUE(result.reaches == results[0].reaches) << method;
+      EXPECT_TRUE(result.particles.positions == results[0].particles.positions) << row.name;
+      EXPECT_TRUE(result.particles.velocities == results[0].particles.velocities) << row.name;
+      EXPECT_TRUE(result.pairs == results[0].pairs) << row.name;
+      EXPECT_TRUE(result.walls == results[0].walls) << row.name;
+      EXPECT_TRUE(result.reaches == results[0].reaches) << row.name;
     }
   }
 }

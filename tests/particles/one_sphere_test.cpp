@@ -65,9 +65,9 @@ Scene scene_of(const Case& c, int dimension, Random& random) {
   return scene;
 }
 
-void expect_same_motion(const Case& c, int dimension, Random& random, double tolerance) {
+/// `tolerance` of the gap, `of_velocity` of velocity and gamma/m.
+void expect_same_motion(const Case& c, const Scene& scene, double tolerance, double of_velocity) {
   const auto reduced = by_reduced_model(c);
-  const auto scene = scene_of(c, dimension, random);
   Simulation simulation(scene.setting, scene.state, 1);
   std::size_t row = 0;
   run(simulation, c.end, [&](const StepReport&) {
@@ -78,12 +78,10 @@ void expect_same_motion(const Case& c, int dimension, Random& random, double tol
     const auto& normal = scene.setting.planes[0].start.normal;
     const double q = gap(scene.setting.planes[0].start, p.position(0), c.radius);
     ASSERT_NEAR(simulation.state().time, expected.time, 1e-6 * c.step);
-    EXPECT_NEAR(q, expected.gap, tolerance) << expected.time;
-    // Velocities are displacements of a step over the step, with the rounding of the gap.
-    EXPECT_NEAR(dot(p.velocity(0), normal), expected.velocity, tolerance * std::max(1.0, 0.01 / c.step))
-        << expected.time;
+    EXPECT_NEAR(q, expected.gap, tolerance * std::max(1.0, expected.gap)) << expected.time;
+    EXPECT_NEAR(dot(p.velocity(0), normal), expected.velocity, of_velocity) << expected.time;
     EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma / c.mass, *expected.gamma / c.mass,
-                tolerance * std::max(1.0, 0.01 / c.step))
+                of_velocity)
         << expected.time;
   });
   EXPECT_EQ(row + 1, reduced.rows.size());
@@ -91,11 +89,26 @@ void expect_same_motion(const Case& c, int dimension, Random& random, double tol
 
 TEST(OneSphere, MovesAsTheReducedModelSays) {
   Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    auto c = random_case(random);
+    c.radius = 1;
+    c.step = random.uniform(0.05, 0.1);
+    SCOPED_TRACE(::testing::Message() << i << ": h = " << c.step << ", gamma_min = " << c.gamma_min);
+    for (const int dimension : {2, 3})
+      expect_same_motion(c, scene_of(c, dimension, random), 1e-12, 1e-12);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(OneSphere, MovesAsTheReducedModelSaysWhateverTheStepAndTheRadius) {
+  Random random(2);
   for (int i = 0; i < 200; ++i) {
     const auto c = random_case(random);
     SCOPED_TRACE(::testing::Message() << i << ": h = " << c.step << ", gamma_min = " << c.gamma_min
                                       << ", m = " << c.mass << ", r = " << c.radius);
-    for (const int dimension : {2, 3}) expect_same_motion(c, dimension, random, 1e-12);
+    // The gap of coordinates of up to 12 has gathered some 1e-14 of rounding by the time of an impact, whose step has the velocity -gap/h.
+    for (const int dimension : {2, 3})
+      expect_same_motion(c, scene_of(c, dimension, random), 1e-12, 1e-12 + 1e-13 / c.step);
     if (HasFailure()) return;
   }
 }

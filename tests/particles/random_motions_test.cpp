@@ -1,0 +1,123 @@
+// What holds of every motion, whatever the particles, the planes and the forces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+struct Scene {
+  State state;
+  Setting setting;
+};
+
+/// 2 to 30 particles, radii over up to two decades, densities over four, in a box that may move; forces that jump; films of all kinds.
+Scene random_scene(Random& random) {
+  const int dimension = random.integer(2, 3);
+  const auto count = static_cast<std::size_t>(random.integer(2, 30));
+  const double spread = random.chance(0.5) ? 0.3 : 2;
+  Scene scene{random_cloud(
+                  dimension, count, std::pow(static_cast<double>(count), 1.0 / dimension),
+                  [&] { return random.decades(-spread, 0); }, random),
+              {}};
+  auto& p = scene.state.particles;
+  auto& s = scene.setting;
+  s.time_step = random.decades(-2, -1);
+  double half_width = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    p.masses[k] *= random.decades(-2, 2);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+      p.velocities[k * static_cast<std::size_t>(dimension) + d] = random.uniform(-2, 2);
+      half_width = std::max(half_width, std::abs(p.position(k)[d]) + p.radii[k]);
+    }
+    if (random.chance(0.5)) {
+      History force;
+      for (double until = 0; until < 3;)
+        force.pieces.push_back({until += random.uniform(0.1, 1),
+                                p.masses[k] * random.decades(-1, 1) * random.direction(dimension)});
+      s.forces[static_cast<std::int32_t>(k)] = force;
+    }
+  }
+  if (random.chance(0.7)) s.gravity = random.decades(-1, 1) * random.direction(dimension);
+  const int planes = random.integer(0, dimension + 1);
+  for (int w = 0; w < planes; ++w) {
+    const Vector normal = random.direction(dimension);
+    auto plane = plane_at_rest(-1.01 * half_width * std::sqrt(dimension) * normal, normal);
+    if (random.chance(0.5)) {
+      const double until = random.uniform(0.5, 2);
+      plane.velocity = {{{until, random.uniform(0, 2) * random.direction(dimension)},
+                         {until + 1, random.uniform(0, 2) * random.direction(dimension)}}};
+      if (random.chance(0.5)) plane.angular_velocity = {0, 0, random.uniform(-0.3, 0.3)};
+    }
+    s.planes.push_back(plane);
+  }
+  if (random.chance(0.3))
+    s.law.gamma_min = random.chance(0.3) ? 0 : -random.decades(-4, 1);
+  else if (random.chance(0.5)) {
+    s.law.viscosity = random.decades(-2, 1);
+    s.law.roughness = random.decades(-6, -2);
+  }
+  s.solver.method = kSolverMethods[0].name;
+  return scene;
+}
+
+TEST(RandomMotions, ObeyTheContactLaw) {
+  Random random(1);
+  int steps = 0, converged = 0, held = 0, solid = 0;
+  double worst_drift = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto scene = random_scene(random);
+    const auto& s = scene.setting;
+    SCOPED_TRACE(::testing::Message()
+                 << i << ": " << scene.state.particles.count() << " in " << scene.state.particles.dimension
+                 << "D, h = " << s.time_step << ", " << std::string(s.solver.method));
+    Simulation simulation(s, scene.state, 1);
+    const auto& state = simulation.state();
+    const auto& p = state.particles;
+    const double radius = mean_radius(p);
+    double tolerated = 0;  // overlap that steps which did not converge have left
+    run(simulation, 3, [&](const StepReport& report) {
+      ++steps;
+      converged += report.converged ? 1 : 0;
+      EXPECT_EQ(report.converged, report.residual <= s.solver.tolerance);
+      for (const double x : p.positions) ASSERT_TRUE(std::isfinite(x));
+      for (const double v : p.velocities) ASSERT_TRUE(std::isfinite(v));
+      tolerated = report.largest_overlap;
+      if (report.converged) {
+        EXPECT_LE(tolerated, s.solver.tolerance) << report.time;
+      }
+      // No gap is below its linearised one; heights of up to 100 are rounded.
+      double overlap = largest_overlap(s, state);
+      for (std::int32_t a = 0; a < static_cast<std::int32_t>(p.count()); ++a)
+        for (std::int32_t b = a + 1; b < static_cast<std::int32_t>(p.count()); ++b)
+          overlap = std::max(overlap, -pair_gap(state, a, b) / radius);
+      EXPECT_LE(overlap, tolerated + 1e-12) << report.time;
+      std::size_t glued = 0;
+      for (const auto* films : {&state.pairs, &state.walls})
+        for (const auto& film : *films) {
+          const double other = film.first < 0 ? std::numeric_limits<double>::infinity()
+                                              : p.radii[static_cast<std::size_t>(film.first)];
+          const double lowest =
+              s.law.lower_bound(p.radii[static_cast<std::size_t>(film.second)], other);
+          EXPECT_GE(film.gamma, lowest);
+          EXPECT_LE(film.gamma, 0);
+          solid += film.gamma < 0 && film.gamma == lowest ? 1 : 0;
+          glued += film.gamma < 0 ? 1 : 0;
+          if (!(film.gamma < 0) || !report.converged) continue;
+          ++held;
+          // DRIFT
+        }
+      EXPECT_EQ(report.glued, glued) << report.time;
+    });
+    if (HasFailure()) return;
+  }
+  printf("steps %d converged %d held %d solid %d drift %g\n", steps, converged, held, solid, worst_drift);
+}
+
+}  // namespace
+}  // namespace viscontact::particles
