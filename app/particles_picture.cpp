@@ -346,7 +346,7 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-std::string colour_bar(double lowest, double left, double top, double width) {
+std::string colour_bar(double lowest, bool touching, double left, double top, double width) {
   constexpr int kHeight = 12;
   std::string text;
   const double step = width / kColours;
@@ -363,8 +363,9 @@ std::string colour_bar(double lowest, double left, double top, double width) {
         "<text x=\"{0:.2f}\" y=\"{2:.2f}\">{3}</text>\n",
         x, top + kHeight, top + kHeight + 16, film_tick_text(tick));
   }
-  return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text></g>\n", left + width / 2,
-                            top + kHeight + 34, kFilmWords);
+  return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}{}</text></g>\n", left + width / 2,
+                            top + kHeight + 34, kFilmWords,
+                            touching ? "; thin and grey: touching, no film" : "");
 }
 
 }  // namespace
@@ -483,6 +484,10 @@ std::string particles_picture(const Playback& playback, const std::string& title
   d.width = d.view.scale * wide;
   d.height = d.view.scale * high;
   const bool films = d.lowest < 0;
+  const bool touching = std::ranges::any_of(chosen, [&](std::size_t f) {
+    return std::ranges::any_of(playback.frames[f].contacts,
+                               [](const auto& c) { return !(c.gamma < 0); });
+  });
   const double bottom = kTitle + rows * (d.height + kCaption) + 6;
   const double height = bottom + (films ? 60 : 0);
 
@@ -519,7 +524,7 @@ std::string particles_picture(const Playback& playback, const std::string& title
         "is "
         "drawn</text>\n",
         kWidth - kEdge, bottom + 4, d.every);
-  if (films) svg += colour_bar(d.lowest, kWidth / 2 - 180, bottom, 360);
+  if (films) svg += colour_bar(d.lowest, touching, kWidth / 2 - 180, bottom, 360);
   return svg + "</svg>\n";
 }
 

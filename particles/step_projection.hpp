@@ -38,6 +38,8 @@ class StepProjection {
   }
   std::size_t films() const { return state_.pairs.size() + state_.walls.size(); }
   void choose(std::vector<std::size_t> films);
+  Solved solve(const SolverSettings& settings, double goal,
+               int iterations);  // on the chosen, into displacements
   std::vector<std::size_t> closed_by_free_motion();
   std::vector<std::size_t> closed(double tolerance, Projected& result);
 
