@@ -73,7 +73,8 @@ TEST(Box2d, ComesToRestWithoutOverlapsAndEveryStepConverges) {
     const double energy = kinetic_energy(state.particles);
     ASSERT_TRUE(std::isfinite(energy));
     highest = std::max(highest, energy);
-    if (report.time > 20) (report.time < 25 ? before : after) = std::max(report.time < 25 ? before : after, energy);
+    if (report.time > 20)
+      (report.time < 25 ? before : after) = std::max(report.time < 25 ? before : after, energy);
   });
   // What is left slides and settles: 0.13, then 0.007, of 218 in the fall.
   EXPECT_LT(before, 2e-3 * highest);

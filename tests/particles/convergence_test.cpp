@@ -38,8 +38,7 @@ std::array<double, 2> limit_case_errors(int dimension, double h) {
     errors[0] = std::max(errors[0], std::abs(height - q));
     // Within the two steps of the impact gamma is on its way from 0 to -2.
     if (std::abs(t - 1) > 2 * h)
-      errors[1] =
-          std::max(errors[1], std::abs(film_of(simulation.state(), -1, 0).gamma - gamma));
+      errors[1] = std::max(errors[1], std::abs(film_of(simulation.state(), -1, 0).gamma - gamma));
   });
   return errors;
 }
@@ -90,14 +89,14 @@ Smooth smooth_errors(int dimension, double h) {
   const auto& p = simulation.state().particles;
   const double velocity = p.velocity(1)[0] - p.velocity(0)[0];
   errors.gap_error = std::abs(pair_gap(simulation.state(), 0, 1) - gap);
-  errors.corrected_error =
-      std::abs(pair_gap(simulation.state(), 0, 1) - h * velocity / 2 - gap);
+  errors.corrected_error = std::abs(pair_gap(simulation.state(), 0, 1) - h * velocity / 2 - gap);
   errors.release_error = std::abs(velocity - 1.5 * -2 * std::sin(5.0));
   return errors;
 }
 
 TEST_P(Convergence, OfASmoothlyPulledPairIsOfFirstOrderAndTheReleaseExact) {
-  const auto coarse = smooth_errors(GetParam(), 1.0 / 32), fine = smooth_errors(GetParam(), 1.0 / 256);
+  const auto coarse = smooth_errors(GetParam(), 1.0 / 32),
+             fine = smooth_errors(GetParam(), 1.0 / 256);
   RecordProperty("gap", std::to_string(fine.gap_error));
   // h u/2 (1 + O(h)): the scheme moves with the velocity of the step's end.
   EXPECT_NEAR(order(coarse.gap_error, fine.gap_error, 8), 1, 0.05);

@@ -1,11 +1,15 @@
 // Motions of one to three bodies that can be followed by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {
@@ -240,6 +244,16 @@ TEST_P(ByHand, ATurningPairIsHeldByItsFilmUntilItIsUsedUp) {
     EXPECT_GT(drift, 0.9 * h * h);
     EXPECT_LT(drift, 1.1 * h * h);
     EXPECT_NEAR(kinetic_energy(state.particles), 1, h);
+  }
+}
+
+TEST_P(ByHand, AForceBeyondWhatCanBeComputedWithIsAnError) {
+  // Squares of lengths overflow from 1e154 on.
+  for (const double force : {1e152, 1e160, 1e300, 1e308}) {
+    auto setting = setting_of(0.1);
+    setting.forces[0] = {{{100, {force, 0, 0}}}};
+    Simulation simulation(setting, head_on(GetParam()), 1);
+    EXPECT_THROW(run(simulation, 1), Error) << force;
   }
 }
 

@@ -26,7 +26,8 @@ Scene falling(int dimension) {
   scene.state = random_cloud(
       dimension, 30, dimension == 2 ? 9.0 : 5.0, [&] { return random.uniform(0.25, 1); }, random);
   scene.setting.gravity = {-0.3, -1, dimension == 3 ? -0.2 : 0.0};
-  scene.setting.planes = {plane_at_rest({0, -8, 0}, {0, 1, 0}), plane_at_rest({-8, 0, 0}, {1, 0, 0})};
+  scene.setting.planes = {plane_at_rest({0, -8, 0}, {0, 1, 0}),
+                          plane_at_rest({-8, 0, 0}, {1, 0, 0})};
   if (dimension == 3) scene.setting.planes.push_back(plane_at_rest({0, 0, -8}, {0, 0, 1}));
   scene.setting.planes[0].velocity = {{{1, {0, 0.5, 0}}, {10, {0.1, 0, 0}}}};
   scene.setting.planes[0].angular_velocity = {0, 0, 0.02};
@@ -89,12 +90,19 @@ TEST_P(Invariance, UnderRotation) {
   const double c = std::cos(0.7), s = std::sin(0.7);
   expect_mapped(
       falling(GetParam()),
-      [&](const Vector& v) { return Vector{c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]}; }, 1);
+      [&](const Vector& v) {
+        return Vector{c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
+      },
+      1);
 }
 
 TEST_P(Invariance, UnderMirror) {
   expect_mapped(
-      falling(GetParam()), [](const Vector& v) { return Vector{-v[0], v[1], v[2]}; }, -1);
+      falling(GetParam()),
+      [](const Vector& v) {
+        return Vector{-v[0], v[1], v[2]};
+      },
+      -1);
 }
 
 TEST_P(Invariance, UnderRelabelling) {

@@ -135,9 +135,9 @@ TEST_P(Neighbours, OnALatticeAreFoundThoughTheyAreCloseByARoundingOnly) {
             points.positions.insert(points.positions.end(),
                                     {shift + spacing * x, spacing * y - shift});
             if (GetParam() == 3) points.positions.push_back(spacing * z);
-            points.extents.push_back(
-                spacing / 2 * (1 + 1e3 * std::numeric_limits<double>::epsilon()) +
-                std::abs(shift) * std::numeric_limits<double>::epsilon());
+            points.extents.push_back(spacing / 2 *
+                                         (1 + 1e3 * std::numeric_limits<double>::epsilon()) +
+                                     std::abs(shift) * std::numeric_limits<double>::epsilon());
           }
       SCOPED_TRACE(::testing::Message() << spacing << " + " << shift);
       expect_all_found(points);

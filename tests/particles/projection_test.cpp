@@ -55,8 +55,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
       for (std::size_t k = 0; k < set.size(); ++k) {
         auto& value = x[set[k]];
         value += share * (s[static_cast<Eigen::Index>(k)] - value);
-        if (share < 1 && value <= 1e-15 * (1 + x.lpNorm<Eigen::Infinity>()))
-          left.push_back(set[k]);
+        if (share < 1 && value <= 1e-15 * (1 + x.lpNorm<Eigen::Infinity>())) left.push_back(set[k]);
       }
       if (left.empty()) break;
       for (const auto c : left) drop_from_set(c);
@@ -184,8 +183,8 @@ Answer answer_of(const SolverMethodRow& row, const Problem<D>& problem, double t
   answer.solved = method_of<D>(row)(graph, tolerance, 1'000'000);
   std::vector<double> impulses(problem.contacts.size());
   graph.impulses(impulses);
-  answer.impulses = Eigen::Map<Eigen::VectorXd>(impulses.data(),
-                                                static_cast<Eigen::Index>(impulses.size()));
+  answer.impulses =
+      Eigen::Map<Eigen::VectorXd>(impulses.data(), static_cast<Eigen::Index>(impulses.size()));
   answer.displacements = problem.dense().displacements(answer.impulses);
   return answer;
 }
@@ -195,9 +194,7 @@ Answer answer_of(const SolverMethodRow& row, const Problem<D>& problem, double t
 double bound_by_convexity(const DenseProblem& problem, const Eigen::VectorXd& p,
                           const Eigen::VectorXd& q, double tolerance) {
   return tolerance * ((p - problem.gamma).cwiseAbs().sum() + (q - problem.gamma).cwiseAbs().sum() +
-                      problem.gradient(p)
-                          .cwiseQuotient(problem.diagonal())
-                          .lpNorm<1>());
+                      problem.gradient(p).cwiseQuotient(problem.diagonal()).lpNorm<1>());
 }
 
 double square_distance(const DenseProblem& problem, const Eigen::VectorXd& y,

@@ -69,13 +69,12 @@ Scene random_scene(Random& random) {
 TEST(RandomMotions, ObeyTheContactLaw) {
   Random random(1);
   int steps = 0, converged = 0, held = 0, solid = 0;
-  double worst_drift = 0;
   for (int i = 0; i < 300; ++i) {
     const auto scene = random_scene(random);
     const auto& s = scene.setting;
-    SCOPED_TRACE(::testing::Message()
-                 << i << ": " << scene.state.particles.count() << " in " << scene.state.particles.dimension
-                 << "D, h = " << s.time_step << ", " << std::string(s.solver.method));
+    SCOPED_TRACE(::testing::Message() << i << ": " << scene.state.particles.count() << " in "
+                                      << scene.state.particles.dimension << "D, h = " << s.time_step
+                                      << ", " << std::string(s.solver.method));
     Simulation simulation(s, scene.state, 1);
     const auto& state = simulation.state();
     const auto& p = state.particles;
@@ -136,14 +135,16 @@ TEST(RandomMotions, ObeyTheContactLaw) {
           const double small = (s.solver.tolerance + rounding) * radius;
           if (mobility * -film.gamma <= small) continue;
           EXPECT_LE(gap_now, drift + small) << report.time;
-          worst_drift = std::max(worst_drift, gap_now / radius);
         }
       EXPECT_EQ(report.glued, glued) << report.time;
       before = p;
     });
     if (HasFailure()) return;
   }
-  printf("steps %d converged %d held %d solid %d drift %g\n", steps, converged, held, solid, worst_drift);
+  // There is always room: two planes that close in do so at an angle.
+  EXPECT_EQ(converged, steps);
+  EXPECT_GT(held, steps);
+  EXPECT_GT(solid, steps / 10);
 }
 
 }  // namespace

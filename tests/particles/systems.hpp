@@ -42,8 +42,9 @@ State random_cloud(int dimension, std::size_t count, double width,
                    const std::function<double()>& radius, Random& random);
 
 /// Steps until the time is `end`, but for rounding; sees each report.
-void run(Simulation& simulation, double end,
-         const std::function<void(const StepReport&)>& see = [](const StepReport&) {});
+void run(
+    Simulation& simulation, double end,
+    const std::function<void(const StepReport&)>& see = [](const StepReport&) {});
 
 /// The film of a pair, or of plane k (first = -1 - k) and a particle; one of gamma 0 if there is none.
 Film film_of(const State& state, std::int32_t first, std::int32_t second);
