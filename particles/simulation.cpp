@@ -172,7 +172,7 @@ StepReport Simulation::step_of(double end) {
   report.iterations = projected.iterations;
   report.residual = projected.violation / mean_radius_;
   report.converged = report.residual <= setting_.solver.tolerance;
-  report.largest_overlap = -projected.smallest_gap / mean_radius_;
+  report.largest_overlap = (0 - projected.smallest_gap) / mean_radius_;
   return report;
 }
 
@@ -187,7 +187,7 @@ double largest_overlap(const Setting& setting, const State& state) {
     for (std::size_t k = 0; k < p.count(); ++k)
       smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
   }
-  return -smallest / mean_radius(p);
+  return (0 - smallest) / mean_radius(p);  // 0, not -0
 }
 
 std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) {
