@@ -238,7 +238,7 @@ TEST_P(ByHand, ATurningPairIsHeldByItsFilmUntilItIsUsedUp) {
       // Impulses along the line of the centres: angular momentum stays to rounding.
       EXPECT_NEAR(angular_momentum(state.particles)[2], 2, kRounding);
     });
-    // Of first order in h; seen is less than 1.1 steps.
+    // Of first order in h; seen is one step.
     EXPECT_NEAR(released, 1, 2 * h);
     // The linearised equality moves them along the tangent, h omega r each: h^2 further apart, which the next step takes back.
     EXPECT_GT(drift, 0.9 * h * h);

@@ -202,7 +202,7 @@ double square_distance(const DenseProblem& problem, const Eigen::VectorXd& y,
   return (y - other).cwiseAbs2().dot(problem.weight);
 }
 
-// The dense solution's own rounding, in the problem's units of about 1, masses over three decades: seen are 1e-13 and less.
+// The dense solution's own rounding, in the problem's units of about 1, masses over three decades: seen is 2e-13.
 constexpr double kDense = 1e-10;
 
 template <int D>
