@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -12,7 +13,7 @@ namespace {
 struct Look {
   double violation = 0;  ///< largest [L]
   double free =
-      0;  ///< phi.g of the free gradient phi, cut so that a step of kStep along it stays within the bounds
+      0;  ///< phi.g of the free gradient phi, cut so that a gradient step along it stays within the bounds
   double chopped =
       0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
   double room = std::numeric_limits<double>::infinity();  ///< smallest z - bound
@@ -25,10 +26,6 @@ struct Look {
   }
 };
 
-/// Length of a projected gradient step. W has the diagonal 1, so that its largest eigenvalue is near 2 to 3 in packings; any length below 2 over that
-/// makes the objective fall. Measured: 1/1.5 to 1/4 differ by 5 % in iterations.
-constexpr double kStep = 0.5;
-
 /// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner, on the free contacts of one of
 /// the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
 template <int D>
@@ -36,6 +33,8 @@ class Iteration {
  public:
   explicit Iteration(ContactGraph<D>& graph)
       : graph_(graph),
+        step_(graph.gradient_step()),
+        per_step_(1 / step_),
         y_(graph.bodies() * D),
         y_direction_(graph.bodies() * D),
         gradient_(graph.count()),
@@ -66,7 +65,11 @@ class Iteration {
   int step() {
     if (look_.chopped > look_.free) return leave_bounds();
     if (restart_) start_directions();
-    const double length = curvature_ > 0 ? slope_ / curvature_ : 0;
+    before_ = graph_.z;
+    // Redundant contacts have directions without curvature; of those that contradict each other the objective falls along them for ever.
+    constexpr double kEndless = 1e12;
+    const double length = slope_ / curvature_;
+    if (!(length < kEndless)) return go_to_bound();
     move_and_half_sweep(length);
     if (look_.room < 0) return expand(length);
     // Conjugate: the next direction from the swept gradient and the one before.
@@ -84,11 +87,11 @@ class Iteration {
   bool is_free(std::size_t c) const { return graph_.z[c] > graph_.bound[c]; }
 
   /// Without branches: which contacts are free is as irregular as the packing.
-  static void add(double g, double room, double scale, Look& look) {
+  void add(double g, double room, double scale, Look& look) const {
     look.violation = std::max(look.violation, scale * std::abs(std::min(g, room)));
     const bool is_free = room > 0;
     const double phi = is_free ? g : 0.0;
-    look.free += phi * std::min(g, room * (1 / kStep));
+    look.free += phi * std::min(g, room * per_step_);
     const double beta = is_free ? 0.0 : std::min(g, 0.0);
     look.chopped += beta * beta;
     look.room = std::min(look.room, room);
@@ -162,28 +165,29 @@ class Iteration {
     curvature_ = graph_.combine(y_, beta, y_direction_);
   }
 
-  /// The step of that length led out of the bounds: all of it, cut at them. Where that does not make the objective fall, as far as the first bound and a
-  /// projected gradient step from there, which does.
+  /// The step of that length led out of the bounds: all of it, cut at them, if that makes the objective fall.
   int expand(double length) {
     // That of before the step: the objective is quadratic along it.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
-    const auto here = graph_.z;
     cut();
-    if (objective() < before) return 1;
-    graph_.z = here;
-    double feasible = length;  // from where the step began
+    return objective() < before ? 1 : 2 + go_to_bound();
+  }
+
+  /// From before the step as far as the first bound, if there is one, and a projected gradient step from there: the objective falls.
+  int go_to_bound() {
+    double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < graph_.count(); ++c)
       if (direction_[c] > 0)
-        feasible = std::min(feasible, length + (graph_.z[c] - graph_.bound[c]) / direction_[c]);
+        feasible = std::min(feasible, (before_[c] - graph_.bound[c]) / direction_[c]);
     for (std::size_t c = 0; c < graph_.count(); ++c)
-      graph_.z[c] += (length - std::max(0.0, feasible)) * direction_[c];
+      graph_.z[c] = std::isfinite(feasible) ? before_[c] - feasible * direction_[c] : before_[c];
     cut();
     graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
-        if (is_free(c)) graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - kStep * gradient_[c]);
+        if (is_free(c)) graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
     });
     refresh();
-    return 3;
+    return 2;
   }
 
   /// Back within the bounds.
@@ -200,12 +204,16 @@ class Iteration {
     for (std::size_t c = 0; c < graph_.count(); ++c)
       direction_[c] = !is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = graph_.to_bodies(direction_, y_direction_);
-    move_and_half_sweep(look_.chopped / curvature);
+    constexpr double kLongest =
+        1e6;  // of the length where W is 1: contacts that contradict each other
+    move_and_half_sweep(std::min(look_.chopped / curvature, kLongest));
     restart_ = true;
     return 1;
   }
 
   ContactGraph<D>& graph_;
+  double step_, per_step_;               // length of a projected gradient step
+  std::vector<double> before_;           // z before a step
   std::vector<double> y_, y_direction_;  // of bodies
   std::vector<double> gradient_, direction_, half_swept_, swept_;
   Look look_;

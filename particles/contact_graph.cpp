@@ -11,6 +11,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
       free(contacts.size()),
       scale(contacts.size()),
       rows_(contacts.size()),
+      gamma_(contacts.size()),
       in_block_(contacts.size()),
       offsets_(mobilities.size() + 2, 0),
       inverse_mobilities_(mobilities.size() + 1, 0.0),
@@ -30,6 +31,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     scale[c] = root;
     z[c] = std::max(contact.impulse, contact.gamma) * root;
     bound[c] = contact.gamma * root;
+    gamma_[c] = contact.gamma;
     double gradient = contact.gap;
     for (std::size_t d = 0; d < D; ++d)
       gradient += contact.normal[d] *
@@ -69,6 +71,21 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     block_bodies_.push_back(rows_.size() <= Team::kBlock ? bodies()
                                                          : static_cast<std::size_t>(named));
   }
+}
+
+template <int D>
+double ContactGraph<D>::gradient_step() const {
+  std::vector<double> traces(bodies(), 0.0);
+  for (const auto& row : rows_) {
+    traces[static_cast<std::size_t>(row.first)] += row.of_first * row.per_root;
+    traces[static_cast<std::size_t>(row.second)] += row.of_second * row.per_root;
+  }
+  double largest = 1;
+  for (const auto& row : rows_)
+    largest = std::max(largest, traces[static_cast<std::size_t>(row.first)] +
+                                    traces[static_cast<std::size_t>(row.second)]);
+  constexpr double kOfLimit = 1.9;
+  return std::min(1.0, kOfLimit / largest);
 }
 
 template class ContactGraph<2>;

@@ -119,6 +119,10 @@ class ContactGraph {
         y + static_cast<std::size_t>(in_block_[c][1]) * D);
   }
 
+  /// A step along the gradient that makes the objective fall: below 2 over the largest eigenvalue of W. That is at most the largest t_i + t_j of a
+  /// contact, t_b the sum of (h/m_b)/w over the contacts of a body (by Cauchy and Schwarz).
+  double gradient_step() const;
+
   /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, given its gradient g_c.
   double violation(std::size_t c, double gradient) const {
     return scale[c] * std::abs(std::min(gradient, z[c] - bound[c]));
@@ -126,7 +130,9 @@ class ContactGraph {
 
   /// h lambda of the contacts, in the order in which they were given.
   void impulses(std::span<double> impulses) const {
-    for (std::size_t c = 0; c < count(); ++c) impulses[c] = z[c] / scale[c];
+    // A film that is spent has given all that it had taken, not all but rounding.
+    for (std::size_t c = 0; c < count(); ++c)
+      impulses[c] = z[c] == bound[c] ? gamma_[c] : z[c] / scale[c];
   }
 
  private:
@@ -162,6 +168,7 @@ class ContactGraph {
   }
 
   std::vector<Row> rows_;
+  std::vector<double> gamma_;  // as given
   std::vector<std::array<std::int32_t, 2>>
       in_block_;                           // first, second, among the bodies of the contact's block
   std::vector<std::size_t> block_bodies_;  // how many bodies each block has

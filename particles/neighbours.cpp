@@ -42,10 +42,10 @@ class Grid {
         low = std::min(low, positions[k * D + d]);
         high = std::max(high, positions[k * D + d]);
       }
-      // Particles that fled beyond half a million cells from the middle share the cells at the border: cells next to each other stay so.
-      const double middle = low + (high - low) / 2;
-      half_[d] = std::min(std::ceil((high - low) / 2 * per_cell_) + 1, kMostCells / 2);
-      middle_[d] = middle;
+      // Particles that fled beyond half a million cells from where most are share the cells at the border: cells next to each other stay so.
+      middle_[d] = middle(positions, d);
+      half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
+                          kMostCells / 2);
       cells_[d] = static_cast<std::uint64_t>(2 * half_[d]) + 3;  // one to spare on each side
     }
   }
@@ -83,6 +83,17 @@ class Grid {
   std::vector<Entry> entries;  ///< in order of cell
 
  private:
+  /// The median of a sample, which a few that fled do not move.
+  static double middle(std::span<const double> positions, std::size_t d) {
+    constexpr std::size_t kSample = 1001;
+    const std::size_t count = positions.size() / D, stride = count / kSample + 1;
+    std::vector<double> sample;
+    for (std::size_t k = 0; k < count; k += stride) sample.push_back(positions[k * D + d]);
+    const auto half = sample.begin() + std::ssize(sample) / 2;
+    std::ranges::nth_element(sample, half);
+    return *half;
+  }
+
   static constexpr double kMostCells = 1 << 20;  // along an axis: three axes fit into 64 bits
   double per_cell_;
   std::array<double, D> middle_{}, half_{};

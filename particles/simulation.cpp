@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "particles/candidates.hpp"
 #include "particles/film_geometry.hpp"
+#include "particles/neighbours.hpp"
 #include "particles/step_projection.hpp"
 #include "particles/team.hpp"
 
@@ -74,6 +75,20 @@ void keep_longer(std::vector<double>& longest, const std::vector<double>& other)
     if (square(&other[k]) > square(&longest[k])) std::copy_n(&other[k], D, &longest[k]);
 }
 
+void check_displacements(const Particles& p, const std::vector<double>& displacements,
+                         double time) {
+  // Squares of distances, and products of many, must be finite too.
+  constexpr double kLargest = 1e120;
+  const auto d = static_cast<std::size_t>(p.dimension);
+  for (std::size_t k = 0; k < displacements.size(); ++k)
+    if (!(std::abs(displacements[k]) < kLargest && std::abs(p.positions[k]) < kLargest))
+      throw Error(ExitCode::kNotConverged,
+                  fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
+                              "what can be computed with; are its forces, the walls and the time "
+                              "step as they should be?",
+                              k / d, p.positions[k], displacements[k], time));
+}
+
 }  // namespace
 
 Simulation::Simulation(Setting setting, State state, int threads)
@@ -110,7 +125,7 @@ void Simulation::move_freely(double h, double next) {
 }
 
 template <int D>
-void Simulation::move(double h, double time) {
+void Simulation::move(double h) {
   auto& p = state_.particles;
   const auto& displacements = work_->displacements;
   work_->team.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
@@ -119,22 +134,15 @@ void Simulation::move(double h, double time) {
       p.velocities[k] = displacements[k] / h;
     }
   });
-  // Squares of distances must be finite too.
-  constexpr double kLargest = 1e150;
-  for (std::size_t k = 0; k < p.positions.size(); ++k)
-    if (!(std::abs(p.positions[k]) < kLargest && std::abs(p.velocities[k]) < kLargest))
-      throw Error(
-          ExitCode::kNotConverged,
-          fmt::format("particle {} is at {} with velocity {} at time {}: beyond what can be "
-                      "computed with; are its forces and the time step as they should be?",
-                      k / D, p.positions[k], p.velocities[k], time));
 }
 
 template <int D>
 StepReport Simulation::step_of(double end) {
   double h = setting_.time_step;
+  const double tiny = 1e-6 * h;
+  if (!(end > state_.time + tiny)) return {.time = state_.time};
   double next = state_.grid_time + static_cast<double>(state_.steps + 1 - state_.grid_step) * h;
-  const bool cut = next > end + 1e-6 * h;
+  const bool cut = next > end + tiny;
   if (cut) {
     next = end;
     h = end - state_.time;
@@ -142,6 +150,7 @@ StepReport Simulation::step_of(double end) {
   move_freely<D>(h, next);
   auto& displacements = work_->displacements;
   auto& team = work_->team;
+  check_displacements(state_.particles, displacements, next);
   std::vector<PlanePlace> planes;
   for (const auto& plane : setting_.planes) planes.push_back(plane.at(next));
 
@@ -149,6 +158,7 @@ StepReport Simulation::step_of(double end) {
   find_walls(state_, planes);
   auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
                        .solve(setting_.solver, mean_radius_);
+  check_displacements(state_.particles, displacements, next);
   for (auto longest = displacements; !list_holds(state_, displacements, team);) {
     // Impulses threw particles further than the list looked.
     keep_longer<D>(longest, displacements);
@@ -157,10 +167,11 @@ StepReport Simulation::step_of(double end) {
     move_freely<D>(h, next);
     projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
                     .solve(setting_.solver, mean_radius_);
+    check_displacements(state_.particles, displacements, next);
   }
   StepReport report;
   report.glued = remember(state_.particles, projected.films, setting_.law);
-  move<D>(h, next);
+  move<D>(h);
   state_.time = next;
   ++state_.steps;
   if (cut) {
@@ -179,9 +190,12 @@ StepReport Simulation::step_of(double end) {
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
-  for (const auto& film : state.pairs)
+  Team team(1);
+  for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, team)) {
+    const Film film{pair.first, pair.second, 0, 0};
     smallest = std::min(smallest,
                         p.dimension == 2 ? contact_of<2>(p, film).gap : contact_of<3>(p, film).gap);
+  }
   for (const auto& plane : setting.planes) {
     const auto place = plane.at(state.time);
     for (std::size_t k = 0; k < p.count(); ++k)

@@ -52,8 +52,8 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// One step of size h; less if `end` comes first by more than a millionth of h. Throws Error(kNotConverged) if a position or velocity is beyond what
-  /// double precision holds.
+  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than that is left. Throws Error(kNotConverged) if a position or a step is beyond what can be
+  /// computed with.
   StepReport step(double end);
 
   const State& state() const { return state_; }
@@ -66,7 +66,7 @@ class Simulation {
   template <int D>
   void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
   template <int D>
-  void move(double h, double time);
+  void move(double h);
 
   Setting setting_;
   State state_;
