@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "particles/projection.hpp"
@@ -33,8 +34,6 @@ class Iteration {
  public:
   explicit Iteration(ContactGraph<D>& graph)
       : graph_(graph),
-        step_(graph.gradient_step()),
-        per_step_(1 / step_),
         y_(graph.bodies() * D),
         y_direction_(graph.bodies() * D),
         gradient_(graph.count()),
@@ -52,7 +51,7 @@ class Iteration {
           Look look;
           for (std::size_t c = begin; c < end; ++c) {
             gradient_[c] = graph_.free[c] + graph_.to_contact(c, y_.data());
-            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.scale[c], look);
+            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.scale[c], 1 / step_, look);
           }
           return look;
         });
@@ -87,11 +86,11 @@ class Iteration {
   bool is_free(std::size_t c) const { return graph_.z[c] > graph_.bound[c]; }
 
   /// Without branches: which contacts are free is as irregular as the packing.
-  void add(double g, double room, double scale, Look& look) const {
+  static void add(double g, double room, double scale, double per_step, Look& look) {
     look.violation = std::max(look.violation, scale * std::abs(std::min(g, room)));
     const bool is_free = room > 0;
     const double phi = is_free ? g : 0.0;
-    look.free += phi * std::min(g, room * per_step_);
+    look.free += phi * std::min(g, room * per_step);
     const double beta = is_free ? 0.0 : std::min(g, 0.0);
     look.chopped += beta * beta;
     look.room = std::min(look.room, room);
@@ -109,11 +108,11 @@ class Iteration {
   }
 
   void start_directions() {
-    restart_ = false;
     std::fill(direction_.begin(), direction_.end(), 0.0);
     std::fill(y_direction_.begin(), y_direction_.end(), 0.0);
     curvature_ = 0;
     move_and_half_sweep(0);
+    restart_ = false;
     slope_ = sweep_back();
     direction_ = swept_;
     add_to_bodies(0);
@@ -121,24 +120,43 @@ class Iteration {
 
   /// z -= length * direction, its gradient and what there is to see then; and, the contact's rows being at hand, the sweep's way forth:
   /// half_swept = (I + L)^-1 gradient, L the lower triangle of W between the free contacts of a block.
+  /// Most of the time only the smallest room is looked for: the rest can wait a few steps.
   void move_and_half_sweep(double length) {
-    look_ = graph_.team().template sum_of_blocks<Look>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
-          Look look;
-          auto sums = graph_.block_bodies(begin);
-          for (std::size_t c = begin; c < end; ++c) {
-            const double z = graph_.z[c] - length * direction_[c];
-            const double g = gradient_[c] - length * graph_.to_contact(c, y_direction_.data());
-            graph_.z[c] = z;
-            gradient_[c] = g;
-            const double room = z - graph_.bound[c];
-            add(g, room, graph_.scale[c], look);
-            const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
-            half_swept_[c] = t;
-            graph_.add_in_block(c, t, sums.data());
-          }
-          return look;
-        });
+    constexpr int kLookEvery = 4;
+    const bool look_around = restart_ || ++unseen_ % kLookEvery == 0;
+    const auto pass = [&](auto look_around_now) {
+      return graph_.team().template sum_of_blocks<Look>(
+          graph_.count(), [&](std::size_t begin, std::size_t end) {
+            const double* direction = direction_.data();
+            const double* y_direction = y_direction_.data();
+            const double* bound = graph_.bound.data();
+            double* zs = graph_.z.data();
+            double* gradient = gradient_.data();
+            double* half_swept = half_swept_.data();
+            const double per_step = 1 / step_;
+            Look look;
+            auto sums = graph_.block_bodies(begin);
+            for (std::size_t c = begin; c < end; ++c) {
+              const double z = zs[c] - length * direction[c];
+              const double g = gradient[c] - length * graph_.to_contact(c, y_direction);
+              zs[c] = z;
+              gradient[c] = g;
+              const double room = z - bound[c];
+              if constexpr (decltype(look_around_now)::value)
+                add(g, room, graph_.scale[c], per_step, look);
+              else
+                look.room = std::min(look.room, room);
+              const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
+              half_swept[c] = t;
+              graph_.add_in_block(c, t, sums.data());
+            }
+            return look;
+          });
+    };
+    if (look_around)
+      look_ = pass(std::true_type());
+    else
+      look_.room = pass(std::false_type()).room;
   }
 
   /// The sweep's way back: swept = (I + L^T)^-1 half_swept. Returns its product with the gradient.
@@ -182,12 +200,22 @@ class Iteration {
     for (std::size_t c = 0; c < graph_.count(); ++c)
       graph_.z[c] = std::isfinite(feasible) ? before_[c] - feasible * direction_[c] : before_[c];
     cut();
-    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c)
-        if (is_free(c)) graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
-    });
-    refresh();
-    return 2;
+    const auto here = graph_.z;
+    const double before = objective();
+    for (int products = 2;; ++products) {
+      graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+          if (is_free(c))
+            graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
+      });
+      refresh();
+      // Of rounding size: nothing is left to gain.
+      constexpr double kShortest = 1e-6;
+      if (objective() <= before || step_ < kShortest) return products;
+      step_ /= 2;  // one particle has many, and the largest eigenvalue of W is theirs
+      graph_.z = here;
+      refresh();
+    }
   }
 
   /// Back within the bounds.
@@ -206,13 +234,14 @@ class Iteration {
     const double curvature = graph_.to_bodies(direction_, y_direction_);
     constexpr double kLongest =
         1e6;  // of the length where W is 1: contacts that contradict each other
-    move_and_half_sweep(std::min(look_.chopped / curvature, kLongest));
     restart_ = true;
+    move_and_half_sweep(std::min(look_.chopped / curvature, kLongest));
     return 1;
   }
 
   ContactGraph<D>& graph_;
-  double step_, per_step_;               // length of a projected gradient step
+  /// Length of a projected gradient step. W has the diagonal 1, and in packings of like particles no eigenvalue above 4.
+  double step_ = 0.5;
   std::vector<double> before_;           // z before a step
   std::vector<double> y_, y_direction_;  // of bodies
   std::vector<double> gradient_, direction_, half_swept_, swept_;
@@ -220,6 +249,7 @@ class Iteration {
   double slope_ = 0;      // gradient.direction
   double curvature_ = 0;  // direction^T W direction
   bool restart_ = true;
+  unsigned unseen_ = 0;  // steps
 };
 
 }  // namespace

@@ -73,21 +73,6 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
   }
 }
 
-template <int D>
-double ContactGraph<D>::gradient_step() const {
-  std::vector<double> traces(bodies(), 0.0);
-  for (const auto& row : rows_) {
-    traces[static_cast<std::size_t>(row.first)] += row.of_first * row.per_root;
-    traces[static_cast<std::size_t>(row.second)] += row.of_second * row.per_root;
-  }
-  double largest = 1;
-  for (const auto& row : rows_)
-    largest = std::max(largest, traces[static_cast<std::size_t>(row.first)] +
-                                    traces[static_cast<std::size_t>(row.second)]);
-  constexpr double kOfLimit = 1.9;
-  return std::min(1.0, kOfLimit / largest);
-}
-
 template class ContactGraph<2>;
 template class ContactGraph<3>;
 

@@ -119,10 +119,6 @@ class ContactGraph {
         y + static_cast<std::size_t>(in_block_[c][1]) * D);
   }
 
-  /// A step along the gradient that makes the objective fall: below 2 over the largest eigenvalue of W. That is at most the largest t_i + t_j of a
-  /// contact, t_b the sum of (h/m_b)/w over the contacts of a body (by Cauchy and Schwarz).
-  double gradient_step() const;
-
   /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, given its gradient g_c.
   double violation(std::size_t c, double gradient) const {
     return scale[c] * std::abs(std::min(gradient, z[c] - bound[c]));

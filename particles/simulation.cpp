@@ -40,7 +40,7 @@ void find_walls(State& state, std::span<const PlanePlace> planes) {
       const auto particle = static_cast<std::int32_t>(k);
       const bool known = known_until(particle);
       if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < 2 * state.reaches[k])
-        walls.push_back(known ? *old : Film{plane, particle, 0, 0});
+        walls.push_back(known ? *old : Film{plane, particle});
       if (known) ++old;
     }
   }
@@ -75,18 +75,18 @@ void keep_longer(std::vector<double>& longest, const std::vector<double>& other)
     if (square(&other[k]) > square(&longest[k])) std::copy_n(&other[k], D, &longest[k]);
 }
 
-void check_displacements(const Particles& p, const std::vector<double>& displacements,
-                         double time) {
+void check_displacement(const Particles& p, const std::vector<double>& displacements, std::size_t k,
+                        double time) {
   // Squares of distances, and products of many, must be finite too.
   constexpr double kLargest = 1e120;
   const auto d = static_cast<std::size_t>(p.dimension);
-  for (std::size_t k = 0; k < displacements.size(); ++k)
-    if (!(std::abs(displacements[k]) < kLargest && std::abs(p.positions[k]) < kLargest))
+  for (std::size_t i = k * d; i < k * d + d; ++i)
+    if (!(std::abs(displacements[i]) < kLargest && std::abs(p.positions[i]) < kLargest))
       throw Error(ExitCode::kNotConverged,
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
                               "what can be computed with; are its forces, the walls and the time "
                               "step as they should be?",
-                              k / d, p.positions[k], displacements[k], time));
+                              k, p.positions[i], displacements[i], time));
 }
 
 }  // namespace
@@ -150,24 +150,27 @@ StepReport Simulation::step_of(double end) {
   move_freely<D>(h, next);
   auto& displacements = work_->displacements;
   auto& team = work_->team;
-  check_displacements(state_.particles, displacements, next);
+  for (std::size_t k = 0; k < state_.particles.count(); ++k)
+    check_displacement(state_.particles, displacements, k, next);
   std::vector<PlanePlace> planes;
   for (const auto& plane : setting_.planes) planes.push_back(plane.at(next));
 
   if (!list_holds(state_, displacements, team)) make_list(state_, displacements, team);
-  find_walls(state_, planes);
-  auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
-                       .solve(setting_.solver, mean_radius_);
-  check_displacements(state_.particles, displacements, next);
+  const auto project = [&] {
+    find_walls(state_, planes);
+    auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
+                         .solve(setting_.solver, mean_radius_);
+    for (const auto body : projected.bodies)
+      check_displacement(state_.particles, displacements, static_cast<std::size_t>(body), next);
+    return projected;
+  };
+  auto projected = project();
   for (auto longest = displacements; !list_holds(state_, displacements, team);) {
     // Impulses threw particles further than the list looked.
     keep_longer<D>(longest, displacements);
     make_list(state_, longest, team);
-    find_walls(state_, planes);
     move_freely<D>(h, next);
-    projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
-                    .solve(setting_.solver, mean_radius_);
-    check_displacements(state_.particles, displacements, next);
+    projected = project();
   }
   StepReport report;
   report.glued = remember(state_.particles, projected.films, setting_.law);
@@ -192,7 +195,7 @@ double largest_overlap(const Setting& setting, const State& state) {
   const auto& p = state.particles;
   Team team(1);
   for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, team)) {
-    const Film film{pair.first, pair.second, 0, 0};
+    const Film film{pair.first, pair.second};
     smallest = std::min(smallest,
                         p.dimension == 2 ? contact_of<2>(p, film).gap : contact_of<3>(p, film).gap);
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "common/error.hpp"
 
@@ -30,6 +29,21 @@ struct Numbers {
     return *this;
   }
 };
+
+/// Neighbours in the list share particles, so that in a sweep each contact would wait for the one before it. Three strands that are far from each other in
+/// the list go side by side; measured on box2d: 1 to 6 strands take 8.4, 6.8, 6.4, 7.0, -, 7.2 ms a step. Within blocks, each of which has its own sweep.
+std::vector<std::size_t> in_strands(const std::vector<std::size_t>& films) {
+  constexpr std::size_t kStrands = 3;
+  std::vector<std::size_t> order;
+  order.reserve(films.size());
+  for (std::size_t begin = 0; begin < films.size(); begin += Team::kBlock) {
+    const std::size_t end = std::min(begin + Team::kBlock, films.size());
+    const std::size_t strand = (end - begin + kStrands - 1) / kStrands;
+    for (std::size_t k = begin; k < begin + strand; ++k)
+      for (std::size_t f = k; f < end; f += strand) order.push_back(films[f]);
+  }
+  return order;
+}
 
 }  // namespace
 
@@ -83,7 +97,7 @@ std::vector<std::size_t> StepProjection<D>::closed(double tolerance, Projected& 
 }
 
 template <int D>
-void StepProjection<D>::choose(std::vector<std::size_t> films) {
+void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
   const auto number_of = [&](std::int32_t particle) {
     auto& number = number_[static_cast<std::size_t>(particle)];
     if (number < 0) {
@@ -95,7 +109,7 @@ void StepProjection<D>::choose(std::vector<std::size_t> films) {
     }
     return number;
   };
-  for (const auto f : films) {
+  for (const auto f : in_strands(films)) {
     is_chosen_[f] = 1;
     auto contact = contact_of<D>(state_.particles, film(f), planes_);
     if (contact.first >= 0) contact.first = number_of(contact.first);
@@ -136,7 +150,7 @@ Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_r
     auto more = closed(tolerance, result);
     if (result.iterations >= settings.max_iterations || (more.empty() && !rough)) break;
     if (more.empty()) rough = false;
-    choose(std::move(more));
+    choose(more);
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     film(chosen_[c]).impulse = contacts_[c].impulse;

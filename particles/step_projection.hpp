@@ -37,7 +37,7 @@ class StepProjection {
     return f < state_.pairs.size() ? state_.pairs[f] : state_.walls[f - state_.pairs.size()];
   }
   std::size_t films() const { return state_.pairs.size() + state_.walls.size(); }
-  void choose(std::vector<std::size_t> films);
+  void choose(const std::vector<std::size_t>& films);
   Solved solve(const SolverSettings& settings, double goal,
                int iterations);  // on the chosen, into displacements
   std::vector<std::size_t> closed_by_free_motion();
