@@ -52,6 +52,9 @@ struct Record {
     largest_residual = std::max(largest_residual, report.residual);
     largest_overlap = std::max(largest_overlap, report.largest_overlap);
     last_time = report.time;
+    // Beyond a million rows, 50 MB, every thousandth step and those that did not converge are enough.
+    constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
+    if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
     fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{}\n", step,
                    format_number(report.time), report.contacts, report.glued, report.iterations,
                    format_number(report.residual), format_number(report.largest_overlap),
@@ -197,7 +200,12 @@ void remove_other_frames(const fs::path& folder,
 }
 
 /// Refuses to write over what the run is made from.
-void check_inputs_stay(const ParticlesCase& c, const fs::path& folder) {
+void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
+  std::error_code none;
+  if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
+    throw_bad_input({restart.string()},
+                    "is of the run in the folder that is to be written, whose frames and record "
+                    "would be lost; choose another folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
     for (const auto* output : {"final_particles.csv", "final_contacts.csv", "steps.csv", "run.json",
@@ -219,7 +227,7 @@ void run_particles(const ParticlesRequest& request) {
   if (!request.restart.empty()) inputs.emplace_back(request.restart);
   const Provenance provenance = provenance_of({inputs, {}});
   const fs::path folder = request.folder;
-  check_inputs_stay(c, folder);
+  check_inputs_stay(c, request.restart, folder);
   Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
   make_folder(folder);
 
@@ -286,6 +294,9 @@ void run_particles(const ParticlesRequest& request) {
   if (record.unconverged > 0)
     warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerance {}",
                      record.unconverged, record.steps, c.setting.solver.tolerance));
+  if (interrupted())
+    say(fmt::format("particles: interrupted at t = {:.6g}; --restart {} goes on", record.last_time,
+                    (folder / "restart.bin").string()));
   throw_if_interrupted();
   if (record.unconverged > 0)
     throw Error(

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <map>
@@ -62,6 +63,13 @@ Setting box(int count) {
   return setting;
 }
 
+double kinetic_energy(const Particles& p) {
+  double energy = 0;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    energy += p.masses[k] * dot(p.velocity(k), p.velocity(k)) / 2;
+  return energy;
+}
+
 double cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -85,7 +93,8 @@ int main(int argc, char** argv) {
   int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
   double spent = 0, residual = 0, longest = 0;
   fmt::print(
-      "t          CPU ms/step  longest  iterations  contacts  glued  residual  not converged\n");
+      "t             CPU ms/step  longest  iterations  contacts  glued  residual  not converged  "
+      "kinetic energy\n");
   while (simulation.state().time < until * (1 - 1e-9)) {
     const double before = cpu_seconds();
     const auto report = simulation.step(until);
@@ -101,9 +110,12 @@ int main(int argc, char** argv) {
     all_unconverged += report.converged ? 0 : 1;
     worst_overlap = std::max(worst_overlap, report.largest_overlap);
     if (report.time >= shown + stretch * (1 - 1e-9) || report.time >= until * (1 - 1e-9)) {
-      fmt::print("{:4.2f}-{:5.2f}  {:10.3f}  {:7.2f}  {:10.1f}  {:8}  {:5}  {:.1e}  {}\n", shown,
-                 report.time, 1e3 * spent / steps, 1e3 * longest, double(iterations) / steps,
-                 report.contacts, report.glued, residual, unconverged);
+      fmt::print(
+          "{:6.2f}-{:6.2f}  {:10.3f}  {:7.2f}  {:10.1f}  {:8}  {:5}  {:.1e}  {:13}  {:.1e}\n",
+          shown, report.time, 1e3 * spent / steps, 1e3 * longest, double(iterations) / steps,
+          report.contacts, report.glued, residual, unconverged,
+          kinetic_energy(simulation.state().particles));
+      std::fflush(stdout);  // long runs are watched
       shown = report.time;
       spent = residual = longest = 0;
       steps = iterations = unconverged = 0;

@@ -164,6 +164,34 @@ TEST_F(ParticlesCommand, ARestartContinuesBitForBit) {
   EXPECT_DOUBLE_EQ(record["from_time"], 4.35);
 }
 
+TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
+  expect_done(run(put_case(replaced(kCase, "end_time = 10.0", "end_time = 4.35")), out()));
+  const auto before = files_below(out());
+  expect_refusal(run(put_case(kCase), out(), {"--restart", (out() / "restart.bin").string()}),
+                 ExitCode::kBadInput, HasSubstr("choose another folder"));
+  EXPECT_EQ(files_below(out()), before);
+}
+
+TEST_F(ParticlesCommand, InterruptedItKeepsWhatItHasAndARestartGoesOn) {
+  // Long enough that the interrupt comes in the middle of it: a hundred million steps are minutes.
+  const auto endless =
+      put_case(replaced(replaced(replaced(kCase, "time_step = 0.05", "time_step = 1e-7"),
+                                 "every = 0.5", "every = 10.0"),
+                        "tolerance = 1e-6", "tolerance = 1e-3"),
+               "long.toml");
+  const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
+                                     "(sleep 1; kill -INT $$) &");
+  EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kInterrupted)) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("goes on"));
+  const auto state = particles::read_restart(out() / "restart.bin");
+  EXPECT_GT(state.steps, 0);
+  EXPECT_LT(state.time, 10);
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  EXPECT_EQ(record["to_time"], state.time);
+  EXPECT_THAT(read_file(out() / "particles.pvd"), HasSubstr("particles_00000.vtp"));
+  expect_done(run(put_case(kCase), out("rest"), {"--restart", (out() / "restart.bin").string()}));
+}
+
 TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   expect_done(run(put_case(kCase), out()));
   const auto restart = (out() / "restart.bin").string();
