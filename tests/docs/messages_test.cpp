@@ -20,8 +20,8 @@ std::string all_texts() {
   static const std::regex text("\"((?:[^\"\\\\\n]|\\\\.)*)\"");
   static const std::regex space("\\s*");
   std::string texts;
-  for (const char* folder :
-       {"app", "case_file", "common", "fitting", "freefem_axi", "reduced_model", "sweep"})
+  for (const char* folder : {"app", "case_file", "common", "fitting", "freefem_axi",
+                             "reduced_model", "particles", "sweep"})
     for (const auto& entry : fs::directory_iterator(kSource / folder)) {
       if (!entry.is_regular_file()) continue;
       const std::string source = read_file(entry.path());
