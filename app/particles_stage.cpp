@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -82,8 +82,9 @@ class Frames {
     keep(simulation, std::move(contacts));
   }
 
-  /// The last state is always among those that are drawn.
+  /// The last state is always among them.
   void end(const Simulation& simulation) {
+    if (files_.back().first < simulation.state().time) add(simulation);
     if (playback_.frames.back().time < simulation.state().time)
       keep(simulation, particles::contacts_of(simulation.setting(), simulation.state()));
   }
@@ -183,20 +184,34 @@ nlohmann::ordered_json record_of(const ParticlesCase& c, const Record& record,
   return json;
 }
 
-/// Frames that an earlier, longer run left behind.
-void remove_other_frames(const fs::path& folder,
-                         const std::vector<std::pair<double, std::string>>& files) {
-  std::set<std::string> ours;
-  for (const auto& [time, name] : files) ours.insert(name);
+constexpr const char* kResults[] = {
+    "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
+    "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
+
+/// A frame that we wrote, by its name and its first lines.
+bool is_our_frame(const fs::path& path) {
   constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename();
-    if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || ours.contains(name)) continue;
-    const auto digits =
-        std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
-    if (!digits.empty() && std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; }))
-      fs::remove(entry.path());
-  }
+  constexpr std::size_t kDigits = 5;
+  const std::string name = path.filename();
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
+      name.size() < kBegin.size() + kDigits + kEnd.size())
+    return false;
+  const auto digits =
+      std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  if (!std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; })) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  return std::getline(file, line) && line.starts_with("<!-- provenance: ");
+}
+
+/// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
+void remove_earlier_run(const fs::path& folder) {
+  for (const auto* name : kResults) fs::remove(folder / name);
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_our_frame(entry.path())) frames.push_back(entry.path());
+  for (const auto& frame : frames) fs::remove(frame);
 }
 
 /// Refuses to write over what the run is made from.
@@ -208,8 +223,7 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
                     "would be lost; choose another folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
-    for (const auto* output : {"final_particles.csv", "final_contacts.csv", "steps.csv", "run.json",
-                               "particles.html", "particles.svg", "particles.pvd"}) {
+    for (const auto* output : kResults) {
       std::error_code ignored;
       if (fs::equivalent(input, folder / output, ignored))
         throw_bad_input({input.string()}, "would be written over by the run's " +
@@ -218,72 +232,97 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
   }
 }
 
-}  // namespace
-
-void run_particles(const ParticlesRequest& request) {
-  const ParticlesCase c = read_particles_case(request.case_file);
-  std::vector<fs::path> inputs = {c.path};
-  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
-  if (!request.restart.empty()) inputs.emplace_back(request.restart);
-  const Provenance provenance = provenance_of({inputs, {}});
-  const fs::path folder = request.folder;
-  check_inputs_stay(c, request.restart, folder);
-  Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
-  make_folder(folder);
-
-  const auto begin = Clock::now();
-  auto last_word = begin, last_saved = begin;
-  const auto seconds_since = [](Clock::time_point time) {
-    return std::chrono::duration<double>(Clock::now() - time).count();
-  };
-  const auto save = [&] {
-    write_output(folder / "restart.bin", TextKind::kHashComment,
-                 particles::write_restart(simulation.state()), provenance);
-    last_saved = Clock::now();
-  };
-  Record record;
-  record.first_time = record.last_time = simulation.state().time;
-  Frames frames(folder, provenance, simulation.state().particles);
-  frames.add(simulation);
-  double next_frame = record.first_time + c.frame_interval;
-  // Times that differ by rounding are equal.
-  const double tiny = 1e-6 * c.setting.time_step;
-  while (simulation.state().time < c.end_time - tiny && !interrupted()) {
-    const auto report = simulation.step(c.end_time);
-    record.add(simulation.state().steps, report);
-    const bool last = report.time >= c.end_time - tiny;
-    if (report.time >= next_frame - tiny || last) {
-      frames.add(simulation);
-      while (next_frame <= report.time + tiny) next_frame += c.frame_interval;
-    }
-    constexpr double kWordsEvery = 0.2, kSaveEvery = 60;  // seconds
-    if (seconds_since(last_word) > kWordsEvery) {
-      show_progress(fmt::format(
-          "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
-          c.end_time, report.contacts, report.iterations, seconds_since(begin)));
-      last_word = Clock::now();
-    }
-    if (seconds_since(last_saved) > kSaveEvery) save();
+/// A run on its way: everything in it is there to be written at any time.
+class Run {
+ public:
+  Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance)
+      : case_(c),
+        simulation_(simulation),
+        folder_(std::move(folder)),
+        provenance_(provenance),
+        frames_(folder_, provenance, simulation.state().particles) {
+    record_.first_time = record_.last_time = simulation_.state().time;
   }
-  clear_progress();
-  frames.end(simulation);
-  save();
-  const auto& state = simulation.state();
-  const auto write = [&](const char* name, TextKind kind, const std::string& text) {
-    write_output(folder / name, kind, text, provenance);
-  };
-  write("particles.pvd", TextKind::kXml, particles::write_pvd(frames.files()));
-  remove_other_frames(folder, frames.files());
-  write("final_particles.csv", TextKind::kHashComment, particles::write_particles(state.particles));
-  write("final_contacts.csv", TextKind::kHashComment,
-        particles::write_contacts(particles::contacts_of(c.setting, state)));
-  write("steps.csv", TextKind::kHashComment, record.rows);
-  constexpr int kPanels = 4;
-  write("particles.html", TextKind::kHtml, particles_page(frames.playback(), c.title));
-  write("particles.svg", TextKind::kSvg, particles_picture(frames.playback(), c.title, kPanels));
-  const auto json = record_of(c, record, simulation, seconds_since(begin)).dump(2) + "\n";
-  write("run.json", TextKind::kJson, json);
-  if (request.json) fmt::print("{}", json);
+
+  /// To the end, or until it is interrupted.
+  void simulate() {
+    frames_.add(simulation_);
+    save();
+    // Times that differ by rounding are equal.
+    const double tiny = 1e-6 * case_.setting.time_step;
+    const double every = std::max(case_.frame_interval, case_.setting.time_step);
+    double next_frame = record_.first_time + every;
+    while (simulation_.state().time < case_.end_time - tiny && !interrupted()) {
+      const auto report = simulation_.step(case_.end_time);
+      record_.add(simulation_.state().steps, report);
+      if (report.time >= next_frame - tiny) {
+        frames_.add(simulation_);
+        next_frame = record_.first_time +
+                     (std::floor((report.time + tiny - record_.first_time) / every) + 1) * every;
+      }
+      tell(report);
+      constexpr double kSaveEvery = 60;  // seconds
+      if (seconds_since(last_saved_) > kSaveEvery) save();
+    }
+  }
+
+  /// All that there is to see and to go on from. Returns the record.
+  std::string write_results() {
+    clear_progress();
+    frames_.end(simulation_);
+    save();
+    const auto& state = simulation_.state();
+    write("final_particles.csv", TextKind::kHashComment,
+          particles::write_particles(state.particles));
+    write("final_contacts.csv", TextKind::kHashComment,
+          particles::write_contacts(particles::contacts_of(case_.setting, state)));
+    constexpr int kPanels = 4;
+    write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
+    write("particles.svg", TextKind::kSvg,
+          particles_picture(frames_.playback(), case_.title, kPanels));
+    const auto json = record_of(case_, record_, simulation_, seconds_since(begin_)).dump(2) + "\n";
+    write("run.json", TextKind::kJson, json);
+    return json;
+  }
+
+  const Record& record() const { return record_; }
+
+ private:
+  static double seconds_since(Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  }
+  void write(const char* name, TextKind kind, const std::string& text) const {
+    write_output(folder_ / name, kind, text, provenance_);
+  }
+
+  /// What a killed run is gone on from, and the frames so far.
+  void save() {
+    write("restart.bin", TextKind::kHashComment, particles::write_restart(simulation_.state()));
+    write("particles.pvd", TextKind::kXml, particles::write_pvd(frames_.files()));
+    write("steps.csv", TextKind::kHashComment, record_.rows);
+    last_saved_ = Clock::now();
+  }
+
+  void tell(const StepReport& report) {
+    constexpr double kEvery = 0.2;  // seconds
+    if (seconds_since(last_word_) < kEvery) return;
+    show_progress(fmt::format(
+        "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
+        case_.end_time, report.contacts, report.iterations, seconds_since(begin_)));
+    last_word_ = Clock::now();
+  }
+
+  const ParticlesCase& case_;
+  Simulation& simulation_;
+  fs::path folder_;
+  const Provenance& provenance_;
+  Frames frames_;
+  Record record_;
+  Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
+};
+
+/// The last words on a run that was written. Throws if it was interrupted or has a step that did not converge.
+void judge(const ParticlesCase& c, const Record& record, const fs::path& folder) {
   say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -299,13 +338,39 @@ void run_particles(const ParticlesRequest& request) {
                     (folder / "restart.bin").string()));
   throw_if_interrupted();
   if (record.unconverged > 0)
-    throw Error(
-        ExitCode::kNotConverged,
-        fmt::format(
-            "{}: {} of {} steps have a residual up to {:.2g}, not {}; all is written, steps.csv "
-            "says which; raise solver.max_iterations or solver.tolerance",
-            c.path.string(), record.unconverged, record.steps, record.largest_residual,
-            c.setting.solver.tolerance));
+    throw Error(ExitCode::kNotConverged,
+                fmt::format("{}: {} of {} steps have a residual up to {:.2g}, not {}; all is "
+                            "written, steps.csv says which; raise solver.max_iterations or "
+                            "solver.tolerance, or do walls leave too little room?",
+                            c.path.string(), record.unconverged, record.steps,
+                            record.largest_residual, c.setting.solver.tolerance));
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  const ParticlesCase c = read_particles_case(request.case_file);
+  std::vector<fs::path> inputs = {c.path};
+  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
+  if (!request.restart.empty()) inputs.emplace_back(request.restart);
+  const Provenance provenance = provenance_of({inputs, {}});
+  const fs::path folder = request.folder;
+  check_inputs_stay(c, request.restart, folder);
+  Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
+  make_folder(folder);
+  remove_earlier_run(folder);
+
+  Run run(c, simulation, folder, provenance);
+  try {
+    run.simulate();
+  } catch (const Error&) {
+    // A step that cannot be computed left the state before it: that is kept, too.
+    run.write_results();
+    throw;
+  }
+  const auto json = run.write_results();
+  if (request.json) fmt::print("{}", json);
+  judge(c, run.record(), folder);
 }
 
 }  // namespace viscontact

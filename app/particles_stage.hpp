@@ -12,7 +12,8 @@ struct ParticlesRequest {
 };
 
 /// Reads the case, simulates, and writes into the folder what docs/interfaces.md says. Throws Error(kBadInput) for a bad case or restart file before
-/// anything is written; Error(kNotConverged) once all is written if a step did not reach the tolerance; Error(kInterrupted), too.
+/// anything is written; once all is written, Error(kNotConverged) if a step did not reach the tolerance or cannot be computed, Error(kInterrupted). What an earlier run left in
+/// the folder is gone from the beginning.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact

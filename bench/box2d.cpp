@@ -1,6 +1,6 @@
-// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--threads N] [--method NAME]
+// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--threads N] [--method NAME] [--print STRETCH]
 // Discs on a lattice of spacing 2.1 in a box of width 2.1 ceil(sqrt N) with floor and two walls, jitter +-0.05, radii 0.8 to 1, m = r^2, g = 1,
-// h = 0.05, gamma_min = -2; prints CPU time, iterations, residual and memory by stretches of time, the projection and all else.
+// h = 0.05, gamma_min = -2; prints CPU time, iterations, residual and memory by stretches of time.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -83,7 +83,13 @@ int main(int argc, char** argv) {
       {"--count", "1000"},     {"--until", "10"},  {"--max-iterations", "10000"},
       {"--tolerance", "1e-6"}, {"--threads", "1"}, {"--method", "conjugate_gradients"},
       {"--print", "2.5"}};
-  for (int i = 1; i + 1 < argc; i += 2) o[argv[i]] = argv[i + 1];
+  for (int i = 1; i < argc; i += 2) {
+    if (!o.contains(argv[i]) || i + 1 == argc) {
+      fmt::print(stderr, "box2d: no option '{}', or no value\n", argv[i]);
+      return 2;
+    }
+    o[argv[i]] = argv[i + 1];
+  }
   const int count = std::stoi(o["--count"]);
   auto setting = box(count);
   setting.solver = {std::stod(o["--tolerance"]), std::stoi(o["--max-iterations"]), o["--method"]};

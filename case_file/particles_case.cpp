@@ -27,8 +27,8 @@ using particles::operator*;
 constexpr double kLargest = 1e100;
 constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargest; },
                                "at most 1e100 in magnitude"};
-constexpr Allowed kModeratelyPositive = {[](double v) { return v > 0 && v <= kLargest; },
-                                         "> 0 and at most 1e100"};
+constexpr Allowed kModeratelyPositive = {
+    [](double v) { return v >= 1 / kLargest && v <= kLargest; }, "from 1e-100 to 1e100"};
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
@@ -46,16 +46,15 @@ Vector read_vector(const TomlSection& section, std::string_view key, int dimensi
 History read_history(const TomlSection& section, std::string_view key, int dimension,
                      double end_time) {
   History history;
-  std::optional<std::vector<TomlSection>> pieces;
-  try {
-    pieces = section.sections(key);
-  } catch (const Error&) {
+  if (!section.is_array_of_tables(key)) {
+    if (section.has(key) && !section.is_array(key))
+      section.fail(key, "must be a list of numbers, or a list of pieces { until, value }");
     history.pieces.push_back(
         {std::numeric_limits<double>::max(), read_vector(section, key, dimension)});
     return history;
   }
   double before = 0;
-  for (const auto& piece : *pieces) {
+  for (const auto& piece : section.sections(key)) {
     const double until = piece.number("until", kPositive);
     if (!(until > before))
       piece.fail("until", fmt::format("is {}; must be after the piece before, {}", until, before));
@@ -95,6 +94,8 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
     plane.angular_velocity = dimension == 2
                                  ? Vector{0, 0, section.number("angular_velocity", kModerate)}
                                  : read_vector(section, "angular_velocity", dimension);
+  else if (section.has("pivot"))
+    section.fail("pivot", "is for a plane with an angular_velocity; there is none");
   plane.pivot = section.has("pivot") ? read_vector(section, "pivot", dimension) : plane.start.point;
   section.finish();
   return plane;
@@ -133,7 +134,23 @@ class Names {
 
 void check_start(const ParticlesCase& c, const Names& names) {
   const auto& p = c.particles;
-  const double allowed = c.setting.solver.tolerance * particles::mean_radius(p);
+  const double tolerance = c.setting.solver.tolerance;
+  const double allowed = tolerance * particles::mean_radius(p);
+  const auto smallest =
+      static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
+  if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
+    throw_bad_input(names.at(smallest),
+                    fmt::format("{} is too small for solver.tolerance, {}: that times the mean "
+                                "radius is {:.3g}, and must be at most a hundredth of each radius",
+                                names(smallest), tolerance, allowed));
+  const double farthest = particles::farthest(tolerance, particles::mean_radius(p));
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (const double x : p.position(k))
+      if (std::abs(x) > farthest)
+        throw_bad_input(names.at(k),
+                        fmt::format("{} is too far from the origin for its gaps to be known to "
+                                    "solver.tolerance: at most {:.3g}",
+                                    names(k), farthest));
   particles::Team team(1);
   for (const auto& [first, second] :
        particles::close_pairs(p.dimension, p.positions, p.radii, team)) {
@@ -223,7 +240,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
   c.frame_interval = c.end_time / 100;
   if (root.has("output")) {
     const auto output = root.section("output");
-    c.frame_interval = output.number("every", kModeratelyPositive);
+    if (output.has("every")) c.frame_interval = output.number("every", kModeratelyPositive);
     output.finish();
   }
   if (root.has("plane"))
@@ -250,6 +267,9 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
           section.number("mass", kModeratelyPositive));
       section.finish();
     }
+  if (c.particles.count() == 0 && !c.particles_file.empty())
+    throw_bad_input({c.particles_file.string()},
+                    "has no particle; a row each after the header line");
   if (c.particles.count() == 0)
     throw_bad_input({path.string()},
                     "has no particle; name a file in [particles] or add a [[particle]]");

@@ -16,12 +16,13 @@ struct ParticlesCase {
   particles::Setting setting;
   particles::Particles particles;        ///< those of the CSV file, then those of the tables
   std::filesystem::path particles_file;  ///< empty: none
-  double end_time = 0;                   ///< [T]
-  double frame_interval = 0;             ///< [T]
+  double end_time = 0;                   ///< [T], > 0
+  double frame_interval = 0;             ///< [T], > 0
 };
 
 /// Reads and checks it. Throws Error(kBadInput) with file, line, key, value and what is allowed: among others for no particle, two that overlap or one
-/// on the wrong side of a plane at the start, by more than solver.tolerance mean radii.
+/// on the wrong side of a plane at the start, by more than solver.tolerance mean radii; a particle smaller than a hundred times that, or further away than
+/// particles::farthest.
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 }  // namespace viscontact

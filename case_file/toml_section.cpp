@@ -102,6 +102,12 @@ bool TomlSection::is_array(std::string_view key) const {
   return has(key) && node_->table->get(key)->is_array();
 }
 
+bool TomlSection::is_array_of_tables(std::string_view key) const {
+  if (!is_array(key)) return false;
+  const auto* array = node_->table->get(key)->as_array();
+  return !array->empty() && array->front().is_table();
+}
+
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   if (!has(key)) fail(key, fmt::format("is missing; must be a number {}", allowed.words));
   const auto* node = node_->table->get(key);

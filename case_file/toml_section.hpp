@@ -30,6 +30,9 @@ class TomlSection {
   bool is_text(std::string_view key) const;   ///< the key is there and holds text
   bool is_array(std::string_view key) const;  ///< the key is there and holds an array
 
+  /// The key holds an array whose first element is a table.
+  bool is_array_of_tables(std::string_view key) const;
+
   double number(std::string_view key, const Allowed& allowed) const;
   int count(std::string_view key, int least, int most) const;  ///< a whole number in [least, most]
   std::string text(std::string_view key) const;

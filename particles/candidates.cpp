@@ -9,12 +9,6 @@
 namespace viscontact::particles {
 namespace {
 
-double squared_norm(const double* a, int dimension) {
-  double square = 0;
-  for (int d = 0; d < dimension; ++d) square += a[d] * a[d];
-  return square;
-}
-
 auto place_of(const Film& film) { return std::tuple(film.first, film.second); }
 
 struct All {
@@ -25,42 +19,64 @@ struct All {
   }
 };
 
+/// Sum of vectors, of a mean.
+struct VectorSum {
+  Vector value{};
+  VectorSum& operator+=(const VectorSum& other) {
+    value = value + other.value;
+    return *this;
+  }
+};
+
+/// The mean over the particles of what `vector(k)` returns.
+template <class Of>
+Vector mean_of(std::size_t count, Team& team, const Of& vector) {
+  const auto sum = team.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
+    VectorSum part;
+    for (std::size_t k = begin; k < end; ++k) part.value = part.value + vector(k);
+    return part;
+  });
+  return (1 / static_cast<double>(count)) * sum.value;
+}
+
 }  // namespace
 
 bool list_holds(const State& state, std::span<const double> displacements, Team& team) {
   const auto& p = state.particles;
   if (state.listed_positions.empty()) return p.count() == 0;
-  const auto d = static_cast<std::size_t>(p.dimension);
+  const auto moved = [&](std::size_t k) {
+    return p.position(k) + point_of(displacements.data(), k, p.dimension) -
+           point_of(state.listed_positions.data(), k, p.dimension);
+  };
+  const Vector common = mean_of(p.count(), team, moved);
   return team
-      .sum_of_blocks<All>(
-          p.count(),
-          [&](std::size_t begin, std::size_t end) {
-            All all;
-            for (std::size_t k = begin; k < end; ++k) {
-              double square = 0;
-              for (std::size_t i = k * d; i < k * d + d; ++i) {
-                const double moved = p.positions[i] + displacements[i] - state.listed_positions[i];
-                square += moved * moved;
-              }
-              all.value = all.value && square <= state.reaches[k] * state.reaches[k];
-            }
-            return all;
-          })
+      .sum_of_blocks<All>(p.count(),
+                          [&](std::size_t begin, std::size_t end) {
+                            All all;
+                            for (std::size_t k = begin; k < end; ++k) {
+                              const Vector apart = moved(k) - common;
+                              all.value = all.value &&
+                                          dot(apart, apart) <= state.reaches[k] * state.reaches[k];
+                            }
+                            return all;
+                          })
       .value;
 }
 
 void make_list(State& state, std::span<const double> displacements, Team& team) {
   const auto& p = state.particles;
-  const auto d = static_cast<std::size_t>(p.dimension);
   // Measured on box2d: shorter reaches make the list too often, longer ones make it long.
   constexpr double kOfRadius = 0.25, kSteps = 3;
+  const auto displacement = [&](std::size_t k) {
+    return point_of(displacements.data(), k, p.dimension);
+  };
+  const Vector common = mean_of(p.count(), team, displacement);
   state.listed_positions = p.positions;
-  state.reaches.resize(p.count());
+  state.reaches.resize(p.count(), 0.0);
   std::vector<double> extents(p.count());
   for (std::size_t k = 0; k < p.count(); ++k) {
-    state.reaches[k] =
-        std::max(kOfRadius * p.radii[k],
-                 kSteps * std::sqrt(squared_norm(&displacements[k * d], p.dimension)));
+    state.reaches[k] = std::max(
+        {state.reaches[k], kOfRadius * p.radii[k], kSteps * norm(displacement(k) - common)});
     extents[k] = p.radii[k] + state.reaches[k];
   }
   const auto close = close_pairs(p.dimension, p.positions, extents, team);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "common/csv.hpp"
 #include "common/error.hpp"
@@ -21,13 +23,35 @@ const std::array<std::string, 8> kSpheres = {"x", "y", "z", "radius", "mass", "v
 double allowed(const CsvRow<8>& row, const std::array<std::string, 8>& names, std::size_t column,
                bool positive, const std::string& file) {
   const double value = required_field(row, names, column, file);
-  constexpr double kLargest = 1e100;  // squares and cubes of it are finite
-  if (positive && !(value > 0))
-    throw_bad_input({file, row.line}, fmt::format("{} is {}; must be > 0", names[column], value));
+  constexpr double kLargest = 1e100;  // squares and cubes of it, and of its inverse, are numbers
+  if (positive && !(value >= 1 / kLargest))
+    throw_bad_input({file, row.line},
+                    fmt::format("{} is {}; must be > 0, at least 1e-100", names[column], value));
   if (!(std::abs(value) <= kLargest))
     throw_bad_input({file, row.line}, fmt::format("{} is {}; must be at most {} in magnitude",
                                                   names[column], value, kLargest));
   return value;
+}
+
+/// Columns that are no particles' would be passed over, as velocities that are misspelt: refused.
+void check_header(const std::filesystem::path& path, bool discs) {
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line) && (line.empty() || line[0] == '#')) {
+  }
+  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+  std::size_t velocities = 0;
+  std::istringstream columns(line);
+  for (std::string name; std::getline(columns, name, ',');) {
+    const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
+    name = first == std::string::npos ? "" : name.substr(first, last - first + 1);
+    if (name != "id" && std::ranges::find(kDiscs, name) == kDiscs.end())
+      throw_bad_input({path.string()}, "has a column '" + shortened(name) +
+                                           "'; columns are id, x, y, z, vx, vy, vz, radius, mass");
+    if (name.starts_with('v')) ++velocities;
+  }
+  if (velocities != 0 && velocities != (discs ? 2U : 3U) && !(discs && velocities == 3))
+    throw_bad_input({path.string()}, "has some columns of velocities, not all");
 }
 
 }  // namespace
@@ -37,6 +61,7 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension) {
   const auto& names = discs ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
   const auto csv = read_csv(path, names, d + 2);
+  check_header(path, discs);
   const std::string file = path.string();
   if (csv.rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", csv.rows.size(),

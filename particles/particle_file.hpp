@@ -17,7 +17,7 @@ struct ParticleFile {
 };
 
 /// Reads columns x,y[,z],radius,mass and, if they are there (else at rest), vx,vy[,vz]; a file of final particles is one too. Throws Error(kBadInput)
-/// with file and line for what read_csv refuses, a column of the third dimension for discs, a radius or mass that is not > 0, a number beyond 1e100,
+/// with file and line for what read_csv refuses, a column of the third dimension for discs, another column but `id`, some but not all velocities, a radius or mass below 1e-100, a number beyond 1e100,
 /// more than 2^31 - 1 particles.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension);
 

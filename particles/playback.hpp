@@ -17,6 +17,7 @@ struct Frame {
   std::vector<ContactNow> contacts;  ///< glued (gamma < 0) or touching
 };
 
+/// What a page or a picture shows.
 struct Playback {
   int dimension = 2;
   std::vector<float> radii;   ///< [L]

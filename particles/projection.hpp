@@ -14,6 +14,7 @@ struct SolverSettings {
   std::string_view method = "conjugate_gradients";  ///< a name in kSolverMethods
 };
 
+/// How far a method came.
 struct Solved {
   int iterations = 0;
   double violation = 0;  ///< largest over the contacts [L]: ContactGraph::violation
@@ -39,6 +40,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
 template <int D>
 Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations);
 
+/// A method by its name in case files.
 struct SolverMethodRow {
   std::string_view name;
   SolverMethod<2> discs;

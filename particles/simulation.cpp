@@ -25,26 +25,41 @@ struct Simulation::Work {
 
 namespace {
 
-/// The particles that may touch a plane in this step, its place that of the step's end. The reaches bound how far they go: list_holds.
-void find_walls(State& state, std::span<const PlanePlace> planes) {
+/// Films, put together in order.
+struct Films {
+  std::vector<Film> values;
+  Films& operator+=(const Films& other) {
+    values.insert(values.end(), other.values.begin(), other.values.end());
+    return *this;
+  }
+};
+
+/// The particles within `margin` of a plane, its place that of the step's end, and those that its films hold.
+void find_walls(State& state, std::span<const PlanePlace> planes, double margin, Team& team) {
   const auto& p = state.particles;
-  std::vector<Film> walls;
-  auto old = state.walls.begin();
+  Films walls;
   for (std::size_t w = 0; w < planes.size(); ++w) {
     const auto plane = -1 - static_cast<std::int32_t>(w);
     const auto& place = planes[w];
-    const auto known_until = [&](std::int32_t particle) {
-      return old != state.walls.end() && old->first == plane && old->second == particle;
-    };
-    for (std::size_t k = 0; k < p.count(); ++k) {
-      const auto particle = static_cast<std::int32_t>(k);
-      const bool known = known_until(particle);
-      if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < 2 * state.reaches[k])
-        walls.push_back(known ? *old : Film{plane, particle});
-      if (known) ++old;
-    }
+    walls += team.sum_of_blocks<Films>(p.count(), [&](std::size_t begin, std::size_t end) {
+      Films films;
+      // Planes are in falling order of their numbers.
+      auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
+        return film.first > plane ||
+               (film.first == plane && film.second < static_cast<std::int32_t>(begin));
+      });
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto particle = static_cast<std::int32_t>(k);
+        const bool known =
+            old != state.walls.end() && old->first == plane && old->second == particle;
+        if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < margin)
+          films.values.push_back(known ? *old : Film{plane, particle});
+        if (known) ++old;
+      }
+      return films;
+    });
   }
-  state.walls = std::move(walls);
+  state.walls = std::move(walls.values);
 }
 
 /// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. Returns how many films hold.
@@ -63,31 +78,27 @@ std::size_t remember(const Particles& p, const std::vector<Film*>& films, const 
   return glued;
 }
 
-/// Of each particle the longer of two displacements, into `longest`: reaches that only grow end the search for a list that holds.
-template <int D>
-void keep_longer(std::vector<double>& longest, const std::vector<double>& other) {
-  const auto square = [](const double* a) {
-    double sum = 0;
-    for (std::size_t d = 0; d < D; ++d) sum += a[d] * a[d];
-    return sum;
-  };
-  for (std::size_t k = 0; k < longest.size(); k += D)
-    if (square(&other[k]) > square(&longest[k])) std::copy_n(&other[k], D, &longest[k]);
-}
-
-void check_displacement(const Particles& p, const std::vector<double>& displacements, std::size_t k,
-                        double time) {
-  // Squares of distances, and products of many, must be finite too.
-  constexpr double kLargest = 1e120;
-  const auto d = static_cast<std::size_t>(p.dimension);
-  for (std::size_t i = k * d; i < k * d + d; ++i)
-    if (!(std::abs(displacements[i]) < kLargest && std::abs(p.positions[i]) < kLargest))
+/// The length of a particle's displacement. Throws if it, or where the particle is, is beyond `largest`.
+double checked_length(const Particles& p, const std::vector<double>& displacements, std::size_t k,
+                      double largest, double time) {
+  const Vector x = p.position(k), w = point_of(displacements.data(), k, p.dimension);
+  for (std::size_t d = 0; d < 3; ++d)
+    if (!(std::abs(x[d]) <= largest && std::abs(w[d]) <= largest))
       throw Error(ExitCode::kNotConverged,
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
                               "what can be computed with; are its forces, the walls and the time "
                               "step as they should be?",
-                              k, p.positions[i], displacements[i], time));
+                              k, x[d], w[d], time));
+  return norm(w);
 }
+
+struct Longest {
+  double value = 0;
+  Longest& operator+=(const Longest& other) {
+    value = std::max(value, other.value);
+    return *this;
+  }
+};
 
 }  // namespace
 
@@ -150,27 +161,38 @@ StepReport Simulation::step_of(double end) {
   move_freely<D>(h, next);
   auto& displacements = work_->displacements;
   auto& team = work_->team;
-  for (std::size_t k = 0; k < state_.particles.count(); ++k)
-    check_displacement(state_.particles, displacements, k, next);
+  const double largest = farthest(setting_.solver.tolerance, mean_radius_);
+  // How far a particle may go in this step, at least: those that are further from a plane do not meet it.
+  const auto longest_of = [&](std::size_t first, std::size_t last) {
+    Longest longest;
+    for (std::size_t k = first; k < last; ++k)
+      longest.value = std::max(longest.value,
+                               checked_length(state_.particles, displacements, k, largest, next));
+    return longest;
+  };
+  double margin = team.sum_of_blocks<Longest>(state_.particles.count(), longest_of).value;
+  margin = std::max(2 * margin, mean_radius_ / 4);
   std::vector<PlanePlace> planes;
   for (const auto& plane : setting_.planes) planes.push_back(plane.at(next));
 
-  if (!list_holds(state_, displacements, team)) make_list(state_, displacements, team);
-  const auto project = [&] {
-    find_walls(state_, planes);
-    auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
-                         .solve(setting_.solver, mean_radius_);
+  if (!list_holds(state_, displacements, team)) {
+    state_.reaches.clear();
+    make_list(state_, displacements, team);
+  }
+  Projected projected;
+  for (;;) {
+    find_walls(state_, planes, margin, team);
+    projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
+                    .solve(setting_.solver, mean_radius_);
+    double gone = 0;
     for (const auto body : projected.bodies)
-      check_displacement(state_.particles, displacements, static_cast<std::size_t>(body), next);
-    return projected;
-  };
-  auto projected = project();
-  for (auto longest = displacements; !list_holds(state_, displacements, team);) {
-    // Impulses threw particles further than the list looked.
-    keep_longer<D>(longest, displacements);
-    make_list(state_, longest, team);
+      gone = std::max(gone, checked_length(state_.particles, displacements,
+                                           static_cast<std::size_t>(body), largest, next));
+    if (gone <= margin && list_holds(state_, displacements, team)) break;
+    // Impulses threw particles further than was looked. Reaches and margin only grow, which ends this.
+    margin = std::max(margin, 2 * gone);
+    make_list(state_, displacements, team);
     move_freely<D>(h, next);
-    projected = project();
   }
   StepReport report;
   report.glued = remember(state_.particles, projected.films, setting_.law);
@@ -188,6 +210,12 @@ StepReport Simulation::step_of(double end) {
   report.converged = report.residual <= setting_.solver.tolerance;
   report.largest_overlap = (0 - projected.smallest_gap) / mean_radius_;
   return report;
+}
+
+double farthest(double tolerance, double mean_radius) {
+  // Squares of distances must be finite, and positions finer than the gaps that are asked for.
+  constexpr double kFinite = 1e120;
+  return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
 }
 
 double largest_overlap(const Setting& setting, const State& state) {

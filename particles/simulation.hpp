@@ -1,6 +1,7 @@
 // Many particles with viscous contact.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -14,7 +15,7 @@
 
 namespace viscontact::particles {
 
-/// What moves the particles, and how it is computed.
+/// What moves the particles, and how it is computed: as a case file has it (case_file/particles_case.hpp checks it); forces name particles that are there.
 struct Setting {
   std::vector<Plane> planes;
   Vector gravity{};                        ///< [L/T^2]
@@ -73,6 +74,10 @@ class Simulation {
   double mean_radius_;
   std::unique_ptr<Work> work_;
 };
+
+/// How far from the origin a particle may be, and how far it may go in a step [L]: beyond, double precision does not hold its gaps to the tolerance (of
+/// SolverSettings).
+double farthest(double tolerance, double mean_radius);
 
 /// Largest overlap of two particles, or of one and a plane, over the mean radius; 0 if there is none.
 double largest_overlap(const Setting& setting, const State& state);

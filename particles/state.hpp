@@ -17,6 +17,7 @@ struct Film {
   bool operator==(const Film&) const = default;
 };
 
+/// To begin with: particles, all else as it is.
 struct State {
   Particles particles;
   double time = 0;         ///< [T]

@@ -1,7 +1,11 @@
 #include "particles/team.hpp"
 
 #include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 namespace viscontact::particles {
 
@@ -15,9 +19,18 @@ struct Team::Workers {
   bool stop = false;                 // read after `round`
   std::vector<std::thread> threads;
 
+  std::mutex failing;
+  std::exception_ptr failure;  // the first of a loop
+
   void work() {
-    for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1))
-      call(job, block);
+    for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1)) {
+      try {
+        call(job, block);
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        if (!failure) failure = std::current_exception();
+      }
+    }
   }
 
   void serve() {
@@ -37,8 +50,13 @@ struct Team::Workers {
 Team::Team(int threads) {
   if (threads <= 1) return;
   workers_ = std::make_unique<Workers>();
-  for (int i = 1; i < threads; ++i)
-    workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
+  workers_->threads.reserve(static_cast<std::size_t>(threads));
+  try {
+    for (int i = 1; i < threads; ++i)
+      workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
+  } catch (const std::system_error&) {
+    // The system gives no more: those that are there do the work, with the same result.
+  }
 }
 
 Team::~Team() {
@@ -64,6 +82,7 @@ void Team::run(std::size_t blocks, void (*call)(const void*, std::size_t), const
   w.round.notify_all();
   w.work();
   for (int busy = w.busy.load(); busy != 0; busy = w.busy.load()) w.busy.wait(busy);
+  if (w.failure) std::rethrow_exception(std::exchange(w.failure, nullptr));
 }
 
 }  // namespace viscontact::particles

@@ -13,7 +13,7 @@ namespace viscontact::particles {
 /// return is added in their order: the same bits for any number of threads.
 class Team {
  public:
-  /// `threads` >= 1, the caller's included. Workers sleep between loops.
+  /// `threads` >= 1, the caller's included; fewer if the system gives no more. Workers sleep between loops.
   explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
@@ -22,7 +22,7 @@ class Team {
   /// About a tenth of a millisecond of work in the loops of a projection: below, waking a thread costs more than it brings.
   static constexpr std::size_t kBlock = 16384;
 
-  /// body(begin, end) for each block of [0, count).
+  /// body(begin, end) for each block of [0, count). Throws what a body threw, once all have ended.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
