@@ -181,7 +181,7 @@ TEST_F(FirstSteps, ManualHasEveryCommandAndOptionOfHelp) {
          one != std::sregex_iterator(); ++one)
       EXPECT_THAT(part, HasSubstr(std::regex_replace(one->str(), std::regex("-"), "\\-"))) << name;
   }
-  EXPECT_EQ(count, 14);
+  EXPECT_EQ(count, 15);
   EXPECT_THAT(manual, AllOf(HasSubstr(".SH EXIT STATUS"), HasSubstr("NO_COLOR")));
 }
 
