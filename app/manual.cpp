@@ -15,7 +15,9 @@ constexpr std::array kExitCodes = {
     std::pair("3", "bad input: a file, a value in it"),
     std::pair("4", "a computation did not converge, or memory ran out"),
     std::pair("5", "FreeFEM or gnuplot failed or is missing"),
-    std::pair("130", "interrupted; what was finished is kept, the same command goes on (particles: from restart.bin)"),
+    std::pair("130",
+              "interrupted; what was finished is kept, the same command goes on (particles: from "
+              "restart.bin)"),
 };
 
 constexpr std::array kEnvironment = {

@@ -39,8 +39,9 @@ std::string change_of(const InputFile& input, const fs::path& folder) {
 
 /// Only what writes files: not a rerun of itself, and nothing that another file may make us do.
 void check_command(const std::string& file, const std::vector<std::string>& command) {
-  constexpr std::string_view kWriting[] = {"run",      "tabulate", "fit",     "export", "shift",
-                                           "simulate", "sweep",    "compare", "report", "particles"};
+  constexpr std::string_view kWriting[] = {"run",    "tabulate", "fit",   "export",
+                                           "shift",  "simulate", "sweep", "compare",
+                                           "report", "particles"};
   const bool known =
       command.size() > 1 && std::ranges::find(kWriting, command[1]) != std::end(kWriting);
   const auto is_refused = [](const std::string& word) {

@@ -79,8 +79,7 @@ void add_tabulate(CLI::App& app) {
     check_outputs({o->output});
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);
-    for (const auto& one : tables)
-      refuse_other_kind(one.table.string(), "# case: ", "table");
+    for (const auto& one : tables) refuse_other_kind(one.table.string(), "# case: ", "table");
     std::vector<std::vector<double>> pictures;  // gaps, for each table; before any work is done
     if (plot->count() > 0)
       for (const auto& one : tables) pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
