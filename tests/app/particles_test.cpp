@@ -330,6 +330,18 @@ INSTANTIATE_TEST_SUITE_P(
         {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
         {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "between 1e-12 and 0.1"},
         {"Method", "tolerance = 1e-6", "method = \"magic\"", "must be one of"},
+        {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
+        {"MisspeltVelocity", "x,y,vx,vy,", "x,y,Vx,Vy,", "has a column 'Vx'"},
+        {"HalfAVelocity", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
+         "x,y,vx,radius,mass\n3,1,0,1,1", "some columns of velocities"},
+        {"TooSmallForTheTolerance", "0.5,0.25", "1e-6,0.25", "too small for solver.tolerance"},
+        {"TooFar", "6.5,4,0", "6.5,4e12,0", "too far from the origin"},
+        {"DenormalMass", "0.5,0.25", "0.5,1e-310", "at least 1e-100"},
+        {"PieceThatIsNone",
+         "force = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]",
+         "force = { until = 10.0, value = [0.0, 0.0] }", "a list of pieces"},
+        {"PivotOfNothing", "normal = [0.0, 1.0]", "normal = [0.0, 1.0]\npivot = [0.0, 0.0]",
+         "is for a plane with an angular_velocity"},
         {"UnknownKey", "every = 0.5", "evry = 0.5", "every"},
         {"NoFile", "file = \"discs.csv\"", "file = \"discs\"", "discs"},
         {"ForceOnNobody", "[output]", "[[force]]\nparticles = [3]\nvalue = [0.0, 0.0]\n[output]",
@@ -338,6 +350,22 @@ INSTANTIATE_TEST_SUITE_P(
          "has a force already"},
     }),
     [](const auto& test) { return test.param.name; });
+
+TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {
+  expect_done(run(put_case(replaced(replaced(kCase, "every = 0.5", "every = 1e-9"),
+                                    "end_time = 10.0", "end_time = 1.0")),
+                  out()));
+  EXPECT_TRUE(fs::exists(out() / "particles_00020.vtp"));
+  EXPECT_FALSE(fs::exists(out() / "particles_00021.vtp"));
+}
+
+TEST_F(ParticlesCommand, AStepThatCannotBeComputedLeavesWhatWasBefore) {
+  const auto result =
+      run(put_case(replaced(kCase, "value = [-0.7, 0.7]", "value = [-1e90, 0.7]")), out());
+  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("beyond what can be computed with"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["to_time"], 5.0);
+  EXPECT_DOUBLE_EQ(particles::read_restart(out() / "restart.bin").time, 5.0);
+}
 
 TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
   folder_.file("final_particles.csv", kDiscs);

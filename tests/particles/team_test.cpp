@@ -1,0 +1,58 @@
+// Loops that threads share: every index once, sums that do not depend on the threads, errors that come back.
+#include "particles/team.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <new>
+#include <vector>
+
+namespace viscontact::particles {
+namespace {
+
+constexpr std::size_t kCount = 5 * Team::kBlock + 7;
+
+TEST(Team, DoesEveryIndexOnce) {
+  for (const int threads : {1, 2, 5}) {
+    Team team(threads);
+    std::vector<int> done(kCount, 0);
+    for (int round = 1; round <= 3; ++round) {
+      team.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) ++done[k];
+      });
+      EXPECT_THAT(done, ::testing::Each(round)) << threads;
+    }
+  }
+}
+
+TEST(Team, AddsTheSameBitsWithAnyNumberOfThreads) {
+  const auto sum = [](int threads) {
+    Team team(threads);
+    return team.sum_of_blocks<double>(kCount, [](std::size_t begin, std::size_t end) {
+      double part = 0;
+      for (std::size_t k = begin; k < end; ++k) part += 1 / static_cast<double>(k + 1);
+      return part;
+    });
+  };
+  const double alone = sum(1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(sum(threads), alone) << threads;
+}
+
+TEST(Team, ThrowsWhatABlockThrewAndGoesOn) {
+  for (const int threads : {1, 4}) {
+    Team team(threads);
+    EXPECT_THROW(team.for_blocks(kCount,
+                                 [](std::size_t begin, std::size_t) {
+                                   if (begin == 2 * Team::kBlock) throw std::bad_alloc();
+                                 }),
+                 std::bad_alloc);
+    std::vector<int> done(kCount, 0);
+    team.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) ++done[k];
+    });
+    EXPECT_THAT(done, ::testing::Each(1));
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::particles
