@@ -5,46 +5,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "tests/particles/box2d_case.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {
 namespace {
-
-/// As bench/box2d.cpp, and issue 7, have it: x <- 6364136223846793005 x + 1442695040888963407 mod 2^64 from 12345, the top 53 bits.
-class Uniform {
- public:
-  double operator()() {
-    x_ = 6364136223846793005U * x_ + 1442695040888963407U;
-    return static_cast<double>(x_ >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t x_ = 12345;
-};
-
-State box_of_discs(int count) {
-  State state = no_particles(2);
-  Uniform uniform;
-  const int n = static_cast<int>(std::ceil(std::sqrt(count)));
-  for (int k = 0; k < count; ++k) {
-    const double radius = 0.8 + 0.2 * uniform();
-    const double x = 0.1 * (uniform() - 0.5), y = 0.1 * (uniform() - 0.5);
-    add_particle(state, {1.05 + 2.1 * (k % n) + x, 1.05 + 2.1 * (k / n) + y, 0}, radius,
-                 radius * radius);
-  }
-  return state;
-}
-
-Setting box(int count) {
-  Setting setting;
-  const double width = 2.1 * std::ceil(std::sqrt(count));
-  setting.planes = {plane_at_rest({}, {0, 1, 0}), plane_at_rest({}, {1, 0, 0}),
-                    plane_at_rest({width, 0, 0}, {-1, 0, 0})};
-  setting.gravity = {0, -1, 0};
-  setting.time_step = 0.05;
-  setting.law.gamma_min = -2;
-  return setting;
-}
 
 /// Every pair, not only those in the list.
 double largest_overlap_of_all(const State& state) {
