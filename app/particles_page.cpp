@@ -14,9 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "app/film_colours.hpp"
 #include "app/html.hpp"
 #include "app/particles_page_texts.hpp"
-#include "app/particles_picture.hpp"
+#include "app/particles_room.hpp"
 
 namespace viscontact {
 namespace {

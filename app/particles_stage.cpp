@@ -22,6 +22,7 @@
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/number.hpp"
+#include "particles/contacts_now.hpp"
 #include "particles/particle_file.hpp"
 #include "particles/playback.hpp"
 #include "particles/restart.hpp"

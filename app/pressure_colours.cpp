@@ -7,30 +7,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/colour_scale.hpp"
+
 namespace viscontact {
 namespace {
 
 /// Red, green, blue of a place from -1 to 1 (ColorBrewer's RdBu, which colour-blind readers tell apart), linear in between.
 std::string colour(double place) {
-  struct Node {
-    double place;
-    std::array<double, 3> rgb;
-  };
-  constexpr std::array<Node, 7> kNodes = {{{-1, {33, 102, 172}},
-                                           {-0.66, {103, 169, 207}},
-                                           {-0.3, {209, 229, 240}},
-                                           {0, {250, 250, 250}},
-                                           {0.3, {253, 219, 199}},
-                                           {0.66, {239, 138, 98}},
-                                           {1, {178, 24, 43}}}};
-  std::size_t i = 1;
-  while (i + 1 < kNodes.size() && kNodes[i].place < place) ++i;
-  const double w = (place - kNodes[i - 1].place) / (kNodes[i].place - kNodes[i - 1].place);
-  std::array<int, 3> rgb{};
-  for (std::size_t j = 0; j < rgb.size(); ++j)
-    rgb[j] = static_cast<int>(
-        std::lround(std::lerp(kNodes[i - 1].rgb[j], kNodes[i].rgb[j], std::clamp(w, 0.0, 1.0))));
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+  static const std::vector<ColourNode> kRedBlue = {
+      {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
+      {0, {250, 250, 250}}, {0.3, {253, 219, 199}},   {0.66, {239, 138, 98}},
+      {1, {178, 24, 43}}};
+  return colour_between(kRedBlue, place);
 }
 
 /// Shorter than the library's: 1e6, not 1e+06.

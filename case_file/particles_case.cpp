@@ -18,8 +18,8 @@
 namespace viscontact {
 namespace {
 
-using particles::History;
 using particles::Particles;
+using particles::PiecewiseConstant;
 using particles::Vector;
 using particles::operator-;
 using particles::operator*;
@@ -43,22 +43,22 @@ Vector read_vector(const TomlSection& section, std::string_view key, int dimensi
 }
 
 /// A vector, or pieces { until, value } that reach the end.
-History read_history(const TomlSection& section, std::string_view key, int dimension,
-                     double end_time) {
-  History history;
+PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, int dimension,
+                              double end_time) {
+  PiecewiseConstant function;
   if (!section.is_array_of_tables(key)) {
     if (section.has(key) && !section.is_array(key))
       section.fail(key, "must be a list of numbers, or a list of pieces { until, value }");
-    history.pieces.push_back(
+    function.pieces.push_back(
         {std::numeric_limits<double>::max(), read_vector(section, key, dimension)});
-    return history;
+    return function;
   }
   double before = 0;
   for (const auto& piece : section.sections(key)) {
     const double until = piece.number("until", kPositive);
     if (!(until > before))
       piece.fail("until", fmt::format("is {}; must be after the piece before, {}", until, before));
-    history.pieces.push_back({until, read_vector(piece, "value", dimension)});
+    function.pieces.push_back({until, read_vector(piece, "value", dimension)});
     piece.finish();
     before = until;
   }
@@ -66,8 +66,8 @@ History read_history(const TomlSection& section, std::string_view key, int dimen
     section.fail(
         key, fmt::format("ends at {}; must reach viscous_contact.end_time, {}", before, end_time));
   // At the end itself round-off must not find it over.
-  history.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
-  return history;
+  function.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
+  return function;
 }
 
 void read_law(const TomlSection& section, particles::ContactLaw& law) {
@@ -89,7 +89,7 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
   if (!(length > 1e-100)) section.fail("normal", "is 0; must point into the free side");
   plane.start.normal = (1 / length) * normal;
   if (section.has("velocity"))
-    plane.velocity = read_history(section, "velocity", dimension, end_time);
+    plane.velocity = read_pieces(section, "velocity", dimension, end_time);
   if (section.has("angular_velocity"))
     plane.angular_velocity = dimension == 2
                                  ? Vector{0, 0, section.number("angular_velocity", kModerate)}
@@ -178,12 +178,12 @@ void check_start(const ParticlesCase& c, const Names& names) {
 void read_forces_by_number(const TomlSection& root, int dimension, double end_time,
                            ParticlesCase& c) {
   for (const auto& section : root.sections("force")) {
-    const auto history = read_history(section, "value", dimension, end_time);
+    const auto function = read_pieces(section, "value", dimension, end_time);
     for (const double number : section.numbers("particles", kNotNegative)) {
       if (number != std::floor(number) || number >= static_cast<double>(c.particles.count()))
         section.fail("particles", fmt::format("has {}; the particles' numbers are 0 to {}", number,
                                               c.particles.count() - 1));
-      if (!c.setting.forces.emplace(static_cast<std::int32_t>(number), history).second)
+      if (!c.setting.forces.emplace(static_cast<std::int32_t>(number), function).second)
         section.fail("particles", fmt::format("has {}, which has a force already", number));
     }
     section.finish();
@@ -260,7 +260,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
     for (const auto& section : root.sections("particle")) {
       if (section.has("force"))
         c.setting.forces[static_cast<std::int32_t>(c.particles.count())] =
-            read_history(section, "force", dimension, c.end_time);
+            read_pieces(section, "force", dimension, c.end_time);
       add(c.particles, read_vector(section, "centre", dimension),
           section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
           section.number("radius", kModeratelyPositive),

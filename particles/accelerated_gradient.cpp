@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "particles/block_results.hpp"
 #include "particles/projection.hpp"
 
 namespace viscontact::particles {
@@ -13,14 +14,6 @@ struct Sums {
   Sums& operator+=(const Sums& other) {
     square += other.square;
     uphill += other.uphill;
-    return *this;
-  }
-};
-
-struct Largest {
-  double value = 0;
-  Largest& operator+=(const Largest& other) {
-    value = std::max(value, other.value);
     return *this;
   }
 };
@@ -43,10 +36,8 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
             [&](std::size_t begin, std::size_t end) {
               Largest largest;
               for (std::size_t c = begin; c < end; ++c) {
-                g[c] = graph.free[c] + graph.to_contact(c, bodies.data());
-                largest.value =
-                    std::max(largest.value,
-                             graph.scale[c] * std::abs(std::min(g[c], at[c] - graph.bound[c])));
+                g[c] = graph.linear_term[c] + graph.to_contact(c, bodies.data());
+                largest.value = std::max(largest.value, graph.violation(c, at[c], g[c]));
               }
               return largest;
             })
@@ -54,6 +45,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
   };
   graph.to_bodies(x, bodies_x);
   Solved solved;
+  if (count == 0) return solved;
   solved.violation = gradient(bodies_x, g_x, x);
   g_y = g_x;
   bodies_y = bodies_x;

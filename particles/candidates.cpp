@@ -4,20 +4,13 @@
 #include <cmath>
 #include <tuple>
 
+#include "particles/block_results.hpp"
 #include "particles/neighbours.hpp"
 
 namespace viscontact::particles {
 namespace {
 
 auto place_of(const Film& film) { return std::tuple(film.first, film.second); }
-
-struct All {
-  bool value = true;
-  All& operator+=(const All& other) {
-    value = value && other.value;
-    return *this;
-  }
-};
 
 /// Sum of vectors, of a mean.
 struct VectorSum {
@@ -49,18 +42,13 @@ bool list_holds(const State& state, std::span<const double> displacements, Team&
            point_of(state.listed_positions.data(), k, p.dimension);
   };
   const Vector common = mean_of(p.count(), team, moved);
-  return team
-      .sum_of_blocks<All>(p.count(),
-                          [&](std::size_t begin, std::size_t end) {
-                            All all;
-                            for (std::size_t k = begin; k < end; ++k) {
-                              const Vector apart = moved(k) - common;
-                              all.value = all.value &&
-                                          dot(apart, apart) <= state.reaches[k] * state.reaches[k];
-                            }
-                            return all;
-                          })
-      .value;
+  const auto beyond_reach = [&](std::size_t begin, std::size_t end) {
+    Largest largest;
+    for (std::size_t k = begin; k < end; ++k)
+      largest.value = std::max(largest.value, norm(moved(k) - common) - state.reaches[k]);
+    return largest;
+  };
+  return team.sum_of_blocks<Largest>(p.count(), beyond_reach).value <= 0;
 }
 
 void make_list(State& state, std::span<const double> displacements, Team& team) {

@@ -13,15 +13,15 @@ namespace {
 /// What one pass over the contacts finds at z with gradient g.
 struct Look {
   double violation = 0;  ///< largest [L]
-  double free =
+  double free_slope =
       0;  ///< phi.g of the free gradient phi, cut so that a gradient step along it stays within the bounds
-  double chopped =
+  double chopped_square =
       0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
   double room = std::numeric_limits<double>::infinity();  ///< smallest z - bound
   Look& operator+=(const Look& other) {
     violation = std::max(violation, other.violation);
-    free += other.free;
-    chopped += other.chopped;
+    free_slope += other.free_slope;
+    chopped_square += other.chopped_square;
     room = std::min(room, other.room);
     return *this;
   }
@@ -50,7 +50,7 @@ class Iteration {
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           Look look;
           for (std::size_t c = begin; c < end; ++c) {
-            gradient_[c] = graph_.free[c] + graph_.to_contact(c, y_.data());
+            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data());
             add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.scale[c], 1 / step_, look);
           }
           return look;
@@ -62,7 +62,7 @@ class Iteration {
 
   /// One step. Returns how many products with W it took.
   int step() {
-    if (look_.chopped > look_.free) return leave_bounds();
+    if (look_.chopped_square > look_.free_slope) return leave_bounds();
     if (restart_) start_directions();
     before_ = graph_.z;
     // Redundant contacts have directions without curvature; of those that contradict each other the objective falls along them for ever.
@@ -90,9 +90,9 @@ class Iteration {
     look.violation = std::max(look.violation, scale * std::abs(std::min(g, room)));
     const bool is_free = room > 0;
     const double phi = is_free ? g : 0.0;
-    look.free += phi * std::min(g, room * per_step);
+    look.free_slope += phi * std::min(g, room * per_step);
     const double beta = is_free ? 0.0 : std::min(g, 0.0);
-    look.chopped += beta * beta;
+    look.chopped_square += beta * beta;
     look.room = std::min(look.room, room);
   }
 
@@ -102,7 +102,7 @@ class Iteration {
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           double sum = 0;
           for (std::size_t c = begin; c < end; ++c)
-            sum += graph_.z[c] * (gradient_[c] + graph_.free[c]) / 2;
+            sum += graph_.z[c] * (gradient_[c] + graph_.linear_term[c]) / 2;
           return sum;
         });
   }
@@ -235,7 +235,7 @@ class Iteration {
     constexpr double kLongest =
         1e6;  // of the length where W is 1: contacts that contradict each other
     restart_ = true;
-    move_and_half_sweep(std::min(look_.chopped / curvature, kLongest));
+    move_and_half_sweep(std::min(look_.chopped_square / curvature, kLongest));
     return 1;
   }
 

@@ -8,7 +8,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
                               std::span<const double> mobilities, Team& team)
     : z(contacts.size()),
       bound(contacts.size()),
-      free(contacts.size()),
+      linear_term(contacts.size()),
       scale(contacts.size()),
       rows_(contacts.size()),
       gamma_(contacts.size()),
@@ -36,7 +36,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     for (std::size_t d = 0; d < D; ++d)
       gradient += contact.normal[d] *
                   (displacements[j * D + d] - (particles ? displacements[i * D + d] : 0));
-    free[c] = gradient / root;
+    linear_term[c] = gradient / root;
     if (particles) ++offsets_[i + 1];
     ++offsets_[j + 1];
   }

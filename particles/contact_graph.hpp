@@ -46,10 +46,10 @@ class ContactGraph {
   std::size_t bodies() const { return offsets_.size() - 1; }
   Team& team() const { return *team_; }
 
-  std::vector<double> z;      ///< scaled impulses
-  std::vector<double> bound;  ///< of z: sqrt(w) gamma^n
-  std::vector<double> free;   ///< (D + h G u*)/sqrt(w): the gradient at z = 0
-  std::vector<double> scale;  ///< sqrt(w)
+  std::vector<double> z;            ///< scaled impulses
+  std::vector<double> bound;        ///< of z: sqrt(w) gamma^n
+  std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
+  std::vector<double> scale;        ///< sqrt(w)
 
   /// y = B z, D numbers a body. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
@@ -119,9 +119,9 @@ class ContactGraph {
         y + static_cast<std::size_t>(in_block_[c][1]) * D);
   }
 
-  /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, given its gradient g_c.
-  double violation(std::size_t c, double gradient) const {
-    return scale[c] * std::abs(std::min(gradient, z[c] - bound[c]));
+  /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, at impulse z_c with gradient g_c.
+  double violation(std::size_t c, double z_c, double gradient) const {
+    return scale[c] * std::abs(std::min(gradient, z_c - bound[c]));
   }
 
   /// h lambda of the contacts, in the order in which they were given.

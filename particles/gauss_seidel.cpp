@@ -11,20 +11,21 @@ Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations
   Solved solved;
   // The bodies' y is kept up to date contact by contact; its rounding is far below any tolerance that double precision can ask for, but it is
   // made anew before a solution is believed.
+  const auto gradient_of = [&](std::size_t c) {
+    return graph.linear_term[c] + graph.to_contact(c, y.data());
+  };
   const auto look = [&] {
     graph.to_bodies(graph.z, y);
     solved.violation = 0;
     for (std::size_t c = 0; c < count; ++c)
-      solved.violation = std::max(
-          solved.violation, graph.violation(c, graph.free[c] + graph.to_contact(c, y.data())));
+      solved.violation = std::max(solved.violation, graph.violation(c, graph.z[c], gradient_of(c)));
     return solved.violation <= tolerance;
   };
   if (look()) return solved;
   while (solved.iterations < max_iterations) {
     double largest = 0;
     const auto relax = [&](std::size_t c) {
-      const double gradient = graph.free[c] + graph.to_contact(c, y.data());
-      const double next = std::max(graph.bound[c], graph.z[c] - gradient);
+      const double next = std::max(graph.bound[c], graph.z[c] - gradient_of(c));
       const double change = next - graph.z[c];
       largest = std::max(largest, graph.scale[c] * std::abs(change));
       graph.z[c] = next;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "particles/block_results.hpp"
+
 namespace viscontact::particles {
 namespace {
 
@@ -151,42 +153,43 @@ class Search {
   /// Pairs of `seekers`, in order of cell, with those in the grid. In that order the runs of cells around them move forward only.
   void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
     const auto& in_grid = grid.entries;
-    const std::size_t blocks = (seekers.size() + Team::kBlock - 1) / Team::kBlock;
-    std::vector<std::vector<Pair>> found(blocks);
-    team_.for_blocks(seekers.size(), [&](std::size_t begin, std::size_t end) {
-      auto& pairs = found[begin / Team::kBlock];
-      constexpr std::size_t kRows = D == 2 ? 3 : 9;
-      std::array<std::size_t, kRows> run_begin{};
-      grid.for_rows_around(seekers[begin].cell, [&](std::uint64_t first, std::uint64_t row) {
-        run_begin[row] = static_cast<std::size_t>(
-            std::ranges::lower_bound(in_grid, first, {}, &Entry::cell) - in_grid.begin());
-      });
-      for (std::size_t s = begin; s < end; ++s) {
-        const auto& seeker = seekers[s];
-        grid.for_rows_around(seeker.cell, [&](std::uint64_t first, std::uint64_t row) {
-          std::size_t k = run_begin[row];
-          while (k < in_grid.size() && in_grid[k].cell < first) ++k;
-          run_begin[row] = k;
-          for (; k < in_grid.size() && in_grid[k].cell < first + 3; ++k) {
-            const auto other = in_grid[k].particle;
-            if (same && other <= seeker.particle) continue;  // each pair once
-            if (close(seeker.particle, other))
-              pairs.push_back({std::min(seeker.particle, other), std::max(seeker.particle, other)});
+    found_ +=
+        team_.sum_of_blocks<Joined<Pair>>(seekers.size(), [&](std::size_t begin, std::size_t end) {
+          Joined<Pair> pairs;
+          constexpr std::size_t kRows = D == 2 ? 3 : 9;
+          std::array<std::size_t, kRows> run_begin{};
+          grid.for_rows_around(seekers[begin].cell, [&](std::uint64_t first, std::uint64_t row) {
+            run_begin[row] = static_cast<std::size_t>(
+                std::ranges::lower_bound(in_grid, first, {}, &Entry::cell) - in_grid.begin());
+          });
+          for (std::size_t s = begin; s < end; ++s) {
+            const auto& seeker = seekers[s];
+            grid.for_rows_around(seeker.cell, [&](std::uint64_t first, std::uint64_t row) {
+              std::size_t k = run_begin[row];
+              while (k < in_grid.size() && in_grid[k].cell < first) ++k;
+              run_begin[row] = k;
+              for (; k < in_grid.size() && in_grid[k].cell < first + 3; ++k) {
+                const auto other = in_grid[k].particle;
+                if (same && other <= seeker.particle) continue;  // each pair once
+                if (close(seeker.particle, other))
+                  pairs.values.push_back(
+                      {std::min(seeker.particle, other), std::max(seeker.particle, other)});
+              }
+            });
           }
+          return pairs;
         });
-      }
-    });
-    for (const auto& pairs : found) found_.insert(found_.end(), pairs.begin(), pairs.end());
   }
 
   /// By first, by counting, then by second, of which each has few.
   std::vector<Pair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
-    for (const auto& pair : found_) ++begin[static_cast<std::size_t>(pair.first) + 1];
+    for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
     for (std::size_t k = 0; k + 1 < begin.size(); ++k) begin[k + 1] += begin[k];
-    std::vector<Pair> pairs(found_.size());
+    std::vector<Pair> pairs(found_.values.size());
     auto next = begin;
-    for (const auto& pair : found_) pairs[next[static_cast<std::size_t>(pair.first)]++] = pair;
+    for (const auto& pair : found_.values)
+      pairs[next[static_cast<std::size_t>(pair.first)]++] = pair;
     for (std::size_t k = 0; k + 1 < begin.size(); ++k)
       std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]),
                 pairs.begin() + static_cast<std::ptrdiff_t>(begin[k + 1]),
@@ -196,7 +199,7 @@ class Search {
 
   std::span<const double> positions_, extents_;
   Team& team_;
-  std::vector<Pair> found_;
+  Joined<Pair> found_;
 };
 
 }  // namespace

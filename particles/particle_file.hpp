@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "particles/simulation.hpp"
+#include "particles/contacts_now.hpp"
 
 namespace viscontact::particles {
 

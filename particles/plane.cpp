@@ -24,4 +24,10 @@ PlanePlace Plane::at(double t) const {
   return place;
 }
 
+std::vector<PlanePlace> places_of(const std::vector<Plane>& planes, double t) {
+  std::vector<PlanePlace> places;
+  for (const auto& plane : planes) places.push_back(plane.at(t));
+  return places;
+}
+
 }  // namespace viscontact::particles

@@ -1,7 +1,9 @@
 // Planes (lines, for discs) that bound the particles' room: at rest, sliding or turning.
 #pragma once
 
-#include "particles/history.hpp"
+#include <vector>
+
+#include "particles/piecewise_constant.hpp"
 #include "particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -15,14 +17,17 @@ struct PlanePlace {
 /// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it. Viscous contact has no friction: of the motion
 /// only what is normal to the plane acts on a particle.
 struct Plane {
-  PlanePlace start;           ///< at time 0
-  History velocity;           ///< [L/T]
-  Vector angular_velocity{};  ///< constant [1/T]; for discs (0, 0, omega)
-  Vector pivot{};             ///< at time 0 [L]
+  PlanePlace start;            ///< at time 0
+  PiecewiseConstant velocity;  ///< [L/T]
+  Vector angular_velocity{};   ///< constant [1/T]; for discs (0, 0, omega)
+  Vector pivot{};              ///< at time 0 [L]
 
   /// At time t >= 0.
   PlanePlace at(double t) const;
 };
+
+/// Those of planes at time t, in their order.
+std::vector<PlanePlace> places_of(const std::vector<Plane>& planes, double t);
 
 /// Distance of a sphere's surface from the plane [L], < 0 if they overlap: physics.md (5), D of a plane.
 inline double gap(const PlanePlace& plane, const Vector& centre, double radius) {

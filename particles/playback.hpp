@@ -1,10 +1,11 @@
 // The frames of a simulation, kept to be drawn.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "particles/contacts_now.hpp"
 #include "particles/plane.hpp"
-#include "particles/simulation.hpp"
 
 namespace viscontact::particles {
 
@@ -23,5 +24,13 @@ struct Playback {
   std::vector<float> radii;   ///< [L]
   std::vector<Frame> frames;  ///< in order of time; the first at the start
 };
+
+/// Of particle k [L].
+inline Vector position(const Playback& playback, const Frame& frame, std::size_t k) {
+  Vector x{};
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  for (std::size_t d = 0; d < dimension; ++d) x[d] = frame.positions[k * dimension + d];
+  return x;
+}
 
 }  // namespace viscontact::particles

@@ -7,9 +7,8 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "particles/block_results.hpp"
 #include "particles/candidates.hpp"
-#include "particles/film_geometry.hpp"
-#include "particles/neighbours.hpp"
 #include "particles/step_projection.hpp"
 #include "particles/team.hpp"
 
@@ -25,24 +24,15 @@ struct Simulation::Work {
 
 namespace {
 
-/// Films, put together in order.
-struct Films {
-  std::vector<Film> values;
-  Films& operator+=(const Films& other) {
-    values.insert(values.end(), other.values.begin(), other.values.end());
-    return *this;
-  }
-};
-
 /// The particles within `margin` of a plane, its place that of the step's end, and those that its films hold.
 void find_walls(State& state, std::span<const PlanePlace> planes, double margin, Team& team) {
   const auto& p = state.particles;
-  Films walls;
+  Joined<Film> walls;
   for (std::size_t w = 0; w < planes.size(); ++w) {
     const auto plane = -1 - static_cast<std::int32_t>(w);
     const auto& place = planes[w];
-    walls += team.sum_of_blocks<Films>(p.count(), [&](std::size_t begin, std::size_t end) {
-      Films films;
+    walls += team.sum_of_blocks<Joined<Film>>(p.count(), [&](std::size_t begin, std::size_t end) {
+      Joined<Film> films;
       // Planes are in falling order of their numbers.
       auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
         return film.first > plane ||
@@ -92,14 +82,6 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
-struct Longest {
-  double value = 0;
-  Longest& operator+=(const Longest& other) {
-    value = std::max(value, other.value);
-    return *this;
-  }
-};
-
 }  // namespace
 
 Simulation::Simulation(Setting setting, State state, int threads)
@@ -148,6 +130,42 @@ void Simulation::move(double h) {
 }
 
 template <int D>
+Projected Simulation::project(double h, double next) {
+  auto& displacements = work_->displacements;
+  auto& team = work_->team;
+  const auto planes = places_of(setting_.planes, next);
+  const double largest = farthest(setting_.solver.tolerance, mean_radius_);
+  const auto length_of = [&](std::size_t k) {
+    return checked_length(state_.particles, displacements, k, largest, next);
+  };
+  const auto longest_of = [&](std::size_t begin, std::size_t end) {
+    Largest longest;
+    for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
+    return longest;
+  };
+  // Who is further from a plane than anybody goes does not meet it.
+  const double longest = team.sum_of_blocks<Largest>(state_.particles.count(), longest_of).value;
+  double margin = std::max(2 * longest, mean_radius_ / 4);
+  if (!list_holds(state_, displacements, team)) {
+    state_.reaches.clear();
+    make_list(state_, displacements, team);
+  }
+  for (;;) {
+    find_walls(state_, planes, margin, team);
+    auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
+                         .solve(setting_.solver, mean_radius_);
+    double gone = 0;
+    for (const auto body : projected.bodies)
+      gone = std::max(gone, length_of(static_cast<std::size_t>(body)));
+    if (gone <= margin && list_holds(state_, displacements, team)) return projected;
+    // Impulses threw particles further than was looked. Reaches and margin only grow, which ends this.
+    margin = std::max(margin, 2 * gone);
+    make_list(state_, displacements, team);
+    move_freely<D>(h, next);
+  }
+}
+
+template <int D>
 StepReport Simulation::step_of(double end) {
   double h = setting_.time_step;
   const double tiny = 1e-6 * h;
@@ -159,41 +177,7 @@ StepReport Simulation::step_of(double end) {
     h = end - state_.time;
   }
   move_freely<D>(h, next);
-  auto& displacements = work_->displacements;
-  auto& team = work_->team;
-  const double largest = farthest(setting_.solver.tolerance, mean_radius_);
-  // How far a particle may go in this step, at least: those that are further from a plane do not meet it.
-  const auto longest_of = [&](std::size_t first, std::size_t last) {
-    Longest longest;
-    for (std::size_t k = first; k < last; ++k)
-      longest.value = std::max(longest.value,
-                               checked_length(state_.particles, displacements, k, largest, next));
-    return longest;
-  };
-  double margin = team.sum_of_blocks<Longest>(state_.particles.count(), longest_of).value;
-  margin = std::max(2 * margin, mean_radius_ / 4);
-  std::vector<PlanePlace> planes;
-  for (const auto& plane : setting_.planes) planes.push_back(plane.at(next));
-
-  if (!list_holds(state_, displacements, team)) {
-    state_.reaches.clear();
-    make_list(state_, displacements, team);
-  }
-  Projected projected;
-  for (;;) {
-    find_walls(state_, planes, margin, team);
-    projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
-                    .solve(setting_.solver, mean_radius_);
-    double gone = 0;
-    for (const auto body : projected.bodies)
-      gone = std::max(gone, checked_length(state_.particles, displacements,
-                                           static_cast<std::size_t>(body), largest, next));
-    if (gone <= margin && list_holds(state_, displacements, team)) break;
-    // Impulses threw particles further than was looked. Reaches and margin only grow, which ends this.
-    margin = std::max(margin, 2 * gone);
-    make_list(state_, displacements, team);
-    move_freely<D>(h, next);
-  }
+  const auto projected = project<D>(h, next);
   StepReport report;
   report.glued = remember(state_.particles, projected.films, setting_.law);
   move<D>(h);
@@ -216,39 +200,6 @@ double farthest(double tolerance, double mean_radius) {
   // Squares of distances must be finite, and positions finer than the gaps that are asked for.
   constexpr double kFinite = 1e120;
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
-}
-
-double largest_overlap(const Setting& setting, const State& state) {
-  double smallest = 0;
-  const auto& p = state.particles;
-  Team team(1);
-  for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, team)) {
-    const Film film{pair.first, pair.second};
-    smallest = std::min(smallest,
-                        p.dimension == 2 ? contact_of<2>(p, film).gap : contact_of<3>(p, film).gap);
-  }
-  for (const auto& plane : setting.planes) {
-    const auto place = plane.at(state.time);
-    for (std::size_t k = 0; k < p.count(); ++k)
-      smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
-  }
-  return (0 - smallest) / mean_radius(p);  // 0, not -0
-}
-
-std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) {
-  std::vector<ContactNow> contacts;
-  const auto& p = state.particles;
-  std::vector<PlanePlace> planes;
-  for (const auto& plane : setting.planes) planes.push_back(plane.at(state.time));
-  const double touching = setting.solver.tolerance * mean_radius(p);
-  for (const auto* films : {&state.pairs, &state.walls})
-    for (const auto& film : *films) {
-      const double gap = p.dimension == 2 ? contact_of<2>(p, film, planes).gap
-                                          : contact_of<3>(p, film, planes).gap;
-      if (film.gamma < 0 || gap <= touching)
-        contacts.push_back({film.first, film.second, gap, film.gamma});
-    }
-  return contacts;
 }
 
 }  // namespace viscontact::particles

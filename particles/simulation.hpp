@@ -7,19 +7,22 @@
 #include <vector>
 
 #include "particles/contact_law.hpp"
-#include "particles/history.hpp"
 #include "particles/particles.hpp"
+#include "particles/piecewise_constant.hpp"
 #include "particles/plane.hpp"
 #include "particles/projection.hpp"
 #include "particles/state.hpp"
 
 namespace viscontact::particles {
 
+struct Projected;
+
 /// What moves the particles, and how it is computed: as a case file has it (case_file/particles_case.hpp checks it); forces name particles that are there.
 struct Setting {
   std::vector<Plane> planes;
-  Vector gravity{};                        ///< [L/T^2]
-  std::map<std::int32_t, History> forces;  ///< of single particles, beside gravity [M L/T^2]
+  Vector gravity{};  ///< [L/T^2]
+  std::map<std::int32_t, PiecewiseConstant>
+      forces;  ///< of single particles, beside gravity [M L/T^2]
   ContactLaw law;
   double time_step = 0;  ///< h [T], > 0
   SolverSettings solver;
@@ -31,8 +34,8 @@ struct StepReport {
   std::size_t contacts = 0;  ///< in the projection
   std::size_t glued = 0;     ///< with gamma < 0 after it
   int iterations = 0;
-  double residual =
-      0;  ///< physics.md (5): largest violation of a contact's conditions over the mean radius, over all pairs
+  /// Largest violation of a contact's conditions over the mean radius, over all close pairs: ContactGraph::violation.
+  double residual = 0;
   bool converged = true;       ///< residual <= tolerance
   double largest_overlap = 0;  ///< of linearised gaps, which no gap is below, over the mean radius
 };
@@ -53,8 +56,8 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than that is left. Throws Error(kNotConverged) if a position or a step is beyond what can be
-  /// computed with.
+  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than that is left. Throws Error(kNotConverged) if a
+  /// position or a displacement is beyond what can be computed with; the state is then that of before the step.
   StepReport step(double end);
 
   const State& state() const { return state_; }
@@ -67,6 +70,8 @@ class Simulation {
   template <int D>
   void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
   template <int D>
+  Projected project(double h, double next);  // displacements h u* become h v
+  template <int D>
   void move(double h);
 
   Setting setting_;
@@ -78,19 +83,5 @@ class Simulation {
 /// How far from the origin a particle may be, and how far it may go in a step [L]: beyond, double precision does not hold its gaps to the tolerance (of
 /// SolverSettings).
 double farthest(double tolerance, double mean_radius);
-
-/// Largest overlap of two particles, or of one and a plane, over the mean radius; 0 if there is none.
-double largest_overlap(const Setting& setting, const State& state);
-
-/// A contact of a state, for output.
-struct ContactNow {
-  std::int32_t first;   ///< particle, or -1 - k: plane k
-  std::int32_t second;  ///< particle
-  double gap;           ///< [L]
-  double gamma;         ///< [M L/T]
-};
-
-/// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
-std::vector<ContactNow> contacts_of(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

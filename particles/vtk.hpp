@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "particles/simulation.hpp"
+#include "particles/contacts_now.hpp"
 
 namespace viscontact::particles {
 

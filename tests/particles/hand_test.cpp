@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/error.hpp"
+#include "particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {
@@ -36,7 +37,7 @@ Scene random_scene(Random& random) {
       half_width = std::max(half_width, std::abs(p.position(k)[d]) + p.radii[k]);
     }
     if (random.chance(0.5)) {
-      History force;
+      PiecewiseConstant force;
       for (double until = 0; until < 3;)
         force.pieces.push_back({until += random.uniform(0.1, 1),
                                 p.masses[k] * random.decades(-1, 1) * random.direction(dimension)});

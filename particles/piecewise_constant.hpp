@@ -8,7 +8,7 @@
 namespace viscontact::particles {
 
 /// Pieces in order of time; the first begins at 0, each other where the one before ends. Beyond the last: 0.
-struct History {
+struct PiecewiseConstant {
   struct Piece {
     double until;  ///< [T], > that of the piece before
     Vector value;

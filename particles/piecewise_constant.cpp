@@ -1,10 +1,10 @@
-#include "particles/history.hpp"
+#include "particles/piecewise_constant.hpp"
 
 #include <algorithm>
 
 namespace viscontact::particles {
 
-Vector History::integral(double t) const {
+Vector PiecewiseConstant::integral(double t) const {
   Vector sum{};
   double from = 0;
   for (const auto& piece : pieces) {
@@ -15,7 +15,7 @@ Vector History::integral(double t) const {
   return sum;
 }
 
-Vector History::mean(double from, double to) const {
+Vector PiecewiseConstant::mean(double from, double to) const {
   Vector sum{};
   double begin = 0;
   for (const auto& piece : pieces) {

@@ -1,0 +1,43 @@
+#include "particles/contacts_now.hpp"
+
+#include <algorithm>
+
+#include "particles/film_geometry.hpp"
+#include "particles/neighbours.hpp"
+#include "particles/team.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+double gap_of(const Particles& p, const Film& film, std::span<const PlanePlace> places) {
+  return p.dimension == 2 ? contact_of<2>(p, film, places).gap
+                          : contact_of<3>(p, film, places).gap;
+}
+
+}  // namespace
+
+double largest_overlap(const Setting& setting, const State& state) {
+  double smallest = 0;
+  const auto& p = state.particles;
+  Team team(1);
+  for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, team))
+    smallest = std::min(smallest, gap_of(p, {pair.first, pair.second}, {}));
+  for (const auto& place : places_of(setting.planes, state.time))
+    for (std::size_t k = 0; k < p.count(); ++k)
+      smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
+  return (0 - smallest) / mean_radius(p);  // 0, not -0
+}
+
+std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) {
+  std::vector<ContactNow> contacts;
+  const auto& p = state.particles;
+  const auto places = places_of(setting.planes, state.time);
+  const double touching = setting.solver.tolerance * mean_radius(p);
+  for (const auto* films : {&state.pairs, &state.walls})
+    for (const auto& film : *films)
+      if (const double gap = gap_of(p, film, places); film.gamma < 0 || gap <= touching)
+        contacts.push_back({film.first, film.second, gap, film.gamma});
+  return contacts;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,24 @@
+// The contacts of a state, for whoever looks at it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "particles/simulation.hpp"
+
+namespace viscontact::particles {
+
+struct ContactNow {
+  std::int32_t first;   ///< particle, or -1 - k: plane k
+  std::int32_t second;  ///< particle
+  double gap;           ///< [L]
+  double gamma;         ///< [M L/T]
+};
+
+/// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
+std::vector<ContactNow> contacts_of(const Setting& setting, const State& state);
+
+/// Largest overlap of two particles, or of one and a plane, over the mean radius; 0 if there is none. Of all pairs, not only those in the list.
+double largest_overlap(const Setting& setting, const State& state);
+
+}  // namespace viscontact::particles
