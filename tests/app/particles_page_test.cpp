@@ -9,10 +9,11 @@
 #include <regex>
 #include <sstream>
 
+#include "app/film_colours.hpp"
 #include "app/particles_picture.hpp"
+#include "app/particles_room.hpp"
 #include "common/file.hpp"
-#include "common/process.hpp"
-#include "tests/common/temporary_folder.hpp"
+#include "tests/app/browser.hpp"
 
 namespace viscontact {
 namespace {
@@ -58,7 +59,6 @@ Playback one_particle() {
 
 /// Appended to a page: looks at the canvas at both ends, plays, points, zooms, turns, and leaves what it saw as JSON.
 constexpr std::string_view kReader = R"JS(
-<script>
 (async () => {
   const pause = () => new Promise(done => setTimeout(done, 60));
   const player = window.viscontactPlayer, canvas = document.getElementById('stage');
@@ -133,13 +133,8 @@ constexpr std::string_view kReader = R"JS(
   found.drags = dragged.sum !== before.sum;
   found.zooms = zoomed.sum !== dragged.sum;
   found.comesBack = look().sum === before.sum;
-  const pre = parent.document.createElement('pre');
-  pre.id = 'found';
-  pre.textContent = JSON.stringify(found);
-  parent.document.body.append(pre);
-  console.log('reader has finished');
+  tell(found);
 })();
-</script>
 )JS";
 
 /// Put before the page's own script: a browser whose clock is not the wall's draws no frames of its own accord.
@@ -147,55 +142,11 @@ constexpr std::string_view kFrames =
     "<script>window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), "
     "16);</script>";
 
-std::string attribute(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-  return result;
-}
-
-/// What the reader saw in a frame of this width (a window of chromium's is never narrower than 500); a failure if the browser says anything but
-/// that he has finished.
 Json read_page(const std::string& page, int width) {
   constexpr std::string_view kHead = "<head>";
   auto prepared = page;
   prepared.insert(page.find(kHead) + kHead.size(), kFrames);
-  const TemporaryFolder scratch;
-  const auto file =
-      scratch.file("read.html",
-                   "<!DOCTYPE html><meta charset=utf-8><body style=\"margin:0\"><iframe "
-                   "style=\"border:0;height:800px;width:" +
-                       std::to_string(width) + "px\" srcdoc=\"" +
-                       attribute(prepared + std::string(kReader)) + "\"></iframe></body>");
-  const auto errors = scratch.path() / "browser.log";
-  const auto result =
-      run_process({"/bin/sh", "-c", "exec chromium \"$@\" 2>'" + errors.string() + "'", "sh",
-                   "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                   "--no-first-run", "--user-data-dir=" + (scratch.path() / "profile").string(),
-                   "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr",
-                   "--virtual-time-budget=120000", "--window-size=1300,1000", "--dump-dom",
-                   "file://" + file.string()});
-  const std::string log = read_file(errors);
-  constexpr int kNotFound = 127;  // of the shell
-  if (result.exit_status == kNotFound) {
-    ADD_FAILURE() << "no chromium; run scripts/setup";
-    return {};
-  }
-  std::istringstream lines(log);
-  int finished = 0;
-  for (std::string line; std::getline(lines, line);)
-    if (line.find(":CONSOLE") != std::string::npos) {
-      EXPECT_THAT(line, HasSubstr("reader has finished"));
-      ++finished;
-    }
-  EXPECT_EQ(finished, 1) << log;
-  constexpr std::string_view kStart = "<pre id=\"found\">";
-  const auto start = result.output.find(kStart);
-  if (start == std::string::npos) {
-    ADD_FAILURE() << "the page did not finish:\n" << log;
-    return {};
-  }
-  const auto begin = start + kStart.size();
-  return Json::parse(result.output.substr(begin, result.output.find("</pre>", begin) - begin));
+  return read_in_browser(prepared, kReader, width);
 }
 
 class ParticlesInBrowser : public ::testing::TestWithParam<int> {};

@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "common/file.hpp"
-#include "common/process.hpp"
 #include "reduced_model/trajectory.hpp"
+#include "tests/app/browser.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -21,9 +21,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// Appended to a copy of the page: plays the reader and leaves what it saw in an element as JSON.
+/// Plays the reader.
 constexpr std::string_view kReader = R"JS(
-<script>
 (async () => {
   const pause = () => new Promise(done => setTimeout(done, 60));
   const found = {width: innerWidth, bodyWidth: document.documentElement.scrollWidth, panels: []};
@@ -61,13 +60,8 @@ constexpr std::string_view kReader = R"JS(
       found.panels.push(seen);
     }
   }
-  const pre = parent.document.createElement('pre');
-  pre.id = 'found';
-  pre.textContent = JSON.stringify(found);
-  parent.document.body.append(pre);
-  console.log('reader has finished');
+  tell(found);
 })();
-</script>
 )JS";
 
 class ReportInBrowser : public ::testing::Test {
@@ -86,49 +80,8 @@ class ReportInBrowser : public ::testing::Test {
   static void TearDownTestSuite() { scratch_.reset(); }
   static fs::path folder() { return scratch_->path() / "run"; }
 
-  /// The page with the reader, in a frame of this width: a window of chromium's is never narrower than 500.
-  static std::string framed_page(int width) {
-    std::string page;
-    for (const char c : read_file(folder() / "report.html") + std::string(kReader))
-      page += c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-    return "<!DOCTYPE html><meta charset=utf-8><body style=\"margin:0\"><iframe "
-           "style=\"border:0;height:900px;width:" +
-           std::to_string(width) + "px\" srcdoc=\"" + page + "\"></iframe></body>";
-  }
-
-  /// What the reader saw in a frame of this width; a failure if the browser says anything but that he has finished.
-  static Json read_page(int width) {
-    put_text(folder() / "read.html", framed_page(width));
-    const auto errors = scratch_->path() / "browser.log";
-    const auto profile = scratch_->path() / "profile";
-    const auto result = run_process(
-        {"/bin/sh", "-c", "exec chromium \"$@\" 2>'" + errors.string() + "'", "sh", "--headless",
-         "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-         "--user-data-dir=" + profile.string(), "--host-resolver-rules=MAP * ~NOTFOUND",
-         "--enable-logging=stderr", "--virtual-time-budget=30000", "--window-size=1300,1000",
-         "--dump-dom", "file://" + (folder() / "read.html").string()});
-    const std::string log = read_file(errors);
-    constexpr int kNotFound = 127;  // of the shell
-    if (result.exit_status == kNotFound) {
-      ADD_FAILURE() << "no chromium; run scripts/setup";
-      return {};
-    }
-    std::istringstream lines(log);
-    int finished = 0;
-    for (std::string line; std::getline(lines, line);)
-      if (line.find(":CONSOLE") != std::string::npos) {
-        EXPECT_THAT(line, HasSubstr("reader has finished"));
-        ++finished;
-      }
-    EXPECT_EQ(finished, 1) << log;
-    constexpr std::string_view kStart = "<pre id=\"found\">";
-    const auto start = result.output.find(kStart);
-    if (start == std::string::npos) {
-      ADD_FAILURE() << "the page did not finish:\n" << log;
-      return {};
-    }
-    const auto begin = start + kStart.size();
-    return Json::parse(result.output.substr(begin, result.output.find("</pre>", begin) - begin));
+  static nlohmann::json read_page(int width) {
+    return read_in_browser(read_file(folder() / "report.html"), kReader, width);
   }
 
   static inline std::unique_ptr<TemporaryFolder> scratch_;
