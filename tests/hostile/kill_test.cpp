@@ -78,7 +78,8 @@ class Kill : public ::testing::Test {
     auto whole_run = time_of_whole_run(arguments);
     const std::string undisturbed = numbers_below(path("out"));
     constexpr unsigned kSeed = 20080131;
-    constexpr int kAttemptsPerKill = 20;  // a moment misses only when this run is much faster than any before
+    constexpr int kAttemptsPerKill =
+        20;  // a moment misses only when this run is much faster than any before
     std::mt19937 random(kSeed);
     int attempts = 0;
     for (; killed_ < kills() && attempts < kAttemptsPerKill * kills() && !HasFailure();
@@ -127,6 +128,14 @@ TEST_F(Kill, Tabulate) {
 TEST_F(Kill, Sweep) {
   kill_again_and_again({"sweep", path("sweep.toml"), "-o", path("out/sweep.csv"), "--plot",
                         path("out/sweep.svg"), "--jobs", "2"});
+}
+
+TEST_F(Kill, Particles) {
+  const fs::path cases = VISCONTACT_SOURCE_FOLDER "/data/cases/particles";
+  put_text(path("settling.csv"), read_file(cases / "settling.csv"));
+  put_text(path("settling.toml"),
+           replaced(read_file(cases / "settling.toml"), "end_time = 20.0", "end_time = 4.0"));
+  kill_again_and_again({"particles", path("settling.toml"), "-o", path("out")});
 }
 
 }  // namespace

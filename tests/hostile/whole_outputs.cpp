@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "case_file/case_file.hpp"
@@ -14,6 +15,7 @@
 #include "common/file.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/force_table.hpp"
+#include "particles/restart.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/trajectory.hpp"
 #include "tests/app/sample_files.hpp"
@@ -41,6 +43,11 @@ bool is_journal(const fs::path& file) {
 
 bool is_trajectory(const fs::path& file) { return file.parent_path().filename() == "trajectories"; }
 
+bool is_particles_csv(const fs::path& file) {
+  const std::string name = file.filename();
+  return name == "final_particles.csv" || name == "final_contacts.csv" || name == "steps.csv";
+}
+
 /// Throws if the file is not whole.
 void read_whole(const fs::path& file) {
   const std::string name = file.filename();
@@ -54,6 +61,12 @@ void read_whole(const fs::path& file) {
     (void)read_fit(file);
   else if (name == "comparison.json")
     (void)read_comparison(file);
+  else if (name == "restart.bin")
+    (void)particles::read_restart(file);
+  else if (is_particles_csv(file))
+    EXPECT_THAT(read_file(file), ::testing::EndsWith("\n")) << file;
+  else if (file.extension() == ".vtp" || file.extension() == ".pvd")
+    EXPECT_THAT(read_file(file), ::testing::EndsWith("</VTKFile>\n")) << file;
   else if (file.extension() == ".json")
     EXPECT_TRUE(nlohmann::json::accept(read_file(file))) << file;
   else if (file.extension() == ".svg")
@@ -64,6 +77,14 @@ void read_whole(const fs::path& file) {
     (void)read_case(file);
   else
     ADD_FAILURE() << "who wrote " << file << "?";
+}
+
+std::string lines_without(const fs::path& file, std::string_view start) {
+  std::istringstream lines(read_file(file));
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with(start)) kept += line + "\n";
+  return kept;
 }
 
 std::string numbers_of(const fs::path& file) {
@@ -89,13 +110,8 @@ std::string numbers_of(const fs::path& file) {
     for (auto& model : comparison.models) model.seconds = 0;
     return write_comparison(comparison);
   }
-  if (name == "sweep.csv") {
-    std::istringstream lines(read_file(file));
-    std::string rows;
-    for (std::string line; std::getline(lines, line);)
-      if (!line.starts_with('#')) rows += line + "\n";
-    return rows;
-  }
+  if (name == "sweep.csv" || is_particles_csv(file)) return lines_without(file, "#");
+  if (file.extension() == ".vtp") return lines_without(file, "<!-- provenance: ");
   return "";  // pages and pictures of these numbers
 }
 
