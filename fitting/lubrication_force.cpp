@@ -145,7 +145,13 @@ double LubricationForce::regular_impulse(double gap) const {
 double LubricationForce::resistance(double gap) const {
   check_gap(gap);
   if (exact_) return leading_ / radius_ * plane_drag_factor(gap / radius_);
-  if (gap < fitted_interval_[0]) return limit().k / gap + limit().constant;
+  if (gap < fitted_interval_[0]) {
+    const double resistance = limit().k / gap + limit().constant;
+    if (!std::isfinite(resistance))
+      throw Error(ExitCode::kNotConverged,
+                  fmt::format("the resistance at gap {} is larger than a double can hold", gap));
+    return resistance;
+  }
   if (gap > fitted_interval_[1])
     return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
   return sum_values(weights_, gap);

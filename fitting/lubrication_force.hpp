@@ -39,7 +39,7 @@ class LubricationForce {
   /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every gap > 0.
   static LubricationForce exact_plane(double viscosity, double radius);
 
-  /// R(q) = -F_lub(q, u)/u [M/T], > 0.
+  /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) below the interval if it is larger than a double can hold.
   double resistance(double gap) const;
 
   /// dR/d ln q = q dR/dq [M/T].
