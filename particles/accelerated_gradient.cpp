@@ -21,7 +21,8 @@ struct Sums {
 }  // namespace
 
 template <int D>
-Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_iterations) {
+Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_iterations,
+                            FaceFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   const std::size_t numbers = graph.bodies() * D;
   auto& team = graph.team();
@@ -97,7 +98,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
   return solved;
 }
 
-template Solved accelerated_gradient<2>(ContactGraph<2>&, double, int);
-template Solved accelerated_gradient<3>(ContactGraph<3>&, double, int);
+template Solved accelerated_gradient<2>(ContactGraph<2>&, double, int, FaceFactor<2>&);
+template Solved accelerated_gradient<3>(ContactGraph<3>&, double, int, FaceFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -119,6 +119,27 @@ class ContactGraph {
         y + static_cast<std::size_t>(in_block_[c][1]) * D);
   }
 
+  bool is_free(std::size_t c) const { return z[c] > bound[c]; }
+
+  /// Calls visit(c', W_cc') for each contact c' that has a particle in common with c, but for c itself, whose W_cc is 1.
+  template <class Visit>
+  void visit_neighbours(std::size_t c, const Visit& visit) const {
+    const auto& row = rows_[c];
+    const auto visit_at = [&](std::int32_t body, double of_body) {
+      const auto b = static_cast<std::size_t>(body);
+      for (auto k = offsets_[b]; k < offsets_[b + 1]; ++k) {
+        const auto& share = shares_[static_cast<std::size_t>(k)];
+        const auto other = static_cast<std::size_t>(share.contact);
+        if (other == c) continue;
+        double entry = 0;
+        for (std::size_t d = 0; d < D; ++d) entry += row.normal[d] * share.push[d];
+        visit(other, of_body * inverse_mobilities_[b] * entry);
+      }
+    };
+    visit_at(row.first, -row.of_first);
+    visit_at(row.second, row.of_second);
+  }
+
   /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, at impulse z_c with gradient g_c.
   double violation(std::size_t c, double z_c, double gradient) const {
     return scale[c] * std::abs(std::min(gradient, z_c - bound[c]));

@@ -10,8 +10,7 @@ namespace viscontact::particles {
 namespace {
 
 double gap_of(const Particles& p, const Film& film, std::span<const PlanePlace> places) {
-  return p.dimension == 2 ? contact_of<2>(p, film, places).gap
-                          : contact_of<3>(p, film, places).gap;
+  return p.dimension == 2 ? contact_of<2>(p, film, places).gap : contact_of<3>(p, film, places).gap;
 }
 
 }  // namespace

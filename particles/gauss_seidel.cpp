@@ -5,7 +5,8 @@
 namespace viscontact::particles {
 
 template <int D>
-Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations) {
+Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations,
+                    FaceFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   std::vector<double> y(graph.bodies() * D);
   Solved solved;
@@ -42,7 +43,7 @@ Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations
   return solved;
 }
 
-template Solved gauss_seidel<2>(ContactGraph<2>&, double, int);
-template Solved gauss_seidel<3>(ContactGraph<3>&, double, int);
+template Solved gauss_seidel<2>(ContactGraph<2>&, double, int, FaceFactor<2>&);
+template Solved gauss_seidel<3>(ContactGraph<3>&, double, int, FaceFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -114,7 +114,7 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
 template <int D>
 Solved StepProjection<D>::solve(const SolverSettings& settings, double goal, int iterations) {
   ContactGraph<D> graph(contacts_, free_, body_mobilities_, team_);
-  const auto solved = method_of<D>(settings)(graph, goal, iterations);
+  const auto solved = method_of<D>(settings)(graph, goal, iterations, factor_);
   std::vector<double> moved(graph.bodies() * D), impulses(contacts_.size());
   graph.to_bodies(graph.z, moved);
   graph.impulses(impulses);

@@ -55,6 +55,7 @@ class StepProjection {
   std::vector<std::int32_t> bodies_;
   std::vector<std::int32_t> number_;  // of all particles; -1: does not take part
   std::vector<double> free_, body_mobilities_;
+  FaceFactor<D> factor_;  // of the solves so far
 };
 
 extern template class StepProjection<2>;

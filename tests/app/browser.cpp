@@ -52,10 +52,9 @@ void expect_quiet(const std::string& log) {
 
 nlohmann::json read_in_browser(const std::string& page, std::string_view script, int width) {
   const TemporaryFolder scratch;
-  const auto file =
-      scratch.file("read.html", in_frame(page + std::string(kTell) + "<script>" +
-                                             std::string(script) + "</script>\n",
-                                         width));
+  const auto file = scratch.file("read.html", in_frame(page + std::string(kTell) + "<script>" +
+                                                           std::string(script) + "</script>\n",
+                                                       width));
   const auto errors = scratch.path() / "browser.log";
   const auto result =
       run_process({"/bin/sh", "-c", "exec chromium \"$@\" 2>'" + errors.string() + "'", "sh",

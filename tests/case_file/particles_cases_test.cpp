@@ -47,9 +47,7 @@ class ShippedRun {
   std::vector<ContactNow> contacts() const {
     return particles::contacts_of(case_.setting, simulation_.state());
   }
-  double overlap() const {
-    return particles::largest_overlap(case_.setting, simulation_.state());
-  }
+  double overlap() const { return particles::largest_overlap(case_.setting, simulation_.state()); }
   double kinetic_energy() const {
     double energy = 0;
     for (std::size_t k = 0; k < now().count(); ++k)
@@ -77,8 +75,7 @@ std::set<std::int32_t> glued_to(std::int32_t particle, const std::vector<Contact
   for (std::size_t before = 0; before != group.size();) {
     before = group.size();
     for (const auto& c : contacts)
-      if (c.gamma < 0 && c.first >= 0 &&
-          (group.contains(c.first) || group.contains(c.second)))
+      if (c.gamma < 0 && c.first >= 0 && (group.contains(c.first) || group.contains(c.second)))
         group.insert({c.first, c.second});
   }
   return group;
@@ -116,8 +113,7 @@ TEST(Raft, RemembersThePushAndComesApartWhenThePullHasGivenItBack) {
     if (column == 0) moved -= left;
     if (column == kColumns - 1) moved += left;
     // The push holds gaps at the tolerance, in any of 7 films.
-    EXPECT_NEAR(raft.now().positions[2 * k] - start[2 * k], moved, 10 * tolerance)
-        << "disc " << k;
+    EXPECT_NEAR(raft.now().positions[2 * k] - start[2 * k], moved, 10 * tolerance) << "disc " << k;
   }
 }
 
@@ -149,9 +145,10 @@ TEST(Lottery, BallsHangFromTheWallsThatPressedThem) {
   lottery.to(lottery.of().end_time, [&] {
     const auto& planes = lottery.of().setting.planes;
     for (const auto& c : lottery.contacts())
-      overhead = overhead ||
-                 (c.first < 0 && c.gamma < 0 &&
-                  planes[static_cast<std::size_t>(-1 - c.first)].at(lottery.time()).normal[2] < -0.5);
+      overhead =
+          overhead ||
+          (c.first < 0 && c.gamma < 0 &&
+           planes[static_cast<std::size_t>(-1 - c.first)].at(lottery.time()).normal[2] < -0.5);
   });
   EXPECT_TRUE(overhead);
   EXPECT_LE(lottery.overlap(), lottery.of().setting.solver.tolerance);

@@ -179,8 +179,9 @@ Answer answer_of(const SolverMethodRow& row, const Problem<D>& problem, double t
                  int threads = 1) {
   Team team(threads);
   ContactGraph<D> graph(problem.contacts, problem.displacements, problem.mobilities, team);
+  FaceFactor<D> factor;
   Answer answer;
-  answer.solved = method_of<D>(row)(graph, tolerance, 1'000'000);
+  answer.solved = method_of<D>(row)(graph, tolerance, 1'000'000, factor);
   std::vector<double> impulses(problem.contacts.size());
   graph.impulses(impulses);
   answer.impulses =
@@ -293,6 +294,58 @@ TEST(Projection, OfAPackingWithMoreContactsThanFreedomsHasOneVelocity) {
   }
 }
 
+TEST(FaceFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
+  Random random(7);
+  Team team(1);
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    const auto problem = random_problem<2>(random);
+    const auto dense = problem.dense();
+    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, team);
+    const auto choose_free = [&] {
+      for (std::size_t c = 0; c < graph.count(); ++c)
+        graph.z[c] = graph.bound[c] + (random.chance(0.7) ? 1 : 0);
+    };
+    choose_free();
+    std::vector<Eigen::Index> made_of;
+    for (std::size_t c = 0; c < graph.count(); ++c)
+      if (graph.is_free(c)) made_of.push_back(static_cast<Eigen::Index>(c));
+    FaceFactor<2> factor;
+    EXPECT_FALSE(factor.is_there());
+    factor.factorise(graph);
+    ASSERT_TRUE(factor.is_there());
+    choose_free();
+
+    const Eigen::MatrixXd half = dense.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() *
+                                 dense.g * dense.weight.cwiseSqrt().cwiseInverse().asDiagonal();
+    Eigen::MatrixXd w = (half * half.transpose())(made_of, made_of);
+    constexpr double kEpsilon = 1e-10;  // of the factor
+    w.diagonal().array() += kEpsilon;
+    std::vector<double> gradient(graph.count()), solved(graph.count());
+    for (auto& g : gradient) g = random.uniform(-1, 1);
+    const double product = factor.solve(graph, gradient, solved);
+    Eigen::VectorXd right(static_cast<Eigen::Index>(made_of.size()));
+    for (Eigen::Index k = 0; k < right.size(); ++k) {
+      const auto c = static_cast<std::size_t>(made_of[static_cast<std::size_t>(k)]);
+      right[k] = graph.is_free(c) ? gradient[c] : 0;
+    }
+    const Eigen::VectorXd inverse = w.ldlt().solve(right);
+    double expected_product = 0;
+    auto expected = gradient;
+    for (Eigen::Index k = 0; k < right.size(); ++k)
+      expected[static_cast<std::size_t>(made_of[static_cast<std::size_t>(k)])] = inverse[k];
+    // Rounding, times the condition of at most 10/epsilon.
+    const double rounding =
+        1e-15 * 10 / kEpsilon * std::max(1.0, inverse.lpNorm<Eigen::Infinity>());
+    for (std::size_t c = 0; c < graph.count(); ++c) {
+      if (!graph.is_free(c)) expected[c] = 0;
+      EXPECT_NEAR(solved[c], expected[c], rounding) << c;
+      expected_product += expected[c] * gradient[c];
+    }
+    EXPECT_NEAR(product, expected_product, static_cast<double>(graph.count()) * rounding);
+  }
+}
+
 TEST(Projection, OfDuplicateContactsHasOneVelocityAndTheirImpulsesAddUp) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
@@ -369,7 +422,8 @@ TEST(Projection, ThatCannotBeSaysSo) {
     }
     Team team(1);
     ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, team);
-    const auto solved = row.discs(graph, 1e-6, 1000);
+    FaceFactor<2> factor;
+    const auto solved = row.discs(graph, 1e-6, 1000, factor);
     // In the middle each is violated by 0.1; nowhere both by less.
     EXPECT_GE(solved.violation, 0.1 - 1e-12) << row.name;
     EXPECT_LE(solved.iterations, 1003) << row.name;
