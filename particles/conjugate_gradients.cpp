@@ -27,8 +27,8 @@ struct Look {
   }
 };
 
-/// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the free contacts of one of
-/// the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
+/// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
+/// free contacts of one of the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
 template <int D>
 class Iteration {
  public:
@@ -276,8 +276,9 @@ Solved conjugate_gradients(ContactGraph<D>& graph, double tolerance, int max_ite
                            FaceFactor<D>& factor) {
   Iteration<D> iteration(graph, factor);
   Solved solved;
-  // Conjugate gradients that go on and on between the same contacts are slow for W's sake, which a factor mends; between contacts that still change sides it would soon be
-  // another's. Measured on box2d with 1000 discs: 10, 20 and 40 steps differ by less than runs do, in the fall; at rest 20 take half of the time of 40.
+  // Conjugate gradients that go on and on between the same contacts are slow for W's sake, which a factor mends; while contacts change sides it would
+  // soon be another's. Measured on box2d with 1000 discs, 10, 20 and 40 steps: in the fall they differ by less than runs do; at rest 20 take half of
+  // the time of 40.
   constexpr int kPatience = 20;
   bool fresh = true;
   for (;;) {

@@ -17,8 +17,8 @@ class FaceFactor {
   FaceFactor();
   ~FaceFactor();
 
-  /// Whether a problem of so many contacts may be factorised. Of discs the factor has some 20 numbers a contact at 20 000 contacts; of spheres it fills: 1000 of them that
-  /// come to rest took 1.2 times as long as with sweeps.
+  /// Whether a problem of so many contacts may be factorised. Of discs the factor has some 20 numbers a contact at 20 000 contacts; of spheres it fills:
+  /// 1000 of them that come to rest took 1.2 times as long as with sweeps.
   static bool is_worth(std::size_t contacts);
 
   /// Of the contacts that are free now. Keeps what there was if W cannot be factorised.

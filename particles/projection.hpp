@@ -22,7 +22,8 @@ struct Solved {
 };
 
 /// Improves graph.z from its guess until no contact is further than `tolerance` [L] from its conditions or the iterations are used up. Impulses of
-/// redundant contacts, of which the velocities know only a part, depend on the guess. `factor` is that of the solves before it on the same graph, perhaps with fewer contacts: a method may use it and make another.
+/// redundant contacts, of which the velocities know only a part, depend on the guess. `factor` is that of the solves before it on the same graph, perhaps with fewer contacts: a
+/// method may use it and make another.
 template <int D>
 using SolverMethod = Solved (*)(ContactGraph<D>& graph, double tolerance, int max_iterations,
                                 FaceFactor<D>& factor);
