@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string file, output;
+  std::string file, output, folder;
   bool changed_inputs = false, dry_run = false;
 };
 
@@ -125,7 +125,12 @@ void rerun(const Options& o) {
     throw_bad_input({o.file},
                     "does not say how it was made (no line 'provenance'); files that "
                     "Viscontact writes do, copies of yours do not");
-  const fs::path folder = provenance->folder;
+  const fs::path folder = o.folder.empty() ? fs::path(provenance->folder) : fs::absolute(o.folder);
+  if (!fs::is_directory(folder))
+    throw_bad_input({folder.string()},
+                    fmt::format("is no folder; the command that made {} runs in {}; '--folder DIR' "
+                                "names another one",
+                                o.file, provenance->folder));
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
     if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())
@@ -180,6 +185,10 @@ void add_rerun(CLI::App& app) {
                    "write there, from nothing; of one of the files of a run: a folder for all; "
                    "default: where the command wrote, what is up to date there is left")
       ->type_name(kFile);
+  command
+      ->add_option("--folder", o->folder,
+                   "run it in DIR, for files that have moved; default: where it was run")
+      ->type_name(kFolder);
   command->add_flag("--changed-inputs", o->changed_inputs,
                     "go on although inputs have changed since");
   command->add_flag("--dry-run", o->dry_run, "print the command, do not run it");

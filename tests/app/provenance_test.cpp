@@ -175,6 +175,25 @@ TEST_F(Rerun, GoesToTheFolderOfTheCommand) {
   EXPECT_EQ(rest_of(path("again.json")), rest_of(path("fit.json")));
 }
 
+TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
+  fs::create_directory(path("old"));
+  fs::copy(path("table.csv"), path("old/table.csv"));
+  const auto in_old = "cd '" + path("old") + "'; ";
+  expect_done(run_viscontact({"fit", "table.csv", "-o", "fit.json"}, {}, in_old));
+  const auto first = rest_of(path("old/fit.json"));
+  fs::rename(path("old"), path("new"));
+  expect_refusal(run({"rerun", path("new/fit.json")}), ExitCode::kBadInput,
+                 AllOf(HasSubstr(path("old") + ": is no folder"), HasSubstr("--folder")));
+  EXPECT_FALSE(fs::exists(path("old")));
+  expect_done(
+      run({"rerun", path("new/fit.json"), "--folder", path("new"), "-o", path("again.json")}));
+  EXPECT_EQ(rest_of(path("again.json")), first);
+  EXPECT_EQ(provenance_of(path("again.json")).at("folder"), path("new"));
+  put_text(path("new/table.csv"), "changed");
+  expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}),
+                 ExitCode::kBadInput, HasSubstr(path("new/table.csv") + " has changed"));
+}
+
 TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
   fit();
   put_text(path("table.csv"),
