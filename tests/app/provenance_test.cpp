@@ -190,8 +190,8 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
   EXPECT_EQ(rest_of(path("again.json")), first);
   EXPECT_EQ(provenance_of(path("again.json")).at("folder"), path("new"));
   put_text(path("new/table.csv"), "changed");
-  expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}),
-                 ExitCode::kBadInput, HasSubstr(path("new/table.csv") + " has changed"));
+  expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}), ExitCode::kBadInput,
+                 HasSubstr(path("new/table.csv") + " has changed"));
 }
 
 TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
