@@ -14,6 +14,10 @@ inline constexpr const char* kFolder = "DIR";
 inline constexpr const char* kModel = "MODEL";
 inline constexpr const char* kModels = "MODEL,...";
 
+/// What is said of a folder into which another process writes (LockedFolder).
+inline constexpr const char* kFolderIsHeld =
+    "another viscontact writes into it; wait until it has ended, or write elsewhere";
+
 /// "word|word" of the names in a table.
 template <class Table>
 std::string words_of(const Table& table) {

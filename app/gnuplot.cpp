@@ -88,6 +88,8 @@ std::string quoted_for_gnuplot(const std::string& text) {
       result += "\\n";
     else if (c == '`')
       result += "\\140";  // as it stands it would run a command of the shell
+    else if (static_cast<unsigned char>(c) < ' ')
+      result += "\uFFFD";  // it would stand in the SVG, where no control character may
     else
       result += c;
   }

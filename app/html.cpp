@@ -17,6 +17,8 @@ std::string escaped(std::string_view text) {
       result += "&gt;";
     else if (c == '"')
       result += "&quot;";
+    else if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t')
+      result += "\uFFFD";  // no XML may hold it, not even escaped
     else
       result += c;
   }

@@ -20,11 +20,13 @@
 #include "app/report.hpp"
 #include "app/rerun.hpp"
 #include "app/run_folder.hpp"
+#include "app/simulate_stage.hpp"
 #include "app/sweep_command.hpp"
 #include "app/tabulate_command.hpp"
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
+#include "common/locked_folder.hpp"
 #include "common/named.hpp"
 #include "reduced_model/models.hpp"
 
@@ -106,9 +108,10 @@ void add_simulate(CLI::App& app) {
     const Case c = read_case(o->case_file);
     auto inputs = files_of_motion(c);
     inputs.emplace_back(o->fit);
-    simulate_stage(c, o->fit, o->folder, o->models, below,
-                   o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError,
-                   provenance_of({inputs, {}}));
+    const auto above = o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError;
+    const auto provenance = provenance_of({inputs, {}});
+    const LockedFolder ours(o->folder, kFolderIsHeld);
+    simulate_stage(c, o->fit, o->folder, o->models, {below, above}, provenance);
   });
 }
 
@@ -140,6 +143,9 @@ void add_compare(CLI::App& app) {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
     refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
+    std::optional<LockedFolder> ours;
+    if (o->output.empty() && std::filesystem::is_directory(o->folder))
+      ours.emplace(o->folder, kFolderIsHeld);
     compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output, {},
                   o->json);
   });
@@ -150,7 +156,11 @@ void add_report(CLI::App& app) {
       app.add_subcommand("report", "report.html: one self-contained page with the plots");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "folder of a run")->required()->type_name(kFolder);
-  command->callback([folder] { write_report(*folder); });
+  command->callback([folder] {
+    std::optional<LockedFolder> ours;
+    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, kFolderIsHeld);
+    write_report(*folder);
+  });
 }
 
 void add_run(CLI::App& app) {
@@ -172,7 +182,9 @@ void add_run(CLI::App& app) {
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
-    run_stages(read_case(o->case_file), o->folder, o->jobs, o->json);
+    const Case c = read_case(o->case_file);
+    const LockedFolder ours(o->folder, kFolderIsHeld);
+    run_stages(c, o->folder, o->jobs, o->json);
   });
 }
 

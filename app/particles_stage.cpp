@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/command_options.hpp"
 #include "app/particles_page.hpp"
 #include "app/particles_picture.hpp"
 #include "app/progress.hpp"
@@ -21,6 +22,7 @@
 #include "common/error.hpp"
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
+#include "common/locked_folder.hpp"
 #include "common/number.hpp"
 #include "particles/contacts_now.hpp"
 #include "particles/particle_file.hpp"
@@ -85,6 +87,7 @@ class Frames {
 
   /// The last state is always among them.
   void end(const Simulation& simulation) {
+    if (files_.empty()) return;  // not even the first could be written
     if (files_.back().first < simulation.state().time) add(simulation);
     if (playback_.frames.back().time < simulation.state().time)
       keep(simulation, particles::contacts_of(simulation.setting(), simulation.state()));
@@ -189,8 +192,8 @@ constexpr const char* kResults[] = {
     "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
     "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
 
-/// A frame that we wrote, by its name and its first lines.
-bool is_our_frame(const fs::path& path) {
+/// A file of the name of a frame.
+bool is_named_as_frame(const fs::path& path) {
   constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
   constexpr std::size_t kDigits = 5;
   const std::string name = path.filename();
@@ -199,7 +202,11 @@ bool is_our_frame(const fs::path& path) {
     return false;
   const auto digits =
       std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
-  if (!std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; })) return false;
+  return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
+}
+
+/// A frame that we wrote, by its first lines.
+bool is_our_frame(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
   std::getline(file, line);
@@ -208,11 +215,21 @@ bool is_our_frame(const fs::path& path) {
 
 /// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
 void remove_earlier_run(const fs::path& folder) {
-  for (const auto* name : kResults) fs::remove(folder / name);
+  for (const auto* name : kResults) remove_file(folder / name);
   std::vector<fs::path> frames;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_our_frame(entry.path())) frames.push_back(entry.path());
-  for (const auto& frame : frames) fs::remove(frame);
+    if (is_named_as_frame(entry.path())) frames.push_back(entry.path());
+  for (const auto& frame : frames) remove_file(frame);
+}
+
+/// Refuses to write over what is no result of ours.
+void check_folder_is_ours(const fs::path& folder) {
+  for (const auto* name : kResults)
+    refuse_other_kind((folder / name).string(), "provenance", "result of ours");
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_named_as_frame(entry.path()) && !is_our_frame(entry.path()))
+      throw_bad_input({entry.path().string()},
+                      "is there and is no frame of ours; remove it first, or write elsewhere");
 }
 
 /// Refuses to write over what the run is made from.
@@ -358,15 +375,19 @@ void run_particles(const ParticlesRequest& request) {
   const fs::path folder = request.folder;
   check_inputs_stay(c, request.restart, folder);
   Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
-  make_folder(folder);
+  const LockedFolder ours(folder, kFolderIsHeld);
+  check_folder_is_ours(folder);
   remove_earlier_run(folder);
 
   Run run(c, simulation, folder, provenance);
   try {
     run.simulate();
   } catch (const Error&) {
-    // A step that cannot be computed left the state before it: that is kept, too.
-    run.write_results();
+    // A step that cannot be computed left the state before it: that is kept, too, unless it is the writing that failed.
+    try {
+      run.write_results();
+    } catch (const Error&) {
+    }
     throw;
   }
   const auto json = run.write_results();

@@ -14,6 +14,7 @@
 #include "app/run_copies.hpp"
 #include "app/run_folder.hpp"
 #include "app/shift_plot.hpp"
+#include "app/simulate_stage.hpp"
 #include "app/tabulate_stage.hpp"
 #include "app/versions.hpp"
 #include "common/csv.hpp"
@@ -39,47 +40,6 @@ bool up_to_date(const fs::path& path, const Test& test) {
     return test();
   } catch (const Error&) {
     return false;
-  }
-}
-
-/// What identifies the inputs of a trajectory, in its "# key: value" lines.
-CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text) {
-  CsvComments comments = {{"case", sha256(c.text)},
-                          {"fit", content_sha256(fit_text)},
-                          {"revision of the models", std::to_string(kModelsRevision)},
-                          {"version of Viscontact", VISCONTACT_VERSION}};
-  if (!c.force_files.empty()) comments["force"] = sha256(text_of_forces(c));
-  return comments;
-}
-
-std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
-  if (asked.empty()) asked = c.models;
-  if (asked.empty())
-    for (const auto& model : default_models()) asked.emplace_back(model.name);
-  return asked;
-}
-
-std::string time_step_of(std::string_view model, const Motion& motion) {
-  const auto name = find_model(model).model->name;
-  if (name == "viscous_contact_exact") return "none";
-  if (find_model(model).model->contact != nullptr || name == "explicit_euler")
-    return format_number(motion.contact_time_step);
-  return name == "reference" ? format_number(motion.reference_time_step) : "variable";
-}
-
-/// What the fit's errors do to the motion without inertia; where there is no such motion, no file.
-void write_uncertainty_file(const Motion& motion, const Fit& fit, BelowInterval below,
-                            AboveInterval above, const fs::path& path,
-                            const Provenance& provenance) {
-  constexpr std::size_t kTimes = 81;
-  try {
-    write_output(path, TextKind::kJson,
-                 write_uncertainty(propagate_fit(motion, fit, kTimes, below, above)), provenance);
-  } catch (const Error& error) {
-    if (error.exit_code() != ExitCode::kNotConverged) throw;
-    fs::remove(path);
-    warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
-                     error.what()));
   }
 }
 
@@ -217,49 +177,6 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
              shift.largest_relative_residual, shift.rms_relative_residual);
 }
 
-void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
-                    std::vector<std::string> models, BelowInterval below, AboveInterval above,
-                    const Provenance& provenance) {
-  const auto& motion = required_motion(c);
-  const std::string fit_text = read_file(fit_path);
-  const RunFolder run{folder};
-  check_case_copies(run, c);
-  check_fit_copy(run, fit_text);
-  const Fit fit = read_fit(fit_path);
-  // A fit of another viscosity could be scaled, one of another radius could not; neither is done
-  // silently.
-  if (fit.viscosity != c.viscosity || fit.radius != c.radius)
-    throw_bad_input(
-        {fit_path.string()},
-        fmt::format(
-            "is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
-            fit.viscosity, fit.radius, c.viscosity, c.radius));
-  const LubricationForce force = [&] {
-    try {
-      return LubricationForce(fit, below, above);
-    } catch (const Error& error) {
-      throw Error(error.exit_code(), fmt::format("{}: {}", fit_path.string(), error.what()));
-    }
-  }();
-  std::vector<Trajectory> trajectories;
-  for (const auto& name : models_to_run(c, std::move(models))) {
-    throw_if_interrupted();
-    trajectories.push_back(simulate(find_model(name), motion, force));
-    trajectories.back().provenance = identity_of_trajectory(c, fit_text);
-    trajectories.back().provenance["time_step"] = time_step_of(name, motion);
-  }
-  write_copies(run, c, fit_text);
-  if (fit.basis == kExactPlane)
-    fs::remove(run.uncertainty());
-  else
-    write_uncertainty_file(motion, fit, below, above, run.uncertainty(), provenance);
-  // Last: by the trajectories `run` sees whether all this has been done.
-  for (const auto& trajectory : trajectories)
-    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
-                 write_trajectory(trajectory), provenance);
-  say(fmt::format("simulate: {} models", trajectories.size()));
-}
-
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
                    const std::string& reference_model, const fs::path& comparison_path,
                    const std::vector<fs::path>& given, bool json) {
@@ -275,11 +192,38 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
 }
 
+namespace {
+
+/// True if the report was made from what the fit's errors do, and that is not there any more.
+bool uncertainty_is_lost(const RunFolder& run) {
+  if (fs::exists(run.uncertainty())) return false;
+  try {
+    const auto provenance = read_provenance(run.report());
+    return provenance && std::ranges::any_of(provenance->inputs, [&](const InputFile& input) {
+             return fs::path(input.file).filename() == run.uncertainty().filename();
+           });
+  } catch (const Error&) {  // no report, or half of one: it will be made
+    return false;
+  }
+}
+
+/// Before a long computation: nothing that a user put there is written over.
+void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
+  if (writes_fit) refuse_other_kind(run.fit().string(), "\"gap_interval\"", "fit");
+  refuse_other_kind(run.comparison().string(), "\"reference_model\"", "comparison");
+  refuse_other_kind(run.report().string(), "id=\"provenance\"", "report of ours");
+  for (const auto& file : files_of_models(run.trajectories()))
+    refuse_other_kind(file.string(), "# provenance: ", "trajectory of ours");
+}
+
+}  // namespace
+
 void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   const RunFolder run{folder};
   const auto& request = required_fit(c);
   (void)required_motion(c);
   check_case_copies(run, c);  // before the long tabulation
+  check_outputs_of_run(run, !request.file);
   auto given = files_of_motion(c);
   if (request.file) given.emplace_back(*request.file);
   fs::path fit = run.fit();
@@ -290,7 +234,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
     if (!up_to_date(fit, [&] { return without_provenance(read_file(fit)) == text; }))
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
-    check_run(c, models_to_run(c, {}));
+    check_run(c, models_to_run(c));
     // Its first line, which a table cut short still has.
     refuse_other_kind(run.table().string(), "# case: ", "table of ours");
     tabulate_stage({{c, run.table()}}, jobs);
@@ -299,38 +243,34 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   }
   throw_if_interrupted();
 
-  const auto models = models_to_run(c, {});
+  const auto models = models_to_run(c);
+  const OutsideFit outside{request.below, request.above};
   const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
   const std::string reference = has_inertial ? "inertial" : models.front();
-  const auto provenance = identity_of_trajectory(c, read_file(fit));
-  const auto made_from_these = [&](const std::string& model) {
-    return up_to_date(run.trajectory(model), [&] {
-      const auto comments = read_trajectory(run.trajectory(model)).provenance;
-      return std::ranges::all_of(provenance, [&](const auto& line) {
-        const auto found = comments.find(line.first);
-        return found != comments.end() && found->second == line.second;
-      });
-    });
-  };
-  if (std::ranges::all_of(models, made_from_these) && fs::exists(run.case_file())) {
+  const std::string fit_text = read_file(fit);
+  const bool simulated = std::ranges::all_of(models, [&](const std::string& model) {
+    return is_simulated(run, model, c, fit_text, outside);
+  });
+  if (simulated && fs::exists(run.case_file()) && !uncertainty_is_lost(run)) {
     say("simulate: trajectories are up to date");
     if (up_to_date(
             run.comparison(),
             [&] { return read_comparison(run.comparison()).reference_model == reference; }) &&
-        fs::exists(run.report())) {
+        report_is_current(folder)) {
       say("compare, report: up to date");
       const auto comparison = read_comparison(run.comparison());
       fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
       return;
     }
   } else {
-    // What was made from the old trajectories goes first, so that no crash leaves it beside new
-    // ones.
-    fs::remove(run.comparison());
-    fs::remove(run.report());
-    for (const auto& file : files_of_models(run.trajectories())) fs::remove(file);
-    simulate_stage(c, fit, folder, models, request.below, request.above,
-                   provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
+    const auto results = simulate_case(c, fit, models, outside);
+    throw_if_interrupted();
+    // What was made from the old trajectories goes before the new ones come, so that no crash leaves it beside them.
+    remove_file(run.comparison());
+    remove_file(run.report());
+    for (const auto& file : files_of_models(run.trajectories())) remove_file(file);
+    write_simulated(run, c, results,
+                    provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
   }
   throw_if_interrupted();
   compare_stage(folder, {}, reference, run.comparison(), given, json);

@@ -1,4 +1,4 @@
-// The stages behind the commands, but for tabulate (tabulate_stage.hpp): each reads files, calls its part, and writes files.
+// The stages behind the commands, but for tabulate (tabulate_stage.hpp) and simulate (simulate_stage.hpp): each reads files, calls its part, and writes files.
 // `json`: the table that a stage prints is printed as JSON.
 #pragma once
 
@@ -27,13 +27,6 @@ void compare_bases_stage(const std::filesystem::path& table_path, const FitSetti
 /// picture (SVG) unless `plot_path` is empty.
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path);
-
-/// Runs models (names; none: those that the case names, or all) with a fit file into the run
-/// folder's trajectories; copies case and fit beside them. All files are written, or none. Throws
-/// Error(kBadInput) if the fit is of another viscosity or radius than the case.
-void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
-                    const std::filesystem::path& folder, std::vector<std::string> models,
-                    BelowInterval below, AboveInterval above, const Provenance& provenance);
 
 /// Compares a folder's trajectories, and other files, into `comparison_path`. `given`: the user's files that the trajectories were made from by the same
 /// command; empty if they are the user's own.

@@ -216,6 +216,14 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path) {
   return provenance_in(read_file(path), path.string());
 }
 
+std::string change_of(const InputFile& input, const std::filesystem::path& folder) {
+  const auto path = folder / input.file;
+  if (!std::filesystem::exists(path)) return fmt::format("{} is not there any more", path.string());
+  if (input.sha256.empty()) return fmt::format("{} was no file, but a pipe", path.string());
+  if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
+  return "";
+}
+
 std::string provenance_line(Provenance provenance, const std::filesystem::path& path) {
   provenance.output = path.string();
   provenance.made = time_of_making();

@@ -53,6 +53,9 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
 /// The same of a file. Throws Error(kBadInput) if it cannot be read, too.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
+/// What has become of an input since; empty if it is as it was. `folder`: where the command ran. Throws Error(kBadInput) if it cannot be read.
+std::string change_of(const InputFile& input, const std::filesystem::path& folder);
+
 /// "# provenance: {...}\n", made now, for the CSV file `path`, which is written row by row.
 std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
 

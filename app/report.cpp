@@ -13,6 +13,8 @@
 #include "app/report_tables.hpp"
 #include "app/report_warnings.hpp"
 #include "app/run_results.hpp"
+#include "common/error.hpp"
+#include "common/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -137,6 +139,24 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
 
 }  // namespace
 
+bool report_is_current(const std::filesystem::path& folder) {
+  const RunFolder run{folder};
+  try {
+    if (!std::filesystem::exists(run.report())) return false;
+    const auto page = read_file(run.report());
+    const auto provenance = provenance_in(page, run.report().string());
+    if (!provenance) return false;
+    for (const auto& input : provenance->inputs)  // a pipe's content is in the copy of the case
+      if (!input.sha256.empty() && !change_of(input, provenance->folder).empty()) return false;
+    return std::ranges::all_of(kPlotNames, [&](std::string_view name) {
+      return page.find(fmt::format("\"plots/{}.svg\"", name)) == std::string::npos ||
+             std::filesystem::exists(run.plot(std::string(name)));
+    });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given) {
   const auto run = read_run(folder);
@@ -150,7 +170,7 @@ void write_report(const std::filesystem::path& folder,
   for (const auto name : kPlotNames)  // of an earlier report
     if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
         pictures.end())
-      std::filesystem::remove(run.folder.plot(std::string(name)));
+      remove_file(run.folder.plot(std::string(name)));
   say(fmt::format("report: {}", run.folder.report().string()));
 }
 

@@ -12,4 +12,7 @@ namespace viscontact {
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {});
 
+/// True if the folder's report and its plots are there, made from what the report's inputs still are.
+bool report_is_current(const std::filesystem::path& folder);
+
 }  // namespace viscontact

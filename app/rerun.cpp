@@ -28,15 +28,6 @@ struct Options {
   bool changed_inputs = false, dry_run = false;
 };
 
-/// What has become of an input since; nothing if it is as it was.
-std::string change_of(const InputFile& input, const fs::path& folder) {
-  const auto path = folder / input.file;
-  if (!fs::exists(path)) return fmt::format("{} is not there any more", path.string());
-  if (input.sha256.empty()) return fmt::format("{} was no file, but a pipe", path.string());
-  if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
-  return "";
-}
-
 /// Only what writes files: not a rerun of itself, and nothing that another file may make us do.
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr std::string_view kWriting[] = {"run",    "tabulate", "fit",   "export",
@@ -89,6 +80,11 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
       plot && value_at(command, *plot) == provenance.output)
     return put(*plot);
   const auto output = value_of(command, 'o', "--output");
+  // A picture that --compare-bases named itself.
+  if (command[1] == "fit" && (!output || value_at(command, *output) != provenance.output)) {
+    command.insert(command.end(), {"--plot", fs::absolute(o.output).string()});
+    return command;
+  }
   if (!output) {
     if (command[1] == "compare") {
       command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
@@ -99,6 +95,11 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
                             o.file, command[1]));
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
+  if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("{} is a picture that is drawn beside the table; repeat that, with -o "
+                            "TABLE, and its pictures are drawn beside it",
+                            o.file));
   if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
     throw Error(ExitCode::kWrongUsage,
                 fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must "
@@ -113,6 +114,26 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
   return command;
 }
 
+/// The command for files that are now in `to`: absolute paths into the folder in which it ran go there, too, so that nothing is read or written in the
+/// old place.
+void move_to(Provenance& provenance, const fs::path& to) {
+  const std::string from = provenance.folder + "/";
+  const auto move = [&](std::string& word, std::size_t begin) {
+    if (word.compare(begin, from.size(), from) == 0)
+      word.replace(begin, from.size(), (to / "").string());
+  };
+  for (std::size_t i = 2; i < provenance.command.size(); ++i) {
+    auto& word = provenance.command[i];
+    const auto value = word.find("=/");  // --output=/...
+    move(word, value != std::string::npos && word.starts_with("--") ? value + 1
+               : word.starts_with("-o/")                            ? 2
+                                                                    : 0);
+  }
+  for (auto& input : provenance.inputs) move(input.file, 0);
+  move(provenance.output, 0);
+  provenance.folder = to.string();
+}
+
 std::string in_words(const std::vector<std::string>& command) {
   std::string text = "viscontact";
   for (std::size_t i = 1; i < command.size(); ++i) text += " " + shell_word(command[i]);
@@ -120,17 +141,19 @@ std::string in_words(const std::vector<std::string>& command) {
 }
 
 void rerun(const Options& o) {
-  const auto provenance = read_provenance(o.file);
+  auto provenance = read_provenance(o.file);
   if (!provenance || provenance->command.empty())
     throw_bad_input({o.file},
                     "does not say how it was made (no line 'provenance'); files that "
                     "Viscontact writes do, copies of yours do not");
-  const fs::path folder = o.folder.empty() ? fs::path(provenance->folder) : fs::absolute(o.folder);
+  const std::string made_in = provenance->folder;
+  if (!o.folder.empty()) move_to(*provenance, fs::weakly_canonical(o.folder));
+  const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))
     throw_bad_input({folder.string()},
-                    fmt::format("is no folder; the command that made {} runs in {}; '--folder DIR' "
+                    fmt::format("is no folder; the command that made {} ran in {}; '--folder DIR' "
                                 "names another one",
-                                o.file, provenance->folder));
+                                o.file, made_in));
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
     if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())

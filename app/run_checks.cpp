@@ -29,8 +29,15 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
                                 "needs the drag there; tabulate further, or [fit] {}",
                                 motion.initial_gap, what, bound, model, remedy));
   };
+  // What the models themselves refuse, found with the exact drag: nothing outside an interval, and no table yet.
+  const LubricationForce exact(exact_plane_fit(c.viscosity, c.radius));
   for (const auto& name : models) {
     const auto choice = find_model(name);
+    try {
+      check_model(choice, motion, exact);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(), fmt::format("{}: {}", c.path.string(), error.what()));
+    }
     if (choice.exact_drag || choice.model->contact != nullptr) continue;
     if (motion.initial_gap < smallest && request.below == BelowInterval::kError)
       refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");

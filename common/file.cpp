@@ -83,6 +83,12 @@ void make_folder(const std::filesystem::path& path) {
   for (const auto& folder : missing) sync_folder_of(folder);
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_system_error(path, "removed", error.value());
+}
+
 void sync_folder_of(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : ".";
   const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -23,6 +23,9 @@ std::filesystem::path check_output_file(const std::filesystem::path& path);
 /// Makes a folder and its parents. Throws Error(kBadInput) where that cannot be.
 void make_folder(const std::filesystem::path& path);
 
+/// Takes a file away, if it is there. Throws Error(kBadInput) naming the path if it cannot be.
+void remove_file(const std::filesystem::path& path);
+
 /// Has the disk remember that `path` is in its folder (a new or renamed file), so that a power cut
 /// does not take it away. Throws Error(kBadInput) naming the path if the disk refuses.
 void sync_folder_of(const std::filesystem::path& path);

@@ -127,6 +127,18 @@ LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& forc
                            : force;
 }
 
+void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force) {
+  try {
+    const Motion own_motion = motion_of(choice, motion);
+    const bool contact = choice.model->contact != nullptr;
+    (void)step_count(motion.end_time,
+                     contact ? motion.contact_time_step : motion.reference_time_step);
+    if (contact) (void)choice.model->contact(own_motion, force);
+  } catch (const Error& error) {
+    throw Error(error.exit_code(), fmt::format("model {}: {}", choice.name, error.what()));
+  }
+}
+
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();

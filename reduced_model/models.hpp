@@ -53,6 +53,10 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion);
 /// A line for legends.
 std::string description_of(const ModelChoice& choice);
 
+/// What simulate() would refuse of the motion's numbers, found without running the model: throws the same Error(kBadInput). Of `force` only its interval
+/// matters.
+void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
+
 /// Runs a model and fills in its name, its books and the wall time. An Error carries the model's name in
 /// front.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -32,6 +33,17 @@ TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
   expect_refusal(result, ExitCode::kBadInput,
                  HasSubstr("fit.json: cannot be written (File too large)"));
   EXPECT_EQ(files_below(scratch_.path()), before);
+}
+
+TEST_F(DiskFull, ParticlesFailCleanlyIfNotEvenTheFirstFrameFits) {
+  std::string text = read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/particles/raft.toml");
+  put_text(path("raft.toml"), text);
+  put_text(path("raft.csv"), read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/particles/raft.csv"));
+  const auto result =
+      run_viscontact({"particles", path("raft.toml"), "-o", path("out")}, {}, kSmallFilesOnly);
+  expect_refusal(result, ExitCode::kBadInput,
+                 HasSubstr("particles_00000.vtp: cannot be written (File too large)"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));  // nothing was put there
 }
 
 TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {

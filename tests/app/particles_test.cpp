@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/file.hpp"
+#include "common/locked_folder.hpp"
 #include "particles/particle_file.hpp"
 #include "particles/restart.hpp"
 #include "tests/app/program.hpp"
@@ -391,6 +392,30 @@ TEST_F(ParticlesCommand, FilesOfTheResultAreInputsAgain) {
   const auto file = put_case(replaced(kCase, "\"discs.csv\"", "\"out/final_particles.csv\""));
   const std::string text = read_file(file);
   expect_done(run(put_case(text.substr(0, text.find("[[particle]]"))), out("second")));
+}
+
+TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
+  const auto file = put_case(kCase);
+  fs::create_directory(out());
+  for (const auto* name : {"steps.csv", "particles.svg", "particles_00000.vtp"}) {
+    put_text(out() / name, "my notes\n");
+    expect_refusal(run(file, out()), ExitCode::kBadInput,
+                   AllOf(HasSubstr(name), HasSubstr("remove it first")));
+    EXPECT_EQ(read_file(out() / name), "my notes\n");
+    fs::remove(out() / name);
+  }
+}
+
+TEST_F(ParticlesCommand, FolderIntoWhichAnotherWritesIsRefused) {
+  const auto file = put_case(kCase);
+  const LockedFolder ours(out(), "");
+  expect_refusal(run(file, out()), ExitCode::kBadInput,
+                 HasSubstr("another viscontact writes into it"));
+}
+
+TEST_F(ParticlesCommand, PictureOfATitleThatNoXmlMayHoldIsWellFormed) {
+  expect_done(run(put_case(replaced(kCase, "Three discs", "Three\\u0001 <discs>")), out()));
+  EXPECT_THAT(read_file(out() / "particles.svg"), HasSubstr("Three\uFFFD &lt;discs&gt;"));
 }
 
 }  // namespace

@@ -194,6 +194,31 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
                  HasSubstr(path("new/table.csv") + " has changed"));
 }
 
+TEST_F(Rerun, InAnotherFolderNeitherReadsNorWritesInTheOldOne) {
+  const auto old_folder = path("old"), new_folder = path("new");
+  fs::create_directory(old_folder);
+  fs::copy(path("table.csv"), old_folder + "/table.csv");
+  expect_done(
+      run_viscontact({"fit", old_folder + "/table.csv", "--output=" + old_folder + "/fit.json"}, {},
+                     "cd '" + old_folder + "'; "));
+  fs::copy(old_folder, new_folder);
+  const auto first = read_file(old_folder + "/fit.json");
+  fs::remove(new_folder + "/fit.json");
+  fs::remove(old_folder + "/table.csv");
+  expect_done(run({"rerun", old_folder + "/fit.json", "--folder", new_folder}));
+  EXPECT_EQ(read_file(old_folder + "/fit.json"), first);
+  EXPECT_EQ(rest_of(new_folder + "/fit.json"), rest_of(old_folder + "/fit.json"));
+}
+
+TEST_F(Rerun, OfAPictureBesideAFitDrawsThePictureAlone) {
+  expect_done(run({"fit", path("table.csv"), "-o", path("fit.json"), "--compare-bases"}));
+  const auto picture = path("fit.bases.svg");
+  const auto fit = read_file(path("fit.json"));
+  expect_done(run({"rerun", picture, "-o", path("again.svg")}));
+  EXPECT_EQ(rest_of(path("again.svg")), rest_of(picture));
+  EXPECT_EQ(read_file(path("fit.json")), fit);
+}
+
 TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
   fit();
   put_text(path("table.csv"),

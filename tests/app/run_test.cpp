@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "common/file.hpp"
+#include "common/locked_folder.hpp"
 #include "fitting/fit.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/models.hpp"
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// When each file below a folder was last written.
 std::map<std::string, fs::file_time_type> write_times(const fs::path& folder) {
@@ -185,7 +187,7 @@ TEST_F(Run, MissingFileIsMadeAgain) {
   expect_done(run());
   const auto complete = files_below(folder());
   for (const auto* name : {"fit.json", "trajectories/viscous_contact.csv", "comparison.json",
-                           "report.html", "case.toml"}) {
+                           "report.html", "case.toml", "plots/gap.svg", "uncertainty.json"}) {
     fs::remove(folder() / name);
     expect_done(run());
     EXPECT_TRUE(fs::exists(folder() / name)) << name;
@@ -201,6 +203,79 @@ TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
   EXPECT_TRUE(fs::exists(folder() / "fit.json"));
   EXPECT_FALSE(fs::exists(folder() / "trajectories"));
   EXPECT_FALSE(fs::exists(folder() / "report.html"));
+}
+
+TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
+  expect_done(run());
+  const auto before = files_below(folder());
+  const auto made = write_times(folder());
+  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"));
+  expect_refusal(run(), ExitCode::kBadInput, HasSubstr(case_file().string() + ": model reference"));
+  EXPECT_EQ(files_below(folder()), before);
+  EXPECT_EQ(write_times(folder()), made);
+  put_text(case_file(), gentle_case_text());
+  EXPECT_THAT(run().errors, HasSubstr("report: up to date"));
+}
+
+TEST_F(Run, WrongParameterOfAModelIsFoundBeforeTheTabulation) {
+  put_text(case_file(), replaced(gentle_case_text(), "threshold_gap = 0.1", "threshold_gap = 3.0"));
+  expect_refusal(run(), ExitCode::kBadInput,
+                 AllOf(HasSubstr(case_file().string()), HasSubstr("threshold_gap is 3"),
+                       HasSubstr("must be less than motion.initial_gap")));
+  EXPECT_TRUE(fake_.answered().empty());
+  EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(Run, FolderIntoWhichAnotherWritesIsRefused) {
+  expect_done(run());
+  const auto made = write_times(folder());
+  const LockedFolder ours(folder(), "");
+  const auto refused = HasSubstr("another viscontact writes into it");
+  expect_refusal(run(), ExitCode::kBadInput, refused);
+  const auto name = folder().string();
+  expect_refusal(run_viscontact({"report", name}), ExitCode::kBadInput, refused);
+  expect_refusal(run_viscontact({"compare", name}), ExitCode::kBadInput, refused);
+  expect_refusal(
+      run_viscontact({"simulate", case_file().string(), "--fit", name + "/fit.json", "-o", name}),
+      ExitCode::kBadInput, refused);
+  EXPECT_EQ(write_times(folder()), made);
+}
+
+TEST_F(Run, ReportOfAnotherFitIsMadeAgain) {
+  expect_done(run());
+  const auto fit = read_file(folder() / "fit.json");
+  put_text(folder() / "fit.json",
+           replaced(fit, "\"reference_velocity\": -1.0", "\"reference_velocity\": -1.5"));
+  expect_done(run_viscontact({"report", folder().string()}));
+  EXPECT_THAT(read_file(folder() / "report.html"), HasSubstr("another fit"));
+  const auto again = run();
+  expect_done(again);
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("another fit")));
+}
+
+TEST_F(Run, TrajectoriesMadeWithAnotherDragOutsideTheFitAreMadeAgain) {
+  expect_done(run());
+  const auto fit = (folder() / "fit.json").string();
+  expect_done(run_viscontact({"simulate", case_file().string(), "--fit", fit, "-o",
+                              folder().string(), "--lubrication-limit", "--stokes-limit"}));
+  EXPECT_THAT(read_file(trajectory("inertial")),
+              AllOf(HasSubstr("# drag below the fit: lubrication limit\n"),
+                    HasSubstr("# drag above the fit: Stokes' limit\n")));
+  EXPECT_THAT(run().errors, HasSubstr("simulate: 6 models"));
+  EXPECT_THAT(read_file(trajectory("inertial")), Not(HasSubstr("# drag below")));
+}
+
+TEST_F(Run, NeverReplacesWhatItDidNotWrite) {
+  fs::create_directories(folder() / "trajectories");
+  for (const auto* name :
+       {"fit.json", "comparison.json", "report.html", "trajectories/inertial.csv"}) {
+    put_text(folder() / name, "my notes\n");
+    expect_refusal(run(), ExitCode::kBadInput,
+                   AllOf(HasSubstr(name), HasSubstr("remove it first")));
+    EXPECT_EQ(read_file(folder() / name), "my notes\n");
+    fs::remove(folder() / name);
+  }
+  EXPECT_TRUE(fake_.answered().empty());
 }
 
 TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {

@@ -1,0 +1,50 @@
+// The models of motion run on a case with a fit, and what of it goes into a run's folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/provenance.hpp"
+#include "app/run_folder.hpp"
+#include "case_file/case_file.hpp"
+#include "fitting/lubrication_force.hpp"
+#include "reduced_model/trajectory.hpp"
+
+namespace viscontact {
+
+/// Where the fit says nothing.
+struct OutsideFit {
+  BelowInterval below = BelowInterval::kError;
+  AboveInterval above = AboveInterval::kError;
+};
+
+/// The models of a run: those asked for, else those that the case names, else all that run by default.
+std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
+
+struct Simulated {
+  std::string fit_text;  ///< of the file
+  std::vector<Trajectory> trajectories;
+  std::string uncertainty;  ///< what the fit's errors do to the motion without inertia (JSON); empty if there is nothing to say
+};
+
+/// Runs the models; writes nothing. Throws Error(kBadInput) that names the case or the fit: if the fit is of another viscosity or radius than the case,
+/// a model's parameters are wrong, or a motion leaves the fit's interval; Error(kNotConverged).
+Simulated simulate_case(const Case& c, const std::filesystem::path& fit_path,
+                        const std::vector<std::string>& models, const OutsideFit& outside);
+
+/// Trajectories, what the fit's errors do, and copies of case and fit.
+void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
+                     const Provenance& provenance);
+
+/// True if the folder has the model's trajectory, made from this case and this fit (its text), by the present models.
+bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
+                  const std::string& fit_text, const OutsideFit& outside);
+
+/// Runs models (names; none: those that the case names, or all) with a fit file into the run
+/// folder's trajectories; copies case and fit beside them. All files are written, or none. Throws as simulate_case.
+void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
+                    const std::filesystem::path& folder, const std::vector<std::string>& models,
+                    const OutsideFit& outside, const Provenance& provenance);
+
+}  // namespace viscontact
