@@ -23,8 +23,11 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
   for (const auto& row : shift.rows) {
     own.points.emplace_back(row.gap, row.shift);
     common.points.emplace_back(row.gap, shift.shift);
-    residual.points.emplace_back(row.gap, std::abs(row.relative_residual));
-    estimate.points.emplace_back(row.gap, row.relative_error_estimate);
+    // A logarithmic scale has no zero: of an exact shift, and of a table without estimates.
+    if (row.relative_residual != 0)
+      residual.points.emplace_back(row.gap, std::abs(row.relative_residual));
+    if (row.relative_error_estimate > 0)
+      estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
   Panel shifts;
   shifts.title = fmt::format("Smooth wall that drags like the rough one ({})", wall);
@@ -41,8 +44,11 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
   residuals.y_log = true;
   residuals.settings = {"set yrange [*:*]", "set key top right", "set format x '1e%T'",
                         "set format y '1e%T'"};
-  residuals.curves = {residual, estimate};
-  return draw_svg({shifts, residuals}, 860, 720);
+  for (const auto& curve : {residual, estimate})
+    if (!curve.points.empty()) residuals.curves.push_back(curve);
+  constexpr int kWidth = 860, kPanelHeight = 360;
+  if (residuals.curves.empty()) return draw_svg({shifts}, kWidth, kPanelHeight);
+  return draw_svg({shifts, residuals}, kWidth, 2 * kPanelHeight);
 }
 
 }  // namespace viscontact

@@ -25,7 +25,8 @@ std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> a
 struct Simulated {
   std::string fit_text;  ///< of the file
   std::vector<Trajectory> trajectories;
-  std::string uncertainty;  ///< what the fit's errors do to the motion without inertia (JSON); empty if there is nothing to say
+  std::string
+      uncertainty;  ///< what the fit's errors do to the motion without inertia (JSON); empty if there is nothing to say
 };
 
 /// Runs the models; writes nothing. Throws Error(kBadInput) that names the case or the fit: if the fit is of another viscosity or radius than the case,

@@ -13,7 +13,9 @@ std::string hint_of_separator(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#')) continue;
-    if (line.find(',') != std::string::npos) return "";
+    if (line.find('"') != std::string::npos)
+      return ", '" + shortened(line) + "'; names must stand without quotes";
+    if (line.find(',') != std::string::npos) return ", '" + shortened(line) + "'";
     if (line.find('\0') != std::string::npos) return "; is it UTF-16? must be UTF-8";
     if (line.find(';') != std::string::npos)
       return ", whose fields are separated by semicolons; must be by commas, with decimal points";
@@ -24,17 +26,21 @@ std::string hint_of_separator(const std::string& text) {
   return "";
 }
 
-CsvComments read_csv_comments(const std::string& text) {
+CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
   CsvComments comments;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.empty() || line[0] != '#') continue;
-    while (line.back() == '\r') line.pop_back();  // not '#'
+    while (line.back() == '\r' || line.back() == ',') line.pop_back();  // not '#'
     const auto colon = line.find(": ");
     const auto start = line.find_first_not_of("# \t");
     if (colon == std::string::npos || start >= colon) continue;
-    comments[line.substr(start, colon - start)] = line.substr(colon + 2);
+    const auto [place, is_new] =
+        comments.insert({line.substr(start, colon - start), line.substr(colon + 2)});
+    if (is_new || place->second == line.substr(colon + 2)) continue;
+    place->second = line.substr(colon + 2);
+    if (contradictions != nullptr) contradictions->insert(place->first);
   }
   return comments;
 }

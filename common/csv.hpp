@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -36,11 +37,14 @@ struct CsvRow {
 template <std::size_t columns>
 struct CsvFile {
   CsvComments comments;
+  std::set<std::string> contradictions;  ///< keys that stand twice, with different values
   std::vector<CsvRow<columns>> rows;
 };
 
-/// The "# key: value" lines of `text`.
-CsvComments read_csv_comments(const std::string& text);
+/// The "# key: value" lines of `text`, without commas at their end, which spreadsheets add. Of a key that stands twice the last; it is put into
+/// `contradictions` if the values differ.
+CsvComments read_csv_comments(const std::string& text,
+                              std::set<std::string>* contradictions = nullptr);
 
 /// "# key: value" lines for `comments`.
 std::string write_csv_comments(const CsvComments& comments);
@@ -49,7 +53,7 @@ std::string write_csv_comments(const CsvComments& comments);
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
-/// For a message about missing columns: ", whose fields seem to be separated by ..." if the header line has no comma but that.
+/// For a message about missing columns: the header line; or ", whose fields seem to be separated by ..." if the header line has no comma but that.
 std::string hint_of_separator(const std::string& text);
 
 /// Text fit to be shown in a message: its beginning, if it is long.
@@ -65,7 +69,8 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {
   const std::string file = path.string();
   const std::string text = read_file(path);
-  CsvFile<columns> result{read_csv_comments(text), {}};
+  CsvFile<columns> result;
+  result.comments = read_csv_comments(text, &result.contradictions);
   std::istringstream stream(text);
   // Fields are taken as text: the library's own conversion to double does not round-trip.
   using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,

@@ -37,12 +37,16 @@ ForceTable read_force_table(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto csv = read_csv(path, kColumns, kRequiredColumns);
   ForceTable table;
+  for (const auto& key : {std::string("viscosity"), std::string("radius"), kLeadingCoefficient})
+    if (csv.contradictions.contains(key))
+      throw_bad_input({file},
+                      fmt::format("# {}: stands twice, with different values; must be one", key));
   table.viscosity = positive_comment(csv.comments, "viscosity", file);
   table.radius = positive_comment(csv.comments, "radius", file);
   table.geometry = comment_or(csv.comments, "geometry");
   table.neighbour_moves = comment_or(csv.comments, kNeighbourMoves) == "yes";
   if (csv.comments.contains(kLeadingCoefficient))
-    table.leading_coefficient = csv_comment_number(csv.comments, kLeadingCoefficient, file);
+    table.leading_coefficient = positive_comment(csv.comments, kLeadingCoefficient, file);
   table.container = comment_or(csv.comments, "container");
   table.case_hash = comment_or(csv.comments, "case");
   for (const auto& [key, value] : csv.comments)

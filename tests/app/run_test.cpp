@@ -226,6 +226,22 @@ TEST_F(Run, WrongParameterOfAModelIsFoundBeforeTheTabulation) {
   EXPECT_FALSE(fs::exists(folder()));
 }
 
+TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) {
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    put_text(case_file(), text);
+    expect_refusal(run(), ExitCode::kBadInput,
+                   AllOf(HasSubstr(case_file().string()), HasSubstr(words)));
+  };
+  const auto text = gentle_case_text();
+  refused(replaced(text, "count = 6", "count = 4"),
+          "tabulation.gaps are 4; basis lecture needs at least 5");
+  refused(replaced(text, "initial_gap = 1.0", "initial_gap = 2.0"),
+          "motion.initial_gap is 2, above the largest gap of tabulation.gaps, 1.5");
+  refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),
+          "motion.initial_gap is 0.01, below the smallest gap of tabulation.gaps, 0.05");
+  EXPECT_TRUE(fake_.answered().empty());
+}
+
 TEST_F(Run, FolderIntoWhichAnotherWritesIsRefused) {
   expect_done(run());
   const auto made = write_times(folder());

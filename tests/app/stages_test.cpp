@@ -4,9 +4,12 @@
 
 #include <regex>
 
+#include "common/csv.hpp"
 #include "common/file.hpp"
 #include "common/number.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/force_table.hpp"
+#include "fitting/lubrication_force.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
@@ -108,6 +111,31 @@ TEST_F(Stages, CompareBasesPrintsThemSideBySideAndDrawsThem) {
       run_viscontact({"fit", path("table.csv"), "--compare-bases", "-o", path("fit.json")}));
   EXPECT_EQ(read_fit(path("fit.json")).basis, "lecture");
   EXPECT_TRUE(std::filesystem::exists(path("fit.bases.svg")));
+}
+
+TEST_F(Stages, ShiftOfAShiftedSmoothWallIsPrintedWrittenAndDrawn) {
+  fit("lecture");
+  const LubricationForce smooth(read_fit(path("fit.json")));
+  ForceTable rough = read_force_table(path("table.csv"));
+  constexpr double kShift = 0.005;
+  rough.rows.resize(20);  // gaps that are within the fit when they are shifted
+  for (auto& row : rough.rows) row.force = smooth.resistance(row.gap + kShift);
+  put("rough.csv", write_force_table(rough));
+  const auto result = run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
+                                      path("shift.csv"), "--plot", path("shift.svg")});
+  expect_done(result);
+  EXPECT_THAT(result.output, HasSubstr("shift 0.005;"));
+  EXPECT_THAT(read_file(path("shift.svg")), HasSubstr("</svg>"));
+  const auto rows = read_csv<2>(path("shift.csv"), {"gap", "shift"}, 2);
+  EXPECT_EQ(rows.rows.size(), 20U);
+  EXPECT_EQ(rows.comments.at("geometry"), rough.geometry);
+  // Forces have all their digits in the file: round-off over the force's slope, as in wall_shift_test.cpp.
+  for (const auto& row : rows.rows) EXPECT_NEAR(*row.fields[1], kShift, 1e-13);
+  // A fit of another fluid names both files.
+  put("rough.csv", replaced(read_file(path("rough.csv")), "# viscosity: 3", "# viscosity: 4"));
+  expect_refusal(run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
+                                 path("shift.csv")}),
+                 ExitCode::kBadInput, AllOf(HasSubstr("rough.csv"), HasSubstr("fit.json")));
 }
 
 TEST_F(Stages, ExportIsPrintedOrWritten) {

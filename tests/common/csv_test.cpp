@@ -89,7 +89,23 @@ TEST_F(Csv, DropsBlanksAroundFields) {
 }
 
 TEST_F(Csv, RefusesAMissingColumn) {
-  EXPECT_EQ(refusal("time,gamma\n1,2\n"), ": column 'gap' is missing from the header line");
+  EXPECT_EQ(refusal("time,gamma\n1,2\n"),
+            ": column 'gap' is missing from the header line, 'time,gamma'");
+  EXPECT_EQ(refusal("\"time\",\"gap\"\n1,2\n"),
+            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; names must stand "
+            "without quotes");
+}
+
+TEST_F(Csv, TakesNoNoticeOfTheCommasThatASpreadsheetPutsBehindAComment) {
+  const auto csv = read("# rows: 1,,\n# title: a, b,,\ntime,gap\n1,2\n");
+  EXPECT_EQ(csv.comments.at("rows"), "1");
+  EXPECT_EQ(csv.comments.at("title"), "a, b");
+}
+
+TEST_F(Csv, KnowsTheCommentsThatContradictEachOther) {
+  const auto csv = read("# rows: 1\n# rows: 1\n# note: a\n# note: b\ntime,gap\n1,2\n");
+  EXPECT_THAT(csv.contradictions, ElementsAre("note"));
+  EXPECT_EQ(csv.comments.at("note"), "b");
 }
 
 TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
