@@ -23,7 +23,6 @@
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
 #include "reduced_model/comparison.hpp"
-#include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 
 namespace viscontact {
