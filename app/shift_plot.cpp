@@ -42,8 +42,8 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
   residuals.y_label = "relative difference of drag";
   residuals.x_log = true;
   residuals.y_log = true;
-  residuals.settings = {"set yrange [*:*]", "set key top right", "set format x '1e%T'",
-                        "set format y '1e%T'"};
+  residuals.settings = {"set yrange [*:*]", "set key below Left reverse noopaque",
+                        "set format x '1e%T'", "set format y '1e%T'"};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
   constexpr int kWidth = 860, kPanelHeight = 360;
