@@ -55,9 +55,10 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
 }
 
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
+  // Not the number: the manual is made on one machine and read on another.
   return command.add_option("-j,--jobs", jobs, help)
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str("one for each core");
 }
 
 }  // namespace viscontact
