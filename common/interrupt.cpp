@@ -1,5 +1,6 @@
 #include "common/interrupt.hpp"
 
+#include <atomic>
 #include <csignal>
 
 #include "common/error.hpp"
@@ -7,10 +8,11 @@
 namespace viscontact {
 namespace {
 
-// A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t signal_came = 0;
+// A signal handler can reach nothing but a global, and that must be atomic without a lock: other threads read it.
+std::atomic<bool> signal_came = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void remember_signal(int) { signal_came = 1; }
+void remember_signal(int) { signal_came = true; }
 
 }  // namespace
 
@@ -24,7 +26,7 @@ void catch_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return signal_came != 0; }
+bool interrupted() { return signal_came; }
 
 void throw_if_interrupted() {
   if (interrupted())
