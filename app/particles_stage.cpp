@@ -205,12 +205,16 @@ bool is_named_as_frame(const fs::path& path) {
   return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
 }
 
-/// A frame that we wrote, by its first lines.
-bool is_our_frame(const fs::path& path) {
+/// Refuses a file that is no result of ours; by its head, where each says how it was made: the rest may be a gigabyte.
+void check_is_ours(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return;
+  constexpr std::size_t kHead = 65536;
+  std::string head(kHead, '\0');
   std::ifstream file(path, std::ios::binary);
-  std::string line;
-  std::getline(file, line);
-  return std::getline(file, line) && line.starts_with("<!-- provenance: ");
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (file.gcount() > 0 && head.find("provenance") == std::string::npos)
+    throw_bad_input({path.string()},
+                    "is there and is no result of ours; remove it first, or write elsewhere");
 }
 
 /// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
@@ -224,12 +228,9 @@ void remove_earlier_run(const fs::path& folder) {
 
 /// Refuses to write over what is no result of ours.
 void check_folder_is_ours(const fs::path& folder) {
-  for (const auto* name : kResults)
-    refuse_other_kind((folder / name).string(), "provenance", "result of ours");
+  for (const auto* name : kResults) check_is_ours(folder / name);
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path()) && !is_our_frame(entry.path()))
-      throw_bad_input({entry.path().string()},
-                      "is there and is no frame of ours; remove it first, or write elsewhere");
+    if (is_named_as_frame(entry.path())) check_is_ours(entry.path());
 }
 
 /// Refuses to write over what the run is made from.
