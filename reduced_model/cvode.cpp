@@ -3,6 +3,7 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -17,6 +18,17 @@ namespace {
 
 std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
+}
+
+/// Keeps SUNDIALS from printing its errors, because check() throws each of them as an Error.
+/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, SUNDIALS 7 (Debian 13) a list of
+/// error handlers in the context instead. Returns a code of SUNDIALS, < 0 if it fails.
+int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  return SUNContext_ClearErrHandlers(context);
+#else
+  return CVodeSetErrFile(memory, nullptr);
+#endif
 }
 
 constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back with a smaller step
@@ -36,8 +48,10 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state)
   check(CVodeInit(memory_, evaluate_derivative, 0, state_.get()), "CVodeInit");
   check(CVodeWFtolerances(memory_, evaluate_weights), "CVodeWFtolerances");
   check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
-  check(CVodeSetErrFile(memory_, nullptr),
-        "CVodeSetErrFile");  // failures come as Error, not as text on stderr
+  check(print_no_errors(context_, memory_), "print_no_errors");
+  // A negative number: CVODE never warns of steps below the rounding of the time. SUNDIALS 7 would
+  // print these warnings on standard output.
+  check(CVodeSetMaxHnilWarns(memory_, -1), "CVodeSetMaxHnilWarns");
   check(CVodeSetLinearSolver(memory_, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(memory_, evaluate_jacobian), "CVodeSetJacFn");
   // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades
