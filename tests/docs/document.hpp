@@ -28,7 +28,7 @@ std::vector<std::string> prose_of(const std::filesystem::path& page);
 std::vector<double> numbers_in(const std::string& line);
 
 /// What differs between the lines of an output and those promised; empty: nothing. Words must be equal but for the spaces between them, numbers to
-/// `tolerance`; a promised line "..." stands for any lines, none included.
+/// `tolerance`; a promised line "..." stands for any lines, none included; "..." within a promised line stands for one number, whatever it is.
 std::string difference_from(const std::string& promised, const std::string& output,
                             double tolerance);
 

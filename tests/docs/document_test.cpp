@@ -24,5 +24,12 @@ TEST(DifferenceFrom, TakesThreeDotsForAnyLines) {
   EXPECT_NE(difference_from("...\nb 2\n", "a 1\nb 2\nc 3\n", 0.02), "");
 }
 
+TEST(DifferenceFrom, TakesThreeDotsWithinALineForOneNumber) {
+  EXPECT_EQ(difference_from("a 1 b ... c 3\n", "a 1 b 2.5e-7 c 3\n", 0.02), "");
+  EXPECT_NE(difference_from("a 1 b ... c 3\n", "a 1 b 2 c 4\n", 0.02), "");
+  EXPECT_NE(difference_from("a 1 b ... c 3\n", "a 1 b c 3\n", 0.02), "");
+  EXPECT_NE(difference_from("a 1 b ... c 3\n", "a 1 b two c 3\n", 0.02), "");
+}
+
 }  // namespace
 }  // namespace viscontact
