@@ -44,8 +44,11 @@ struct Record {
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   int most_iterations = 0;
   double first_time = 0, last_time = 0;
-  double largest_residual = 0, largest_overlap = 0;
-  std::string rows = "step,time,contacts,glued,iterations,residual,largest_overlap,converged\n";
+  double largest_residual = 0, largest_impulse_residual = 0, largest_overlap = 0;
+  std::int64_t divided = 0;     // steps
+  std::size_t unresolved = 0;   // contacts that turn too far even in the smallest part of a step
+  std::string rows = "step,time,contacts,glued,iterations,residual,largest_overlap,converged,"
+      "impulse_residual,parts,unresolved\n";
 
   void add(std::int64_t step, const StepReport& report) {
     ++steps;
@@ -53,15 +56,19 @@ struct Record {
     iterations += report.iterations;
     most_iterations = std::max(most_iterations, report.iterations);
     largest_residual = std::max(largest_residual, report.residual);
+    largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
     largest_overlap = std::max(largest_overlap, report.largest_overlap);
+    divided += report.parts > 1 ? 1 : 0;
+    unresolved += report.unresolved;
     last_time = report.time;
     // Beyond a million rows, 50 MB, every thousandth step and those that did not converge are enough.
     constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
     if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{}\n", step,
+    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}\n", step,
                    format_number(report.time), report.contacts, report.glued, report.iterations,
                    format_number(report.residual), format_number(report.largest_overlap),
-                   report.converged ? 1 : 0);
+                   report.converged ? 1 : 0, format_number(report.impulse_residual), report.parts,
+                   report.unresolved);
   }
 };
 
@@ -180,7 +187,12 @@ nlohmann::ordered_json record_of(const ParticlesCase& c, const Record& record,
   json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
   json["largest_iterations"] = record.most_iterations;
   json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
   json["largest_residual"] = record.largest_residual;
+  json["largest_impulse_residual"] = record.largest_impulse_residual;
+  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
+  json["divided_steps"] = record.divided;
+  json["unresolved_contacts"] = record.unresolved;
   json["largest_overlap"] = record.largest_overlap;
   json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
   json["seconds"] = seconds;
@@ -350,19 +362,30 @@ void judge(const ParticlesCase& c, const Record& record, const fs::path& folder)
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
   if (record.unconverged > 0)
-    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerance {}",
-                     record.unconverged, record.steps, c.setting.solver.tolerance));
+    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
+                     record.unconverged, record.steps, c.setting.solver.tolerance,
+                     c.setting.solver.impulse_tolerance));
+  if (record.unresolved > 0)
+    warn(fmt::format(
+        "particles: warning: {} contacts were computed although their particles move past each "
+        "other by more than a quarter of their diameters even in a {}th of the time step (steps.csv "
+        "says when); use a shorter time_step",
+        record.unresolved, 1 << Simulation::kMostHalvings));
   if (interrupted())
     say(fmt::format("particles: interrupted at t = {:.6g}; --restart {} goes on", record.last_time,
                     (folder / "restart.bin").string()));
   throw_if_interrupted();
   if (record.unconverged > 0)
     throw Error(ExitCode::kNotConverged,
-                fmt::format("{}: {} of {} steps have a residual up to {:.2g}, not {}; all is "
-                            "written, steps.csv says which; raise solver.max_iterations or "
-                            "solver.tolerance, or do walls leave too little room?",
+                fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                            "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                            "solver.impulse_tolerance is {}). All results are written, and "
+                            "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                            "tolerances",
                             c.path.string(), record.unconverged, record.steps,
-                            record.largest_residual, c.setting.solver.tolerance));
+                            record.largest_residual, c.setting.solver.tolerance,
+                            record.largest_impulse_residual, c.setting.solver.impulse_tolerance,
+                            c.setting.solver.max_iterations));
 }
 
 }  // namespace

@@ -232,6 +232,8 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
     const auto solver = root.section("solver");
     auto& settings = c.setting.solver;
     if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
+    if (solver.has("impulse_tolerance"))
+      settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
     if (solver.has("max_iterations"))
       settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
     if (solver.has("method")) settings.method = read_method(solver);

@@ -100,13 +100,13 @@ std::string write_particles(const Particles& particles) {
 }
 
 std::string write_contacts(std::span<const ContactNow> contacts) {
-  std::string text = fmt::format("# rows: {}\ni,j,gap,gamma\n", contacts.size());
+  std::string text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error\n", contacts.size());
   for (const auto& contact : contacts) {
     // A plane is written second.
     const bool wall = contact.first < 0;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", wall ? contact.second : contact.first,
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", wall ? contact.second : contact.first,
                    wall ? contact.first : contact.second, format_number(contact.gap),
-                   format_number(contact.gamma));
+                   format_number(contact.gamma), format_number(contact.gamma_error));
   }
   return text;
 }

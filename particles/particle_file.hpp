@@ -24,7 +24,7 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension);
 /// id,x,y[,z],vx,vy[,vz],radius,mass; numbers read back to the same bits.
 std::string write_particles(const Particles& particles);
 
-/// i,j,gap,gamma: j >= 0 another particle; -1, -2, ... the first, second plane.
+/// i,j,gap,gamma,gamma_error: j >= 0 another particle; -1, -2, ... the first, second plane.
 std::string write_contacts(std::span<const ContactNow> contacts);
 
 }  // namespace viscontact::particles
