@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -55,7 +56,8 @@ void examine_freefem(const Report& report) {
 }
 
 Finding examine_gnuplot() {
-  const auto gnuplot = run_process({"gnuplot", "--version"});
+  constexpr auto kLongest = std::chrono::minutes(1);  // it answers within a second
+  const auto gnuplot = run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest);
   if (!gnuplot.started || gnuplot.exit_status != 0)
     return {false,
             "gnuplot, for --plot and for the report's still pictures; apt-get install gnuplot-nox"};
