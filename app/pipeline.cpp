@@ -210,7 +210,11 @@ bool uncertainty_is_lost(const RunFolder& run) {
 /// Called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
   // The folder of an earlier run may hold a copy of a fit that the user wrote by hand.
-  if (writes_fit && !holds_a_run(run)) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
+  const bool is_copy = holds_a_run(run) && up_to_date(run.fit(), [&] {
+                         (void)read_fit(run.fit());
+                         return true;
+                       });
+  if (writes_fit && !is_copy) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
   refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
   check_report_files(run.path);
