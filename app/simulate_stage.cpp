@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/foreign_files.hpp"
 #include "app/progress.hpp"
 #include "app/run_copies.hpp"
 #include "common/csv.hpp"
@@ -151,6 +152,9 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
   const RunFolder run{folder};
   check_case_copies(run, c);
   check_fit_copy(run, read_file(fit_path));
+  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  for (const auto& model : models_to_run(c, models))
+    refuse_other_kind(run.trajectory(model), "", "trajectory");
   write_simulated(run, c, simulate_case(c, fit_path, models, outside), provenance);
 }
 

@@ -1,4 +1,4 @@
-// Ctrl-C during a tabulation.
+// Ctrl-C, or the loss of the terminal, during a tabulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -54,7 +54,7 @@ fi
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM"),
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM", "HUP"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

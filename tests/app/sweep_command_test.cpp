@@ -223,7 +223,7 @@ TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
-  put_text(path("rows.csv"), "# viscontact: sweep\nother\n");
+  put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
   expect_done(sweep(kVanishing, arguments));
   EXPECT_EQ(lines().size(), 3U);
 }
