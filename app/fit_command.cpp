@@ -136,13 +136,13 @@ void add_export(CLI::App& app) {
     const Fit fit = read_fit(o->fit);
     std::string text;
     try {
-      text = export_fit(fit, o->target);
+      text = export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
     } catch (const Error& error) {
       throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
       write_output(o->output, find_named(export_targets(), o->target)->kind, text,
-                   provenance_of({{o->fit}, {}}));
+                   without_folders(provenance_of({{o->fit}, {}})));
     else
       fmt::print("{}", text);
   });

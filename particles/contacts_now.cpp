@@ -15,6 +15,13 @@ double gap_of(const Particles& p, const Film& film, std::span<const PlanePlace> 
 
 }  // namespace
 
+std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
+                                             const ContactNow& contact) {
+  const auto second = particles.id(static_cast<std::size_t>(contact.second));
+  if (contact.first < 0) return {second, contact.first};
+  return {particles.id(static_cast<std::size_t>(contact.first)), second};
+}
+
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;

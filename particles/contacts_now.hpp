@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "particles/simulation.hpp"
@@ -15,6 +16,10 @@ struct ContactNow {
   double gamma;         ///< [M L/T]
   double gamma_error;   ///< Film::gamma_error [M L/T]
 };
+
+/// The names of both partners in files: a particle's id, then that of the other particle or
+/// -1, -2, ... for the first, second plane.
+std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles, const ContactNow& contact);
 
 /// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
 std::vector<ContactNow> contacts_of(const Setting& setting, const State& state);

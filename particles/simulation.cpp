@@ -81,7 +81,7 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
                               "what can be computed with; are its forces, the walls and the time "
                               "step as they should be?",
-                              k, x[d], w[d], time));
+                              p.id(k), x[d], w[d], time));
   return norm(w);
 }
 
@@ -235,9 +235,12 @@ void Simulation::throw_impossible(const Projected& projected, double next) const
   for (std::size_t w = 0; w < before.size(); ++w)
     if (before[w].point != after[w].point || before[w].normal != after[w].normal)
       moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
+  const auto id = [&](std::int32_t k) {
+    return state_.particles.id(static_cast<std::size_t>(k));
+  };
   const auto pair =
-      film.first < 0 ? fmt::format("particle {} and plane {}", film.second, -film.first)
-                     : fmt::format("particles {} and {}", film.first, film.second);
+      film.first < 0 ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
+                     : fmt::format("particles {} and {}", id(film.first), id(film.second));
   throw Error(
       ExitCode::kNotConverged,
       fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "

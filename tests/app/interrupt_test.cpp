@@ -48,7 +48,9 @@ fi
   EXPECT_EQ(::kill(slow_row, 0), -1);  // signal 0: does the process exist?
   EXPECT_EQ(errno, ESRCH);
 
-  expect_done(run_viscontact(arguments, environment));
+  const auto resumed = run_viscontact(arguments, environment);
+  expect_done(resumed);
+  EXPECT_THAT(resumed.errors, HasSubstr("tabulate: 6 rows (2 of them from before) on 1 processes"));
   EXPECT_THAT(read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));

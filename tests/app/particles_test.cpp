@@ -367,6 +367,12 @@ INSTANTIATE_TEST_SUITE_P(
     }),
     [](const auto& test) { return test.param.name; });
 
+TEST_F(ParticlesCommand, BlankLinesAtTheEndOfTheFileAreNoParticles) {
+  folder_.file("discs.csv", std::string(kDiscs) + "\n,,,,,\n\n");
+  expect_done(run(put_case(kCase), out()));
+  EXPECT_EQ(particles::read_particles(out() / "final_particles.csv", 2).particles.count(), 3U);
+}
+
 TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {
   expect_done(run(put_case(replaced(replaced(kCase, "every = 0.5", "every = 1e-9"),
                                     "end_time = 10.0", "end_time = 1.0")),

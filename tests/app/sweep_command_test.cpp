@@ -92,6 +92,10 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
   EXPECT_EQ(read_file(path("rows.csv")), rows);
   EXPECT_EQ(rest_of(path("picture.svg")), svg);
+  // Blank lines that an editor left at the end are no rows, here either.
+  put_text(path("rows.csv"), rows + "\n\n");
+  expect_done(sweep(kVanishing, {"--plot", path("picture.svg")}));
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
