@@ -118,7 +118,7 @@ TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
 TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   const std::string entry = std::string(kForce.path) + "[0]";
   expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"),
-                 entry + ".value", "must not be there beside polynomial");
+                 entry + ".value", "must be left out where polynomial");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
                  entry + ".angular_frequency", "> 0");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
@@ -194,7 +194,7 @@ TEST(FitOfACase, MayBeAFileElsewhere) {
 
 TEST(FitOfACase, IsEitherAFileOrABasis) {
   expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis",
-                 "there are: above, below, file");
+                 "the known keys are: above, below, file");
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {
@@ -236,6 +236,33 @@ TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {
   expect_missing("tabulation", [](const Case& c) { required_tabulation(c); });
   expect_missing("fit", [](const Case& c) { required_fit(c); });
   expect_missing("motion", [](const Case& c) { required_motion(c); });
+}
+
+TEST(CaseParts, NumericalSettingsHaveDefaults) {
+  std::string text = lecture_text();
+  text = text.substr(0, text.find("[reference]"));
+  const Case c = read_text(text);
+  ASSERT_TRUE(c.motion);
+  // docs/interfaces.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial gap.
+  EXPECT_EQ(c.motion->reference_time_step, 1e-3);
+  EXPECT_EQ(c.motion->contact_time_step, 1e-3);
+  EXPECT_EQ(c.motion->inertial_relative_tolerance, 1e-9);
+  EXPECT_THAT(c.motion->roughness, ElementsAre(0, 0));
+  EXPECT_EQ(c.motion->threshold_gap, 0.1);
+  // One key of a section leaves the others at their defaults.
+  const Case thin = read_text(text + "[viscous_contact]\ntime_step = 2e-3\n");
+  EXPECT_EQ(thin.motion->contact_time_step, 2e-3);
+  EXPECT_EQ(thin.motion->reference_time_step, 1e-3);
+  EXPECT_EQ(thin.motion->threshold_gap, 0.1);
+  // A sphere that starts near the plane starts above its threshold, too.
+  const auto near = text.replace(text.find("initial_gap = 1.0"), 17, "initial_gap = 0.02");
+  EXPECT_EQ(read_text(near).motion->threshold_gap, 0.002);
+}
+
+TEST(CaseParts, FitIsTheLecturesByDefault) {
+  const Case c = read_text(with_text("basis = \"lecture\"", "").text);
+  EXPECT_EQ(c.fit->settings.basis.name, "lecture");
+  EXPECT_EQ(c.fit->settings.weights, Weights::kRelative);
 }
 
 TEST(CaseParts, MayAllBeLeftOutButTheFluidAndTheSphere) {
