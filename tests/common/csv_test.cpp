@@ -109,7 +109,7 @@ TEST_F(Csv, KnowsTheCommentsThatContradictEachOther) {
 }
 
 TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
-  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' is twice in the header line");
+  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' stands twice in the header line");
 }
 
 TEST_F(Csv, RefusesAnEmptyFile) {
@@ -172,7 +172,7 @@ TEST_F(Csv, RefusesABinaryFile) {
 TEST_F(Csv, NamesTheEmptyFieldThatMustBeThere) {
   const auto csv = read("time,gap\n1,\n");
   EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }),
-            "f.csv:2: gap is empty; must be a number");
+            "f.csv:2: gap is empty; it must be a number");
   EXPECT_EQ(required_field(csv.rows[0], kNames, 0, "f.csv"), 1.0);
 }
 
@@ -180,7 +180,7 @@ TEST(CsvComment, IsReadAsANumberOrNamedInTheError) {
   const CsvComments comments = {{"viscosity", "3.5"}, {"radius", "wide"}};
   EXPECT_EQ(csv_comment_number(comments, "viscosity", "f.csv"), 3.5);
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "radius", "f.csv"); }),
-            "f.csv: # radius: is not a finite number ('wide')");
+            "f.csv: the line '# radius: wide' must give a finite number");
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }),
             "f.csv: the line '# mass: NUMBER' is missing");
 }
