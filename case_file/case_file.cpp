@@ -444,8 +444,22 @@ Case read_case(const std::filesystem::path& path) {
   return read_case(root, std::move(text), path);
 }
 
+namespace {
+
+/// The case's text with those sections empty that it leaves out, so that their keys can be set.
+std::string with_numerical_settings(std::string text, const std::filesystem::path& path) {
+  const auto root = TomlSection::parse(text, path.string());
+  for (const auto* section : {"reference", "inertial", "viscous_contact"})
+    if (!root.has(section)) text += fmt::format("\n[{}]\n", section);
+  return text;
+}
+
+}  // namespace
+
 CaseTemplate::CaseTemplate(const std::filesystem::path& path)
-    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {}
+    : path_(path),
+      text_(read_file(path)),
+      root_(TomlSection::parse(with_numerical_settings(text_, path), path.string())) {}
 
 Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers) const {
   return read_case(root_.with_numbers(numbers), text_, path_);

@@ -58,9 +58,6 @@ TomlSection TomlSection::with_numbers(
       const auto dot = path.rfind('.');
       auto* parent =
           dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
-      // A section that may be left out may be missing here; the reader knows which there are.
-      if (parent == nullptr && path.find_first_of(".[") == dot && dot != 0)
-        parent = root->insert(path.substr(0, dot), toml::table{}).first->second.as_table();
       if (parent == nullptr) refuse("is not a key of this case");
       parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
     } else if (auto* decimal = place->as_floating_point()) {

@@ -148,7 +148,7 @@ const Cases kSimulate = {
      "twice.json:6: radius stands twice"},
     {"DecimalCommaInFit",
      {"simulate", "@case.toml", "--fit", "@comma.json", "-o", "@out"},
-     "comma.json:6: is not valid JSON at column 16 (syntax error"},
+     "comma.json:6: is not valid JSON at column 15 (syntax error"},
     {"UnknownKeyInFit",
      {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"},
      "radios"},

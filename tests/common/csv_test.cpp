@@ -92,7 +92,8 @@ TEST_F(Csv, RefusesAMissingColumn) {
   EXPECT_EQ(refusal("time,gamma\n1,2\n"),
             ": column 'gap' is missing from the header line, 'time,gamma'");
   EXPECT_EQ(refusal("\"time\",\"gap\"\n1,2\n"),
-            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; names must stand "
+            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; the names of "
+            "columns must stand "
             "without quotes");
 }
 
@@ -128,7 +129,7 @@ TEST_F(Csv, RefusesALongRow) {
 TEST_F(Csv, RefusesALineBeyondAllReason) {
   const std::size_t limit = std::size_t{1} << 24;  // of the library
   EXPECT_THAT(refusal("time,gap\n1," + std::string(limit, '1') + "\n").substr(0, 100),
-              HasSubstr("is too long for a line of a CSV file"));
+              HasSubstr("this line is too long for a CSV file"));
 }
 
 TEST_F(Csv, CutsALongFieldInItsMessage) {

@@ -100,9 +100,9 @@ TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
     const char* words;
   };
   for (const auto& [text, words] :
-       std::initializer_list<Refusal>{{"", "no KEY="},
-                                      {"fluid.viscosity", "no KEY="},
-                                      {"=1,2", "no KEY="},
+       std::initializer_list<Refusal>{{"", "KEY= is missing"},
+                                      {"fluid.viscosity", "KEY= is missing"},
+                                      {"=1,2", "KEY= is missing"},
                                       {"a=", "'' is not a finite number"},
                                       {"a=1,", "'' is not a finite number"},
                                       {"a=1,,2", "'' is not a finite number"},
@@ -111,10 +111,10 @@ TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
                                       {"a=inf:1:3", "'inf' is not a finite number"},
                                       {"a=1:1e400:3", "'1e400' is not a finite number"},
                                       {"a=1:2x:3", "'2x' is not a finite number"},
-                                      {"a=1:2", "range is not understood"},
-                                      {"a=1:2:lin:3", "range is not understood"},
-                                      {"a=1:2:Log:3", "range is not understood"},
-                                      {"a=1:2:log:3:4", "range is not understood"},
+                                      {"a=1:2", "this is not a range"},
+                                      {"a=1:2:lin:3", "this is not a range"},
+                                      {"a=1:2:Log:3", "this is not a range"},
+                                      {"a=1:2:log:3:4", "this is not a range"},
                                       {"a=1:2:log", "'log' is not a finite number"},
                                       {"a=1:2:", "'' is not a finite number"},
                                       {"a=1:2:0", "COUNT is 0"},
@@ -310,6 +310,14 @@ TEST(CaseTemplate, TakesAnOptionalKeyThatTheFileHasNot) {
   EXPECT_THAT(stretched.external_force.jumps(), ElementsAre(6));
   EXPECT_EQ(stretched.external_force.value(5), -200);
   EXPECT_EQ(lecture.cases.with({}).motion->end_time, 4);
+}
+
+TEST(CaseTemplate, SetsKeysOfSectionsThatTheCaseLeavesOut) {
+  const std::string text = lecture_text();
+  const Template shortened(text.substr(0, text.find("[reference]")));
+  EXPECT_EQ(shortened.with("viscous_contact.time_step", 2e-3).motion->contact_time_step, 2e-3);
+  EXPECT_EQ(shortened.with("reference.time_step", 2e-3).motion->reference_time_step, 2e-3);
+  EXPECT_EQ(shortened.with("inertial.relative_tolerance", 1e-7).motion->contact_time_step, 1e-3);
 }
 
 TEST(CaseTemplate, RefusesKeysThatAreNone) {
