@@ -198,7 +198,7 @@ TEST(FitOfACase, IsEitherAFileOrABasis) {
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {
-  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be text");
+  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be a text in quotes");
 }
 
 TEST(FitOfACase, ListsTheBasesThereAre) {

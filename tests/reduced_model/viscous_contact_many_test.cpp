@@ -320,7 +320,7 @@ TEST(ManySpheres, RefuseVectorsOfOtherLengths) {
                               &ManySpheres::gamma_min, &ManySpheres::force_scale}) {
     auto spheres = random_spheres(5, 4);
     (spheres.*member).pop_back();
-    expect_refused(spheres, {1, 0.1, 1}, "of 4 spheres, but mass of 5");
+    expect_refused(spheres, {1, 0.1, 1}, "is given for 4 spheres and mass for 5");
   }
 }
 
