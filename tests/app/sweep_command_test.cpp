@@ -179,7 +179,7 @@ TEST_F(SweepCommand, TakesAFitFromTheCommandLine) {
   expect_done(sweep(kVanishing, kTwoRows, "own.csv"));
   const auto fitless =
       study("vanishing_viscosity.toml", "[fit]\nfile = \"../fits/leading_term.json\"", "");
-  expect_refused(fitless, kTwoRows, ExitCode::kWrongUsage, HasSubstr("give one with --fit"));
+  expect_refused(fitless, kTwoRows, ExitCode::kWrongUsage, HasSubstr("give a fit with --fit"));
   expect_done(sweep(fitless, arguments));
   EXPECT_EQ(lines(), lines("own.csv"));
 }
@@ -217,7 +217,7 @@ TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
   bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
   bad({"--vary", "title=1,2"}, "title is not a number");
   bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
-  bad({"--vary", "sphere.radius=1,2"}, "the fit's 0.23032943298089034");
+  bad({"--vary", "sphere.radius=1,2"}, "the fit's radius is 0.23032943298089034");
   expect_refused(path("no_such.toml"), {}, ExitCode::kBadInput, HasSubstr("no_such.toml"));
 }
 
