@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{"FitAndPictureInOneFile",
                    {"fit", "table.csv", "-o", "f.json", "--compare-bases", "--plot", "f.json"},
                    "would be written twice"},
-        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "no name"},
+        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "an empty name"},
         WrongUsage{"UnknownLauncher",
                    {"tabulate", "case.toml", "-o", "table.csv", "--launcher", "pbs"},
                    "--launcher"},
