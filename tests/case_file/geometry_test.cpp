@@ -43,7 +43,7 @@ TEST(Container, MayBeUnbounded) {
 TEST(Container, IsUnboundedByThatWordAlone) {
   for (const auto* value : {"\"Unbounded\"", "\"unbound\"", "\"none\"", "\"\""})
     expect_refused(with_value(kContainer, value), kContainer.path,
-                   "must be \"unbounded\" or a table with radius and height");
+                   "must be \"unbounded\" or a table { radius = ..., height = ... }");
 }
 
 TEST(Container, MustBeWiderThanTheSphere) {

@@ -54,7 +54,8 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
 TEST(FitSection, RefusesWhatItDoesNotKnow) {
   const std::string weights = "weights = \"relative\"\n";
   expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms", "q^9");
-  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis", "beside terms");
+  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis",
+                 "left out where terms gives");
   expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss", "huber");
   expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix", "theory");
   expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix", "number");
@@ -124,7 +125,7 @@ TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
                  entry + ".until", "not a key");
   expect_refused(with_value(kForce, "[ { until = 4, polynomial = [] } ]"), entry + ".polynomial",
-                 "list of numbers");
+                 "list of at least one number");
 }
 
 TEST(TimeScale, DrawsOutForceEndAndSteps) {
@@ -175,7 +176,8 @@ TEST(Roughness, MayBeAnythingBelowTheRadius) {
 }
 
 TEST(Roughness, SaysWhatItsTwoNumbersAre) {
-  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path, "the sphere's and the plane's");
+  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path,
+                 "on the sphere and on the plane");
 }
 
 TEST(FitOfACase, MayBeAFileBesideTheCase) {
