@@ -82,20 +82,21 @@ std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> a
   return asked;
 }
 
-Simulated simulate_case(const Case& c, const fs::path& fit_path,
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside) {
   const auto& motion = required_motion(c);
   Simulated simulated;
-  simulated.fit_text = read_file(fit_path);
-  const Fit fit = read_fit(fit_path);
+  simulated.fit_text = fit_file.text;
+  const fs::path& fit_path = fit_file.path;
+  const Fit fit = parse_fit(fit_file.text, fit_path.string());
   // A fit of another viscosity could be scaled, one of another radius could not; neither is done
   // silently.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
-    throw_bad_input(
-        {fit_path.string()},
-        fmt::format(
-            "is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
-            fit.viscosity, fit.radius, c.viscosity, c.radius));
+    throw_bad_input({fit_path.string()},
+                    fmt::format("is of viscosity {} and radius {}; the case has viscosity {} and "
+                                "radius {}: tabulate and "
+                                "fit for the case",
+                                fit.viscosity, fit.radius, c.viscosity, c.radius));
   const LubricationForce force = [&] {
     try {
       return LubricationForce(fit, outside.below, outside.above);
@@ -146,16 +147,49 @@ bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
   }
 }
 
-void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
-                    const std::vector<std::string>& models, const OutsideFit& outside,
-                    const Provenance& provenance) {
-  const RunFolder run{folder};
+namespace {
+
+/// The fit file of the case's exact drag as it is to stand in the run's folder: the one that is
+/// there, if it says the same.
+FitFile exact_fit_file(const Case& c, const RunFolder& run, const Provenance& provenance) {
+  const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
+  if (fs::is_regular_file(run.fit()))
+    if (auto there = read_file(run.fit()); without_provenance(there) == text)
+      return {run.fit(), std::move(there)};
+  return {run.fit(), output_text(run.fit(), TextKind::kJson, text, provenance)};
+}
+
+}  // namespace
+
+void simulate_stage(const Case& c, const SimulateRequest& request) {
+  const RunFolder run{request.folder};
+  (void)required_motion(c);
+  fs::path path = request.fit;
+  if (path.empty() && c.fit && c.fit->file) path = *c.fit->file;
+  const bool exact = path.empty() && c.fit && c.fit->exact;
+  const bool of_folder = path.empty() && !exact && fs::is_regular_file(run.fit());
+  if (of_folder) path = run.fit();
+  if (path.empty() && !exact)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("the case names no drag to run with (file or exact in its section "
+                            "[fit]) and there is no {}; give a fit with --fit",
+                            run.fit().string()));
+  std::vector<fs::path> inputs = {c.path};
+  inputs.insert(inputs.end(), c.force_files.begin(), c.force_files.end());
+  if (!exact) inputs.push_back(path);
+  auto provenance = provenance_of({inputs, {}});
+  // The command repeated for another folder finds no fit there.
+  if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
+  if (request.fit.empty())
+    say(fmt::format("simulate: the drag is {}",
+                    exact ? "the exact one near a plane" : "that of " + path.string()));
+  const FitFile fit = exact ? exact_fit_file(c, run, provenance) : FitFile{path, read_file(path)};
   check_case_copies(run, c);
-  check_fit_copy(run, read_file(fit_path));
+  check_fit_copy(run, fit.text);
   refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
-  for (const auto& model : models_to_run(c, models))
+  for (const auto& model : models_to_run(c, request.models))
     refuse_other_kind(run.trajectory(model), "", "trajectory");
-  write_simulated(run, c, simulate_case(c, fit_path, models, outside), provenance);
+  write_simulated(run, c, simulate_case(c, fit, request.models, request.outside), provenance);
 }
 
 }  // namespace viscontact

@@ -19,6 +19,12 @@ struct OutsideFit {
   AboveInterval above = AboveInterval::kError;
 };
 
+/// A fit file: its name for messages, and its text.
+struct FitFile {
+  std::filesystem::path path;
+  std::string text;
+};
+
 /// The models of a run: those asked for, else those that the case names, else all that run by default.
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
 
@@ -31,7 +37,7 @@ struct Simulated {
 
 /// Runs the models; writes nothing. Throws Error(kBadInput) that names the case or the fit: if the fit is of another viscosity or radius than the case,
 /// a model's parameters are wrong, or a motion leaves the fit's interval; Error(kNotConverged).
-Simulated simulate_case(const Case& c, const std::filesystem::path& fit_path,
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside);
 
 /// Trajectories, what the fit's errors do, and copies of case and fit.
@@ -42,10 +48,17 @@ void write_simulated(const RunFolder& run, const Case& c, const Simulated& simul
 bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
                   const std::string& fit_text, const OutsideFit& outside);
 
-/// Runs models (names; none: those that the case names, or all) with a fit file into the run
-/// folder's trajectories; copies case and fit beside them. All files are written, or none. Throws as simulate_case.
-void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
-                    const std::filesystem::path& folder, const std::vector<std::string>& models,
-                    const OutsideFit& outside, const Provenance& provenance);
+/// What a simulation is run with, apart from the case.
+struct SimulateRequest {
+  std::string
+      fit;  ///< fit file; empty: that of the case, the exact drag of the case, or DIR/fit.json
+  std::filesystem::path folder;     ///< DIR, a run's folder
+  std::vector<std::string> models;  ///< names; none: those that the case names, or all
+  OutsideFit outside;
+};
+
+/// Runs models into the run folder's trajectories; copies case and fit beside them. All files are
+/// written, or none. Throws as simulate_case; Error(kWrongUsage) if there is no fit at all.
+void simulate_stage(const Case& c, const SimulateRequest& request);
 
 }  // namespace viscontact
