@@ -28,6 +28,11 @@ struct Look {
   }
 };
 
+/// Redundant contacts make W singular: impulses would move without end along directions whose slope
+/// and curvature are rounding errors. So much is added to the diagonal of W, which is 1: far more than
+/// rounding errors, far less than the curvatures of a chain of 10 000 (1e-8) or any tolerance.
+constexpr double kRegularisation = 1e-14;
+
 /// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
 /// free contacts of one of the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
 template <int D>
@@ -52,7 +57,8 @@ class Iteration {
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           Look look;
           for (std::size_t c = begin; c < end; ++c) {
-            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data());
+            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data()) +
+                           kRegularisation * graph_.z[c];
             add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_, look);
           }
           return look;
@@ -80,12 +86,10 @@ class Iteration {
     if (restart_) start_directions();
     before_ = graph_.z;
     ++steps_between_same_;
-    // Redundant contacts have directions without curvature, along which impulses would grow by what
-    // rounding errors leave of slope and curvature; and where contacts contradict each other the
-    // objective falls along them for ever. A chain of 10 000 has curvatures above 1e-8.
-    constexpr double kFlat = 1e-12;
-    if (!(curvature_ > kFlat * direction_square_)) return project_gradient();
+    // Where contacts contradict each other the objective falls nearly for ever.
+    constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
+    if (!(length < kEndless)) return go_to_bound();
     move_and_half_sweep(length);
     if (look_.room < 0) return expand(length);
     // Conjugate: the next direction from the swept gradient and the one before.
@@ -108,7 +112,7 @@ class Iteration {
     look.room = std::min(look.room, room);
   }
 
-  /// z^T W z/2 + b^T z.
+  /// z^T W z/2 + b^T z, W regularised.
   double objective() const {
     return graph_.team().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
@@ -130,9 +134,9 @@ class Iteration {
     combine_directions(0);
   }
 
-  /// direction = swept + beta * direction.
+  /// direction = swept + beta * direction, its displacements and its curvature.
   void combine_directions(double beta) {
-    direction_square_ = graph_.team().template sum_of_blocks<double>(
+    const double square_of_all = graph_.team().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           double square = 0;
           for (std::size_t c = begin; c < end; ++c) {
@@ -142,7 +146,7 @@ class Iteration {
           }
           return square;
         });
-    add_to_bodies(beta);
+    curvature_ = graph_.combine(y_, beta, y_direction_) + kRegularisation * square_of_all;
   }
 
   /// z -= length * direction, its gradient and what there is to see then; and, the contact's rows being at hand, the sweep's way forth:
@@ -165,7 +169,8 @@ class Iteration {
             auto sums = decltype(sweep)::value ? graph_.block_bodies(begin) : std::vector<double>();
             for (std::size_t c = begin; c < end; ++c) {
               const double z = zs[c] - length * direction[c];
-              const double g = gradient[c] - length * graph_.to_contact(c, y_direction);
+              const double g = gradient[c] - length * (graph_.to_contact(c, y_direction) +
+                                                       kRegularisation * direction[c]);
               zs[c] = z;
               gradient[c] = g;
               const double room = z - bound[c];
@@ -217,9 +222,6 @@ class Iteration {
       return product;
     });
   }
-
-  /// y_direction = y + beta * y_direction, and the direction's curvature.
-  void add_to_bodies(double beta) { curvature_ = graph_.combine(y_, beta, y_direction_); }
 
   /// The step of that length led out of the bounds: all of it, cut at them, if that makes the objective fall.
   int expand(double length) {
@@ -292,7 +294,6 @@ class Iteration {
   Look look_;
   double slope_ = 0;      // gradient.direction
   double curvature_ = 0;  // direction^T W direction
-  double direction_square_ = 0;
   bool restart_ = true;
   int steps_between_same_ = 0;
   unsigned unseen_ = 0;  // steps

@@ -20,6 +20,8 @@ struct Simulation::Work {
   Team team;
   std::vector<double> displacements;  // h u*, later h v
   std::vector<double> mobilities;     // h/m
+  // Of a step that is divided: the sums of the impulses of its parts, by the films' particles.
+  std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts;
 };
 
 namespace {
@@ -187,15 +189,20 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   if (projected.unresolved > 0 && halvings < kMostHalvings) {
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
-    scale_impulses(0.5);
+    for_films([](Film& film) { film.impulse /= 2; });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    scale_impulses(2);
+    // As a guess for the next part, which may be longer than the last.
+    if (halvings > 0) for_films([](Film& film) { film.impulse *= 2; });
     return;
   }
   if (!projected.converged && -projected.smallest_gap > mean_radius_)
     throw_impossible(projected, next);
   accept<D>(projected, h, next, report);
+  if (halvings > 0)
+    for_films([&](const Film& film) {
+      if (film.impulse != 0) work_->impulses_of_parts[{film.first, film.second}] += film.impulse;
+    });
 }
 
 StepReport Simulation::step(double end) {
@@ -213,18 +220,19 @@ StepReport Simulation::step(double end) {
     advance<2>(h, next, 0, report);
   else
     advance<3>(h, next, 0, report);
+  if (auto& parts = work_->impulses_of_parts; !parts.empty()) {
+    for_films([&](Film& film) {
+      const auto sum = parts.find({film.first, film.second});
+      film.impulse = sum == parts.end() ? 0 : sum->second;
+    });
+    parts.clear();
+  }
   ++state_.steps;
   if (cut) {
     state_.grid_time = next;
     state_.grid_step = state_.steps;
   }
   return report;
-}
-
-/// The films' impulses are the next projection's guess, of a step that is so many times longer.
-void Simulation::scale_impulses(double factor) {
-  for (auto* films : {&state_.pairs, &state_.walls})
-    for (auto& film : *films) film.impulse *= factor;
 }
 
 void Simulation::throw_impossible(const Projected& projected, double next) const {

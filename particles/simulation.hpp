@@ -81,7 +81,11 @@ class Simulation {
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>
   void accept(const Projected& projected, double h, double next, StepReport& report);
-  void scale_impulses(double factor);
+  template <class Visit>
+  void for_films(const Visit& visit) {
+    for (auto* films : {&state_.pairs, &state_.walls})
+      for (auto& film : *films) visit(film);
+  }
   [[noreturn]] void throw_impossible(const Projected& projected, double next) const;
   template <int D>
   void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`

@@ -242,11 +242,10 @@ TEST(ImpulseAccuracy, ChainsAndColumnsOfAnyMassesAndRadii) {
     double beyond = all;
     for (int k = 0; k < count; ++k) {
       const double carried = column ? load * beyond : load * beyond / all;
-      if (column || k > 0)
-        EXPECT_NEAR(film_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma /
-                        (carried * h * steps),
-                    -1, 1e-6)
-            << k;
+      if (column || k > 0) {
+        const auto film = film_of(simulation.state(), k == 0 ? -1 : k - 1, k);
+        EXPECT_NEAR(film.gamma / (carried * h * steps), -1, 1e-6) << k;
+      }
       beyond -= masses[static_cast<std::size_t>(k)];
     }
   }
@@ -290,14 +289,14 @@ TEST(ImpulseAccuracy, DoesNotDependOnTheUnits) {
     take_steps(simulation, 50);
     std::vector<double> gammas;
     const double unit = mass * length / time;
-    for (const auto [first, second] : {std::pair(-1, 0), std::pair(-2, 0), std::pair(0, 1),
+    for (const auto& [first, second] : {std::pair(-1, 0), std::pair(-2, 0), std::pair(0, 1),
                                        std::pair(1, 2)})
       gammas.push_back(film_of(simulation.state(), first, second).gamma / unit);
     return gammas;
   };
   const auto expected = gamma_in(1, 1, 1);
   EXPECT_NEAR(expected[2], -2.5 * 0.5, 1e-9);
-  for (const auto [length, mass, time] :
+  for (const auto& [length, mass, time] :
        {std::tuple(1e-6, 1e-15, 1e-3), std::tuple(3e5, 7e9, 11.0), std::tuple(0.3, 1e-9, 1e4)}) {
     const auto gammas = gamma_in(length, mass, time);
     for (std::size_t k = 0; k < gammas.size(); ++k)
