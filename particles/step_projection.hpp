@@ -61,9 +61,10 @@ class StepProjection {
     double w = 0;         ///< h (1/m_i + 1/m_j) [T/M]
     double impulse = 0;   ///< at work in the contact [M L/T]
     double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
-    /// The residual that is allowed: `length` [L], and `fraction` of the impulses at work.
+    /// The residual that is allowed: `length` [L], and `fraction` of the impulses at work, which
+    /// cannot be less than rounding errors.
     double allowed(double length, double fraction) const {
-      return std::max(std::min(length, fraction * impulse * w), rounding);
+      return std::min(length, std::max(fraction * impulse * w, rounding));
     }
   };
   std::vector<std::size_t> with_those_behind(const std::vector<std::size_t>& films, int round);

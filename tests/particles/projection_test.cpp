@@ -429,8 +429,9 @@ TEST(Projection, ThatCannotBeSaysSo) {
     ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, team);
     FaceFactor<2> factor;
     const auto solved = row.discs(graph, 1000, factor);
-    // In the middle each is violated by 0.1; nowhere both by less.
-    EXPECT_GE(solved.residual * 1e-6, 0.1 - 1e-12) << row.name;
+    // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
+    // 1e4 or more, of which the regularisation (1e-14) makes a gap.
+    EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-9)) << row.name;
     EXPECT_LE(solved.iterations, 1003) << row.name;
     for (const double z : graph.z) EXPECT_TRUE(std::isfinite(z)) << row.name;
   }
