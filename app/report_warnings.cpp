@@ -57,6 +57,13 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
   }
 }
 
+void add_failed_models(Warnings& warnings, const RunResults& run) {
+  for (const auto& failed : run.comparison.failed_models)
+    warnings.push_back(
+        {fmt::format("{} failed and has no trajectory: {}", failed.model, failed.reason),
+         "failed_models.json"});
+}
+
 void add_poor_fit(Warnings& warnings, const Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
@@ -166,6 +173,7 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
 
 std::vector<ReportWarning> warnings_of(const RunResults& run) {
   Warnings warnings;
+  add_failed_models(warnings, run);
   add_extrapolation(warnings, run);
   add_poor_fit(warnings, run.fit);
   add_unmet_accuracy(warnings, run);
