@@ -182,6 +182,11 @@ Simulated simulate_case(const Case& c, const fs::path& fit_path,
     auto& comments = simulated.trajectories.back().provenance;
     comments = simulated.made_from;
     comments["time_step"] = time_step_of(name, motion);
+    if (choice.model->contact != nullptr) {
+      const auto drag = drag_of(choice, force);
+      const auto law = choice.model->contact(motion_of(choice, motion), drag).film_law;
+      if (!law.empty()) comments["recovered_film"] = law;
+    }
   }
   throw_if_interrupted();
   if (simulated.trajectories.empty()) throw error_of(simulated.failed, 0, c.path);

@@ -144,7 +144,12 @@ ContactModel contact_with_leading_term(const Motion& motion, const LubricationFo
   ContactModel model;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, k * std::log(solid_gap / r));
-  model.film_thickness = [k, r](double gamma) { return r * std::exp(gamma / k); };
+  model.film_thickness = [k, solid_gap, q0 = motion.initial_gap,
+                          gamma_min = model.gamma_min](double gamma) {
+    return gamma <= gamma_min ? solid_gap : std::max(solid_gap, q0 * std::exp(gamma / k));
+  };
+  model.film_law = "initial_gap * exp(gamma/k)";
+  if (solid_gap > 0) model.film_law += ", at least the roughness heights together";
   return model;
 }
 
