@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include "app/progress.hpp"
 #include "app/run_copies.hpp"
@@ -11,6 +13,7 @@
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/number.hpp"
+#include "reduced_model/fewer_rows.hpp"
 #include "reduced_model/fit_uncertainty.hpp"
 #include "reduced_model/models.hpp"
 #include "reduced_model/reached_gaps.hpp"
@@ -72,6 +75,27 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
     return "";
   }
 }
+
+/// Shows on a terminal how far a model has come in the motion's time, ten times a second at most.
+class ProgressOfModel {
+ public:
+  /// `which`: the model in words.
+  ProgressOfModel(std::string which, double end_time)
+      : which_(std::move(which)), end_time_(end_time) {}
+
+  void operator()(double time) {
+    constexpr auto kBetween = std::chrono::milliseconds(100);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - shown_ < kBetween) return;
+    shown_ = now;
+    show_progress(fmt::format("simulate: {}, {:.0f} %", which_, 100 * time / end_time_));
+  }
+
+ private:
+  std::string which_;
+  double end_time_;
+  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
+};
 
 /// How far beyond the fit's interval a model goes, as the end of a message; empty if it does not, or
 /// if that cannot be said. The drag is continued by its limits below and above the interval.
@@ -146,7 +170,7 @@ std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> a
 
 Simulated simulate_case(const Case& c, const fs::path& fit_path,
                         const std::vector<std::string>& models, const OutsideFit& outside) {
-  const auto& motion = required_motion(c);
+  Motion motion = required_motion(c);
   Simulated simulated;
   simulated.fit_text = read_file(fit_path);
   const Fit fit = read_fit(fit_path);
@@ -171,6 +195,8 @@ Simulated simulate_case(const Case& c, const fs::path& fit_path,
   for (const auto& name : names) {
     throw_if_interrupted();
     const auto choice = find_model(name);
+    const auto which = fmt::format("{} ({} of {})", name, &name - names.data() + 1, names.size());
+    motion.progress = ProgressOfModel(which, motion.end_time);
     try {
       simulated.trajectories.push_back(simulate(choice, motion, force));
     } catch (const Error& error) {
@@ -182,12 +208,18 @@ Simulated simulate_case(const Case& c, const fs::path& fit_path,
     auto& comments = simulated.trajectories.back().provenance;
     comments = simulated.made_from;
     comments["time_step"] = time_step_of(name, motion);
+    auto& rows = simulated.trajectories.back().rows;
+    if (motion.output_rows > 0) {
+      comments["rows_computed"] = std::to_string(rows.size());
+      rows = fewer_rows(rows, motion.output_rows);
+    }
     if (choice.model->contact != nullptr) {
       const auto drag = drag_of(choice, force);
       const auto law = choice.model->contact(motion_of(choice, motion), drag).film_law;
       if (!law.empty()) comments["recovered_film"] = law;
     }
   }
+  clear_progress();
   throw_if_interrupted();
   if (simulated.trajectories.empty()) throw error_of(simulated.failed, 0, c.path);
   simulated.uncertainty = uncertainty_of(motion, fit, outside);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "common/interrupt.hpp"
 #include "reduced_model/contact_step.hpp"
 
 namespace viscontact {
@@ -116,8 +115,7 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   for (int n = 0; n < steps; ++n) {
     const double next = step_time(n + 1, steps, end, h);
     if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
-    constexpr int kStepsBetweenLooks = 4096;
-    if (n % kStepsBetweenLooks == 0) throw_if_interrupted();
+    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
     const double push = setting.step * force.mean(t, next);
     const ContactStep step = contact_step(state, push, setting, drag);
     add(t, next, setting, state, push, force.value(next), step);

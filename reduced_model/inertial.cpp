@@ -8,7 +8,6 @@
 
 #include "common/bisection.hpp"
 #include "common/error.hpp"
-#include "common/interrupt.hpp"
 #include "reduced_model/cvode.hpp"
 
 namespace viscontact {
@@ -140,7 +139,7 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   for (const double stop : stops) {
     cvode.restart(from, stop, first_step(from));
     while (begin < stop) {
-      throw_if_interrupted();
+      check_in(motion, begin);
       try {
         cvode.step();
       } catch (const Error&) {
