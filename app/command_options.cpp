@@ -7,19 +7,8 @@
 #include <thread>
 
 #include "common/error.hpp"
-#include "common/file.hpp"
 
 namespace viscontact {
-
-void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind) {
-  if (!std::filesystem::is_regular_file(path))
-    return;  // nothing there, or write_file's own refusals
-  const std::string text = read_file(path);
-  if (!text.empty() && text.find(marker) == std::string::npos)
-    throw_bad_input(
-        {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
-}
-
 namespace {
 
 /// Where a file of that name is or would be, a link that leads nowhere yet included.

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/foreign_files.hpp"
+
 namespace viscontact {
 
 // Type names of options: by them --help, the manual and the shells' completion know what goes there. Words to choose from are "word|word".
@@ -28,10 +30,6 @@ std::string words_of(const Table& table) {
 
 /// Refuses what is none of the words; --help has them in the type name.
 CLI::Validator one_of(std::vector<std::string> words);
-
-/// An output that is there already is replaced only if it is of the same kind: its text has the
-/// marker. Throws Error(kBadInput) otherwise.
-void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind);
 
 /// Throws Error(kWrongUsage) if an output has no name, or two have the same.
 void check_outputs(const std::vector<std::string>& paths);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/command_options.hpp"
 #include "app/pipeline.hpp"
@@ -96,11 +97,17 @@ void add_fit(CLI::App& app) {
     if (o->compare_bases) outputs.push_back(plot.string());
     check_outputs(outputs);
     if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
-    if (o->compare_bases) {
-      refuse_other_kind(plot.string(), "<svg", "picture");
-      compare_bases_stage(o->table, settings, plot, o->json);
+    if (o->compare_bases) refuse_other_kind(plot, "<svg", "picture");
+    std::optional<Error> without_picture;
+    try {
+      if (o->compare_bases) compare_bases_stage(o->table, settings, plot, o->json);
+    } catch (const Error& error) {
+      // The fit does not need gnuplot: it is written first.
+      if (error.exit_code() != ExitCode::kExternalProgram) throw;
+      without_picture = error;
     }
     if (output->count() > 0) fit_stage(o->table, o->fit, settings, provenance_of({{o->table}, {}}));
+    if (without_picture) throw Error(*without_picture);
   });
 }
 
@@ -129,13 +136,13 @@ void add_export(CLI::App& app) {
     const Fit fit = read_fit(o->fit);
     std::string text;
     try {
-      text = export_fit(fit, o->target);
+      text = export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
     } catch (const Error& error) {
       throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
       write_output(o->output, find_named(export_targets(), o->target)->kind, text,
-                   provenance_of({{o->fit}, {}}));
+                   without_folders(provenance_of({{o->fit}, {}})));
     else
       fmt::print("{}", text);
   });

@@ -62,7 +62,7 @@ void add_shift(CLI::App& app) {
     auto outputs = std::vector{o->shift};
     if (!o->plot.empty()) outputs.push_back(o->plot);
     check_outputs(outputs);
-    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of shifts");
+    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
     if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
     shift_stage(o->table, o->fit, o->shift, o->plot);
   });
@@ -142,7 +142,7 @@ void add_compare(CLI::App& app) {
   command->callback([o] {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
-    refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
+    refuse_other_kind(output, "\"reference_model\"", "comparison");
     std::optional<LockedFolder> ours;
     if (o->output.empty() && std::filesystem::is_directory(o->folder))
       ours.emplace(o->folder, kFolderIsHeld);

@@ -22,6 +22,9 @@ constexpr std::array kExitCodes = {
 
 constexpr std::array kEnvironment = {
     std::pair("VISCONTACT_FREEFEM", "the FreeFEM to run; default: FreeFem++-nw on the PATH"),
+    std::pair("VISCONTACT_FREEFEM_TIME_LIMIT",
+              "seconds after which FreeFEM is stopped; default: 1800 for a row of a table, 120 for "
+              "the question which version it is"),
     std::pair("NO_COLOR", "set and not empty: no colours on a terminal"),
     std::pair("SOURCE_DATE_EPOCH", "seconds since 1970 to be written as the time of making"),
 };

@@ -139,8 +139,9 @@ void compare_bases_stage(const fs::path& table_path, const FitSettings& settings
   if (std::ranges::none_of(results,
                            [](const BasisResult& result) { return result.fit.has_value(); }))
     throw_bad_input({table_path.string()}, results.front().failure);
-  write_output(plot_path, TextKind::kSvg, plot_bases(table, results), provenance);
+  // The numbers come first because the picture needs gnuplot, which may be missing.
   fmt::print("{}", json ? basis_json(results) : basis_table(results));
+  write_output(plot_path, TextKind::kSvg, plot_bases(table, results), provenance);
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
@@ -168,13 +169,12 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
     text += fmt::format("{},{},{},{}\n", format_number(row.gap), format_number(row.shift),
                         format_number(row.relative_residual),
                         format_number(row.relative_error_estimate));
-  const std::string picture =
-      plot_path.empty() ? ""
-                        : plot_wall_shift(shift, rough.geometry);  // before anything is written
   write_output(shift_path, TextKind::kHashComment, text, provenance);
-  if (!plot_path.empty()) write_output(plot_path, TextKind::kSvg, picture, provenance);
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
+  // Last, because the picture needs gnuplot, which may be missing.
+  if (!plot_path.empty())
+    write_output(plot_path, TextKind::kSvg, plot_wall_shift(shift, rough.geometry), provenance);
 }
 
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
@@ -213,14 +213,21 @@ bool uncertainty_is_lost(const RunFolder& run) {
   }
 }
 
-/// Before a long computation: nothing that a user put there is written over.
+/// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
+/// Called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
-  if (writes_fit) refuse_other_kind(run.fit().string(), "\"gap_interval\"", "fit");
-  refuse_other_kind(run.comparison().string(), "\"reference_model\"", "comparison");
-  refuse_other_kind(run.failed_models().string(), "\"failed_models\"", "record of failed models");
-  refuse_other_kind(run.report().string(), "id=\"provenance\"", "report of ours");
+  // The folder of an earlier run may hold a copy of a fit that the user wrote by hand.
+  const bool is_copy = holds_a_run(run) && up_to_date(run.fit(), [&] {
+                         (void)read_fit(run.fit());
+                         return true;
+                       });
+  if (writes_fit && !is_copy) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
+  refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
+  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  check_report_files(run.path);
   for (const auto& file : files_of_models(run.trajectories()))
-    refuse_other_kind(file.string(), "# provenance: ", "trajectory of ours");
+    refuse_other_kind(file, "", "trajectory");
 }
 
 }  // namespace
@@ -243,8 +250,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   } else {
     check_run(c, models_to_run(c));
     warn_of_gaps_outside(c, models_to_run(c));
-    // Its first line, which a table cut short still has.
-    refuse_other_kind(run.table().string(), "# case: ", "table of ours");
+    refuse_other_kind(run.table(), "# case: ", "table");
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));

@@ -167,6 +167,32 @@ Provenance provenance_of(const Inputs& inputs) {
   return provenance;
 }
 
+Provenance without_folders(Provenance provenance) {
+  namespace fs = std::filesystem;
+  const fs::path folder = provenance.folder;
+  const auto shorten = [&](std::string& word, std::size_t begin) {
+    const fs::path path = word.substr(begin);
+    if (!path.is_absolute()) return;
+    const auto relative = path.lexically_normal().lexically_relative(folder);
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    word.replace(begin, std::string::npos, (below ? relative : path.filename()).string());
+  };
+  for (auto& word : provenance.command) shorten(word, path_in_word(word));
+  if (!provenance.command.empty())
+    provenance.command[0] = fs::path(provenance.command[0]).filename();
+  for (auto& input : provenance.inputs) shorten(input.file, 0);
+  shorten(provenance.output, 0);
+  provenance.folder.clear();
+  return provenance;
+}
+
+std::size_t path_in_word(const std::string& word) {
+  const auto value = word.find("=/");  // --output=/...
+  return value != std::string::npos && word.starts_with("--") ? value + 1
+         : word.starts_with("-o/")                            ? 2
+                                                              : 0;
+}
+
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
   const auto place = place_in(kind, text);
   const auto [before, after, forbidden] = frame_of(kind);
@@ -234,6 +260,10 @@ void write_output(const std::filesystem::path& path, TextKind kind, const std::s
                   Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
+  if (provenance.folder.empty()) {  // without_folders: the name of the output is shortened, too
+    provenance.folder = std::filesystem::current_path().string();
+    provenance = without_folders(provenance);
+  }
   write_file(path, with_provenance(kind, text, provenance));
 }
 

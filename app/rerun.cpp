@@ -118,20 +118,26 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
 /// old place.
 void move_to(Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
+  // A file that does not tell its folder has no absolute paths either.
+  const bool tells_folder = !provenance.folder.empty();
   const auto move = [&](std::string& word, std::size_t begin) {
-    if (word.compare(begin, from.size(), from) == 0)
+    if (tells_folder && word.compare(begin, from.size(), from) == 0)
       word.replace(begin, from.size(), (to / "").string());
   };
-  for (std::size_t i = 2; i < provenance.command.size(); ++i) {
-    auto& word = provenance.command[i];
-    const auto value = word.find("=/");  // --output=/...
-    move(word, value != std::string::npos && word.starts_with("--") ? value + 1
-               : word.starts_with("-o/")                            ? 2
-                                                                    : 0);
-  }
+  for (std::size_t i = 2; i < provenance.command.size(); ++i)
+    move(provenance.command[i], path_in_word(provenance.command[i]));
   for (auto& input : provenance.inputs) move(input.file, 0);
   move(provenance.output, 0);
   provenance.folder = to.string();
+}
+
+/// The folder of the command that made `file`, for a file that does not tell it: the one in which
+/// the command would write to this very place, or else the one in which the file lies.
+fs::path folder_around(const fs::path& file, const std::string& output) {
+  const auto path = fs::weakly_canonical(file);
+  auto folder = path;
+  for ([[maybe_unused]] const auto& part : fs::path(output)) folder = folder.parent_path();
+  return folder / output == path ? folder : path.parent_path();
 }
 
 std::string in_words(const std::vector<std::string>& command) {
@@ -147,6 +153,8 @@ void rerun(const Options& o) {
                     "does not say how it was made (no line 'provenance'); files that "
                     "Viscontact writes do, copies of yours do not");
   const std::string made_in = provenance->folder;
+  if (made_in.empty() && o.folder.empty())
+    provenance->folder = folder_around(o.file, provenance->output).string();
   if (!o.folder.empty()) move_to(*provenance, fs::weakly_canonical(o.folder));
   const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "app/foreign_files.hpp"
 #include "app/progress.hpp"
 #include "app/run_copies.hpp"
 #include "common/csv.hpp"
@@ -285,6 +286,10 @@ void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& fol
   const RunFolder run{folder};
   check_case_copies(run, c);
   check_fit_copy(run, read_file(fit_path));
+  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  for (const auto& model : models_to_run(c, models))
+    refuse_other_kind(run.trajectory(model), "", "trajectory");
   const auto simulated = simulate_case(c, fit_path, models, outside);
   write_simulated(run, c, simulated, provenance);
   if (!simulated.failed.empty())

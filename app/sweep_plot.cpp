@@ -50,10 +50,12 @@ class SweepRows {
     return {index_of(name.substr(0, slash)), index_of(name.substr(slash + 1))};
   }
 
-  /// The next row; false at the end.
+  /// The next row; false at the end. Blank lines are no rows.
   bool next() {
     std::string line;
-    if (!std::getline(file_, line)) return false;
+    do
+      if (!std::getline(file_, line)) return false;
+    while (line.find_first_not_of(" \t\r,") == std::string::npos);
     fields_ = fields_of(line);
     return true;
   }

@@ -82,7 +82,10 @@ void add_tabulate(CLI::App& app) {
     for (const auto& one : tables) refuse_other_kind(one.table.string(), "# case: ", "table");
     std::vector<std::vector<double>> pictures;  // gaps, for each table; before any work is done
     if (plot->count() > 0)
-      for (const auto& one : tables) pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
+      for (const auto& one : tables) {
+        pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
+        check_pictures(pictures.back(), picture_folder(one.table));
+      }
     if (o->dry_run) {
       std::vector<DryRun> runs;
       for (const auto& one : tables) runs.push_back(dry_run(one));

@@ -104,6 +104,16 @@ void read_container(const TomlSection& section, const RoomNeeded& room, Tabulati
                fmt::format("is {}; must be greater than {}, what the largest gap, the sphere and "
                            "its neighbour need",
                            container.height, room.container_height));
+  // Beyond, FreeFEM's mesh generator cannot make edges that are short enough for the gap
+  // (graded_boundary.idp); that much wider, the fluid may as well be unbounded.
+  constexpr double kLargest = 2e5;
+  for (const auto& [key, length] :
+       {std::pair("radius", container.radius), std::pair("height", container.height)})
+    if (length > kLargest * tabulation.radius)
+      table.fail(key,
+                 fmt::format("is {}; must be at most {} sphere radii, {}, or container must be "
+                             "\"unbounded\"",
+                             length, kLargest, kLargest * tabulation.radius));
   tabulation.container = container;
 }
 

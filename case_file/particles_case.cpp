@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -110,6 +111,17 @@ void add(Particles& p, const Vector& centre, const Vector& velocity, double radi
   p.masses.push_back(mass);
 }
 
+/// Names a particle of a table in a case whose file gives ids: they go on after the largest.
+void add_id(Particles& p, const TomlSection& section) {
+  const auto largest = std::ranges::max(p.ids);
+  if (largest == std::numeric_limits<std::int32_t>::max())
+    section.fail("centre", fmt::format("is of a particle without an id: the file has the largest "
+                                       "one that is possible, {}, and the particles of tables "
+                                       "have the following ones",
+                                       largest));
+  p.ids.push_back(largest + 1);
+}
+
 /// How messages name a particle.
 class Names {
  public:
@@ -118,7 +130,7 @@ class Names {
     const auto x = case_.particles.position(k);
     const auto place = case_.particles.dimension == 2 ? fmt::format("{}, {}", x[0], x[1])
                                                       : fmt::format("{}, {}, {}", x[0], x[1], x[2]);
-    return fmt::format("particle {} ({}centre {}, radius {})", k,
+    return fmt::format("particle {} ({}centre {}, radius {})", case_.particles.id(k),
                        k < lines_.size() ? fmt::format("line {}, ", lines_[k]) : "", place,
                        case_.particles.radii[k]);
   }
@@ -174,17 +186,30 @@ void check_start(const ParticlesCase& c, const Names& names) {
   }
 }
 
-/// [[force]]: the same force on particles named by their number.
-void read_forces_by_number(const TomlSection& root, int dimension, double end_time,
-                           ParticlesCase& c) {
+/// The place of each particle in the arrays, by its id.
+std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
+  std::unordered_map<std::int32_t, std::int32_t> places;
+  for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
+  return places;
+}
+
+/// [[force]]: the same force on particles named by their ids.
+void read_forces_by_id(const TomlSection& root, int dimension, double end_time, ParticlesCase& c) {
+  const auto places = places_by_id(c.particles);
   for (const auto& section : root.sections("force")) {
     const auto function = read_pieces(section, "value", dimension, end_time);
-    for (const double number : section.numbers("particles", kNotNegative)) {
-      if (number != std::floor(number) || number >= static_cast<double>(c.particles.count()))
-        section.fail("particles", fmt::format("has {}; the particles' numbers are 0 to {}", number,
-                                              c.particles.count() - 1));
-      if (!c.setting.forces.emplace(static_cast<std::int32_t>(number), function).second)
-        section.fail("particles", fmt::format("has {}, which has a force already", number));
+    for (const double id : section.numbers("particles", kNotNegative)) {
+      const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
+      const auto place = whole ? places.find(static_cast<std::int32_t>(id)) : places.end();
+      if (place == places.end())
+        section.fail("particles",
+                     c.particles.ids.empty()
+                         ? fmt::format("has {}; the particles' numbers are 0 to {}", id,
+                                       c.particles.count() - 1)
+                         : fmt::format("has {}, which is no particle's id; {} gives the ids", id,
+                                       c.particles_file.string()));
+      if (!c.setting.forces.emplace(place->second, function).second)
+        section.fail("particles", fmt::format("has {}, which has a force already", id));
     }
     section.finish();
   }
@@ -232,6 +257,8 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
     const auto solver = root.section("solver");
     auto& settings = c.setting.solver;
     if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
+    if (solver.has("impulse_tolerance"))
+      settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
     if (solver.has("max_iterations"))
       settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
     if (solver.has("method")) settings.method = read_method(solver);
@@ -265,6 +292,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
           section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
           section.number("radius", kModeratelyPositive),
           section.number("mass", kModeratelyPositive));
+      if (!c.particles.ids.empty()) add_id(c.particles, section);
       section.finish();
     }
   if (c.particles.count() == 0 && !c.particles_file.empty())
@@ -273,7 +301,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
   if (c.particles.count() == 0)
     throw_bad_input({path.string()},
                     "has no particle; name a file in [particles] or add a [[particle]]");
-  if (root.has("force")) read_forces_by_number(root, dimension, c.end_time, c);
+  if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
   root.finish();
   check_start(c, Names(c, std::move(lines)));
   return c;

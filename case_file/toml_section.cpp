@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "case_file/dotted_keys.hpp"
 #include "common/error.hpp"
 
 namespace viscontact {
@@ -33,6 +34,7 @@ std::string show(const toml::node& node) {
 }  // namespace
 
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
+  check_dotted_keys(text, file);
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text, file));
     const auto* table = root.get();

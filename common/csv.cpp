@@ -26,6 +26,14 @@ std::string hint_of_separator(const std::string& text) {
   return "";
 }
 
+void remove_trailing_blank_lines(std::string& text) {
+  const auto last = text.find_last_not_of(" \t\r\n,");
+  if (last == std::string::npos) return;
+  // Empty fields at the end of the last row are part of it.
+  const auto end_of_row = text.find('\n', last);
+  if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
+}
+
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
   CsvComments comments;
   std::istringstream stream(text);

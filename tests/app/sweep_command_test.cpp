@@ -92,6 +92,10 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
   EXPECT_EQ(read_file(path("rows.csv")), rows);
   EXPECT_EQ(rest_of(path("picture.svg")), svg);
+  // Blank lines that an editor left at the end are no rows, here either.
+  put_text(path("rows.csv"), rows + "\n\n");
+  expect_done(sweep(kVanishing, {"--plot", path("picture.svg")}));
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
@@ -223,7 +227,7 @@ TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
-  put_text(path("rows.csv"), "# viscontact: sweep\nother\n");
+  put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
   expect_done(sweep(kVanishing, arguments));
   EXPECT_EQ(lines().size(), 3U);
 }

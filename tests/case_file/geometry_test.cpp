@@ -58,6 +58,14 @@ TEST(Container, MustBeHigherThanTheSphereOverItsLargestGap) {
                  "is 4; must be greater than 4, what the largest gap");
 }
 
+TEST(Container, IsAtMostSoLargeThatFreeFemCanMeshIt) {
+  expect_refused(with_value(kContainer, "{ radius = 1e6, height = 80.0 }"),
+                 "tabulation.container.radius", "is 1000000; must be at most 200000 sphere radii");
+  expect_refused(with_value(kContainer, "{ radius = 40.0, height = 200001.0 }"),
+                 "tabulation.container.height", "is 200001; must be at most 200000 sphere radii");
+  EXPECT_NO_THROW(read_text(with_value(kContainer, "{ radius = 2e5, height = 2e5 }").text));
+}
+
 TEST(Container, MustHoldASecondSphereAndItsMirrorImage) {
   const std::string pair = "{ kind = \"sphere\", radius = 3.0 }";
   expect_refused(with_geometry_and_container(pair, "container = { radius = 3.0, height = 80.0 }"),

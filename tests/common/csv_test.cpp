@@ -82,6 +82,22 @@ TEST_F(Csv, TakesALastLineWithoutItsEndWhereNoCountIsPromised) {
   EXPECT_EQ(read("time,gap\n1,2\n3,4").rows.size(), 2U);
 }
 
+TEST_F(Csv, TakesBlankLinesAtTheEndForNoRows) {
+  // As editors leave them, and as spreadsheets do for cells that were cleared.
+  for (const std::string end :
+       {"\n", "\n\n\n", "\r\n\r\n", "  \n\t\n", " ", ",\n,\n", "\n \t,\r\n"}) {
+    const auto csv = read("# rows: 2\ntime,gap\n1,2\n3,4\n" + end);
+    ASSERT_EQ(csv.rows.size(), 2U) << end;
+    EXPECT_EQ(csv.rows[1].line, 4);
+  }
+  // An empty field at the end of the last row is no blank line.
+  EXPECT_THAT(read("time,gap,gamma\n1,2,\n\n").rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
+}
+
+TEST_F(Csv, RefusesABlankLineBetweenRows) {
+  EXPECT_EQ(refusal("time,gap\n1,2\n\n3,4\n\n"), ":3: has fewer fields than the header line");
+}
+
 TEST_F(Csv, DropsBlanksAroundFields) {
   const auto csv = read(" time , gap\n 1\t, 2 \n");
   ASSERT_EQ(csv.rows.size(), 1U);
