@@ -33,6 +33,16 @@ std::vector<FailedModel> read_failed_models(const std::filesystem::path& path) {
   }
 }
 
+std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from) {
+  try {
+    auto failed = read_failed_models(run.failed_models());
+    std::erase_if(failed, [&](const FailedModel& model) { return model.made_from != made_from; });
+    return failed;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 std::string write_failed_models(const std::vector<FailedModel>& failed) {
   Json json;
   json["failed_models"] = Json::object();

@@ -24,6 +24,10 @@ struct FailedModel {
 /// Throws Error(kBadInput) if the file is something else.
 std::vector<FailedModel> read_failed_models(const std::filesystem::path& path);
 
+/// The entries of a run's folder that were made from these inputs (FailedModel::made_from). A damaged
+/// record counts as none.
+std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from);
+
 /// The text of the record.
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 

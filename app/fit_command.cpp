@@ -28,7 +28,7 @@ void read_fix(const std::string& word, FitSettings& settings) {
   if (!settings.leading_value)
     throw Error(
         ExitCode::kWrongUsage,
-        fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
+        fmt::format("--fix is '{}'; it must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
 }
 
 }  // namespace
@@ -80,14 +80,16 @@ void add_fit(CLI::App& app) {
       ->type_name(kFile);
   command->callback([o, output, terms, fix] {
     FitSettings settings;
-    settings.basis = terms->count() == 0 ? find_basis(o->basis) : parse_terms(o->terms);
-    settings.weights = parse_weights(o->weights);
-    settings.loss = parse_loss(o->loss);
+    settings.basis = terms->count() == 0
+                         ? from_option("--basis", [&] { return find_basis(o->basis); })
+                         : from_option("--terms", [&] { return parse_terms(o->terms); });
+    settings.weights = from_option("--weights", [&] { return parse_weights(o->weights); });
+    settings.loss = from_option("--loss", [&] { return parse_loss(o->loss); });
     if (fix->count() > 0) read_fix(o->fix, settings);
     if (output->count() == 0 && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--output is required (or --compare-bases)");
+      throw Error(ExitCode::kWrongUsage, "--output is required where --compare-bases is not given");
     if (!o->plot.empty() && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--plot is for --compare-bases only");
+      throw Error(ExitCode::kWrongUsage, "--plot needs --compare-bases");
     std::filesystem::path plot = o->plot;
     if (plot.empty() && output->count() > 0)
       plot = std::filesystem::path(o->fit).replace_extension(".bases.svg");
@@ -133,6 +135,8 @@ void add_export(CLI::App& app) {
       check_outputs({o->output});
       refuse_other_kind(o->output, "written by 'viscontact export'", "export");
     }
+    (void)from_option("--to",
+                      [&] { return &require_named(export_targets(), o->target, "export target"); });
     const Fit fit = read_fit(o->fit);
     std::string text;
     try {

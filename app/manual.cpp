@@ -13,7 +13,8 @@ constexpr std::array kExitCodes = {
     std::pair("0", "done"),
     std::pair("2", "wrong usage"),
     std::pair("3", "bad input: a file, a value in it"),
-    std::pair("4", "a computation did not converge, or memory ran out"),
+    std::pair("4",
+              "a computation did not converge, every point of a sweep failed, or memory ran out"),
     std::pair("5", "FreeFEM or gnuplot failed or is missing"),
     std::pair("130",
               "interrupted; what was finished is kept, the same command goes on (particles: from "

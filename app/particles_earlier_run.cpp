@@ -57,8 +57,8 @@ void check_same_particles(const particles::State& state, const ParticlesCase& c,
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
     throw_bad_input({restart.string()},
-                    fmt::format("is of other particles than {}: {}; the case that is "
-                                "continued has the same, in the same order",
+                    fmt::format("is of other particles than {}: {}; a case that continues a "
+                                "run must have the same particles in the same order",
                                 c.path.string(), what));
   };
   if (p.dimension != c.particles.dimension)

@@ -47,8 +47,9 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
   check_same_particles(state, c, restart);
   state.particles.ids = c.particles.ids;
   if (state.time > c.end_time * (1 - 1e-9))
-    throw_bad_input({restart}, fmt::format("is at time {}; {} ends at {}: nothing is left to do",
-                                           state.time, c.path.string(), c.end_time));
+    throw_bad_input({restart},
+                    fmt::format("is at time {} and {} ends at {}, so that nothing is left to do",
+                                state.time, c.path.string(), c.end_time));
   // Another step than before begins a grid of times of its own.
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
@@ -120,16 +121,17 @@ void check_folder_is_ours(const fs::path& folder) {
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
-    throw_bad_input({restart.string()},
-                    "is of the run in the folder that is to be written, whose frames and record "
-                    "would be lost; choose another folder, or leave out --restart: the command "
-                    "that was interrupted goes on in its own folder");
+    throw_bad_input(
+        {restart.string()},
+        "belongs to the run in the output folder, whose frames and record would be lost; choose "
+        "another folder, or leave out --restart: the same command continues an interrupted run in "
+        "its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
     for (const auto* output : kParticleResults) {
       std::error_code ignored;
       if (fs::equivalent(input, folder / output, ignored))
-        throw_bad_input({input.string()}, "would be written over by the run's " +
+        throw_bad_input({input.string()}, "would be overwritten by the run's " +
                                               std::string(output) + "; choose another folder");
     }
   }

@@ -56,14 +56,16 @@ std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::str
   for (std::string word; std::getline(words, word, ',');) {
     const auto gap = parse_number(word);
     if (!gap)
-      throw Error(ExitCode::kWrongUsage,
-                  fmt::format("--plot: '{}' is not a number; give gaps separated by commas", word));
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
+                      word));
     const double nearest =
         *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
     if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
       throw Error(ExitCode::kBadInput,
-                  fmt::format("--plot: {} is none of the case's gaps; the nearest is {}", word,
-                              format_number(nearest)));
+                  fmt::format("--plot: {} is not one of the case's gaps; the nearest of them is {}",
+                              word, format_number(nearest)));
     gaps.push_back(nearest);
   }
   return gaps;

@@ -280,7 +280,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
       return;
     }
   } else {
-    const auto results = simulate_case(c, fit, models, outside);
+    const auto results = simulate_case(c, {fit, fit_text}, models, outside);
     throw_if_interrupted();
     // What was made from the old trajectories goes before the new ones come, so that no crash leaves it beside them.
     remove_file(run.comparison());

@@ -7,16 +7,14 @@
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/json.hpp"
 
 namespace viscontact {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // By this a line is known, among those of a user's.
 constexpr std::string_view kName = "provenance";
@@ -41,10 +39,11 @@ std::string time_of_making() {
     const std::string_view text = epoch;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
     if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
-      throw Error(ExitCode::kWrongUsage,
-                  fmt::format("SOURCE_DATE_EPOCH is '{}'; must be a whole number of seconds from 0 "
-                              "to {}",
-                              epoch, kYear9999));
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format("SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 "
+                      "to {}",
+                      epoch, kYear9999));
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
@@ -233,8 +232,9 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
     provenance.output = json.value("output", "");
     provenance.made = json.at("made").get<std::string>();
     return provenance;
-  } catch (const Json::exception&) {
-    throw_bad_input({file}, "its line 'provenance' is damaged");
+  } catch (const Json::exception& error) {
+    throw_bad_input({file},
+                    fmt::format("its line 'provenance' is damaged ({})", cause_in_words(error)));
   }
 }
 
@@ -256,15 +256,20 @@ std::string provenance_line(Provenance provenance, const std::filesystem::path& 
   return with_provenance(TextKind::kHashComment, "", provenance);
 }
 
-void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
-                  Provenance provenance) {
+std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                        Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
   if (provenance.folder.empty()) {  // without_folders: the name of the output is shortened, too
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);
   }
-  write_file(path, with_provenance(kind, text, provenance));
+  return with_provenance(kind, text, provenance);
+}
+
+void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                  Provenance provenance) {
+  write_file(path, output_text(path, kind, text, std::move(provenance)));
 }
 
 }  // namespace viscontact

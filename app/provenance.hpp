@@ -67,6 +67,10 @@ std::string change_of(const InputFile& input, const std::filesystem::path& folde
 /// "# provenance: {...}\n", made now, for the CSV file `path`, which is written row by row.
 std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
 
+/// What write_output writes: the text with the provenance, made now.
+std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                        Provenance provenance);
+
 /// write_file with the provenance, made now.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);

@@ -40,7 +40,7 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
            word.starts_with("--slurm-options");
   };
   if (!known || std::ranges::any_of(command, is_refused))
-    throw_bad_input({file}, "its line 'provenance' has a command that makes no file");
+    throw_bad_input({file}, "its line 'provenance' holds a command that 'rerun' does not run");
 }
 
 /// Where an option of the command has its value: the word, and where in it the value begins.
@@ -90,21 +90,25 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
       command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
       return command;
     }
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("the command that made {} ('{}') writes to one place; leave out -o",
-                            o.file, command[1]));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("the command that made {} ('{}') can write to its own place only; leave out -o",
+                    o.file, command[1]));
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
   if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("{} is a picture that is drawn beside the table; repeat that, with -o "
-                            "TABLE, and its pictures are drawn beside it",
-                            o.file));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format(
+            "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
+            "its pictures are drawn beside it",
+            o.file));
   if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must "
-                            "be a folder for all of them, it is '{}'",
-                            o.file, command[1], value_at(command, *output), o.output));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must be "
+                    "a folder for all of them, but it is '{}'",
+                    o.file, command[1], value_at(command, *output), o.output));
   put(*output);
   // Its picture would be drawn over the first one.
   if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
@@ -158,19 +162,21 @@ void rerun(const Options& o) {
   if (!o.folder.empty()) move_to(*provenance, fs::weakly_canonical(o.folder));
   const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))
-    throw_bad_input({folder.string()},
-                    fmt::format("is no folder; the command that made {} ran in {}; '--folder DIR' "
-                                "names another one",
-                                o.file, made_in));
+    throw_bad_input(
+        {folder.string()},
+        fmt::format("is no folder; the command that made {} ran in {}, and '--folder DIR' "
+                    "names another folder to run it in",
+                    o.file, made_in));
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
     if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())
       changes.push_back(change);
   const std::string list = fmt::format("{}", fmt::join(changes, "; "));
   if (!changes.empty() && !o.changed_inputs && !o.dry_run)
-    throw_bad_input({o.file}, fmt::format("was made from other inputs: {}; with --changed-inputs "
-                                          "what is there now is used",
-                                          list));
+    throw_bad_input({o.file},
+                    fmt::format("was made from other inputs: {}; give --changed-inputs to "
+                                "use the inputs as they are now",
+                                list));
   check_command(o.file, provenance->command);
   auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
   // The rows that were gathered may be gone: what is missing is computed here.

@@ -21,14 +21,15 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
       request.settings.basis.terms.size() - (request.settings.hold_leading ? 1 : 0);
   if (different < terms)
     throw_bad_input({c.path.string()},
-                    fmt::format("tabulation.gaps are {}; basis {} needs at least {}", different,
-                                request.settings.basis.name, terms));
+                    fmt::format("tabulation.gaps has {} gap(s); the basis {} needs at least {}",
+                                different, request.settings.basis.name, terms));
   const auto [smallest, largest] = std::ranges::minmax(gaps);
   const auto refuse = [&](const std::string& model, const char* what, double bound,
                           const char* remedy) {
     throw_bad_input({c.path.string()},
-                    fmt::format("motion.initial_gap is {}, {} gap of tabulation.gaps, {}, and {} "
-                                "needs the drag there; tabulate further, or [fit] {}",
+                    fmt::format("motion.initial_gap is {}, which is {} gap of tabulation.gaps, {}; "
+                                "the model {} needs the drag there: tabulate further, or write {} "
+                                "into the section [fit]",
                                 motion.initial_gap, what, bound, model, remedy));
   };
   // What the models themselves refuse, found with the exact drag: nothing outside an interval, and no table yet.

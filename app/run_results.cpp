@@ -32,7 +32,8 @@ RunResults read_run(const std::filesystem::path& folder) {
     if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
       results.trajectories.push_back(read_trajectory(file));
   if (results.trajectories.empty())
-    throw_bad_input({run.trajectories().string()}, "has none of the comparison's trajectories");
+    throw_bad_input({run.trajectories().string()},
+                    "has no trajectory of the models that the comparison names");
   if (has_table(run, results.c, results.fit)) results.table = read_force_table(run.table());
   if (std::filesystem::exists(run.uncertainty()))
     results.uncertainty = read_uncertainty(run.uncertainty());

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <utility>
 
 #include "app/foreign_files.hpp"
+#include "app/model_progress.hpp"
 #include "app/progress.hpp"
 #include "app/run_copies.hpp"
 #include "common/csv.hpp"
@@ -77,27 +76,6 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
   }
 }
 
-/// Shows on a terminal how far a model has come in the motion's time, ten times a second at most.
-class ProgressOfModel {
- public:
-  /// `which`: the model in words.
-  ProgressOfModel(std::string which, double end_time)
-      : which_(std::move(which)), end_time_(end_time) {}
-
-  void operator()(double time) {
-    constexpr auto kBetween = std::chrono::milliseconds(100);
-    const auto now = std::chrono::steady_clock::now();
-    if (now - shown_ < kBetween) return;
-    shown_ = now;
-    show_progress(fmt::format("simulate: {}, {:.0f} %", which_, 100 * time / end_time_));
-  }
-
- private:
-  std::string which_;
-  double end_time_;
-  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
-};
-
 /// How far beyond the fit's interval a model goes, as the end of a message; empty if it does not, or
 /// if that cannot be said. The drag is continued by its limits below and above the interval.
 std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, const Fit& fit,
@@ -144,22 +122,6 @@ void check_parameters(const Case& c, const std::vector<std::string>& models) {
     }
 }
 
-/// The failures that the folder records of other models than these with the same inputs.
-std::vector<FailedModel> other_failures(const RunFolder& run, const Simulated& simulated) {
-  std::vector<FailedModel> others;
-  try {
-    others = read_failed_models(run.failed_models());
-  } catch (const Error&) {  // a damaged record is replaced
-  }
-  std::erase_if(others, [&](const FailedModel& other) {
-    const auto is_it = [&](const auto& model) { return model.model == other.model; };
-    return other.made_from != simulated.made_from ||
-           std::ranges::any_of(simulated.trajectories, is_it) ||
-           std::ranges::any_of(simulated.failed, is_it);
-  });
-  return others;
-}
-
 }  // namespace
 
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
@@ -169,20 +131,21 @@ std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> a
   return asked;
 }
 
-Simulated simulate_case(const Case& c, const fs::path& fit_path,
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside) {
   Motion motion = required_motion(c);
   Simulated simulated;
-  simulated.fit_text = read_file(fit_path);
-  const Fit fit = read_fit(fit_path);
+  simulated.fit_text = fit_file.text;
+  const fs::path& fit_path = fit_file.path;
+  const Fit fit = parse_fit(fit_file.text, fit_path.string());
   // A fit of another viscosity could be scaled, one of another radius could not; neither is done
   // silently.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
-    throw_bad_input(
-        {fit_path.string()},
-        fmt::format(
-            "is of viscosity {} and radius {}; the case has {} and {}: tabulate and fit for it",
-            fit.viscosity, fit.radius, c.viscosity, c.radius));
+    throw_bad_input({fit_path.string()},
+                    fmt::format("is of viscosity {} and radius {}; the case has viscosity {} and "
+                                "radius {}: tabulate and "
+                                "fit for the case",
+                                fit.viscosity, fit.radius, c.viscosity, c.radius));
   const LubricationForce force = [&] {
     try {
       return LubricationForce(fit, outside.below, outside.above);
@@ -238,7 +201,13 @@ void write_simulated(const RunFolder& run, const Case& c, const Simulated& simul
   for (const auto& trajectory : simulated.trajectories)
     write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
                  write_trajectory(trajectory), provenance);
-  auto failed = other_failures(run, simulated);
+  auto failed = recorded_failures(run, simulated.made_from);
+  // What other models did with the same inputs stays recorded.
+  std::erase_if(failed, [&](const FailedModel& other) {
+    const auto is_it = [&](const auto& model) { return model.model == other.model; };
+    return std::ranges::any_of(simulated.trajectories, is_it) ||
+           std::ranges::any_of(simulated.failed, is_it);
+  });
   failed.insert(failed.end(), simulated.failed.begin(), simulated.failed.end());
   if (failed.empty())
     remove_file(run.failed_models());
@@ -268,29 +237,57 @@ bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
 std::vector<FailedModel> recorded_failures(const RunFolder& run,
                                            const std::vector<std::string>& models, const Case& c,
                                            const std::string& fit_text, const OutsideFit& outside) {
-  try {
-    auto failed = read_failed_models(run.failed_models());
-    const auto made_from = identity_of_trajectory(c, fit_text, outside);
-    std::erase_if(failed, [&](const FailedModel& model) {
-      return model.made_from != made_from || std::ranges::find(models, model.model) == models.end();
-    });
-    return failed;
-  } catch (const Error&) {  // a damaged record is none: the models are run again
-    return {};
-  }
+  auto failed = recorded_failures(run, identity_of_trajectory(c, fit_text, outside));
+  std::erase_if(failed, [&](const FailedModel& model) {
+    return std::ranges::find(models, model.model) == models.end();
+  });
+  return failed;
 }
 
-void simulate_stage(const Case& c, const fs::path& fit_path, const fs::path& folder,
-                    const std::vector<std::string>& models, const OutsideFit& outside,
-                    const Provenance& provenance) {
-  const RunFolder run{folder};
+namespace {
+
+/// The fit file of the case's exact drag as it is to stand in the run's folder: the one that is
+/// there, if it says the same.
+FitFile exact_fit_file(const Case& c, const RunFolder& run, const Provenance& provenance) {
+  const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
+  if (fs::is_regular_file(run.fit()))
+    if (auto there = read_file(run.fit()); without_provenance(there) == text)
+      return {run.fit(), std::move(there)};
+  return {run.fit(), output_text(run.fit(), TextKind::kJson, text, provenance)};
+}
+
+}  // namespace
+
+void simulate_stage(const Case& c, const SimulateRequest& request) {
+  const RunFolder run{request.folder};
+  (void)required_motion(c);
+  fs::path path = request.fit;
+  if (path.empty() && c.fit && c.fit->file) path = *c.fit->file;
+  const bool exact = path.empty() && c.fit && c.fit->exact;
+  const bool of_folder = path.empty() && !exact && fs::is_regular_file(run.fit());
+  if (of_folder) path = run.fit();
+  if (path.empty() && !exact)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("the case names no drag to run with (file or exact in its section "
+                            "[fit]) and there is no {}; give a fit with --fit",
+                            run.fit().string()));
+  std::vector<fs::path> inputs = {c.path};
+  inputs.insert(inputs.end(), c.force_files.begin(), c.force_files.end());
+  if (!exact) inputs.push_back(path);
+  auto provenance = provenance_of({inputs, {}});
+  // The command repeated for another folder finds no fit there.
+  if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
+  if (request.fit.empty())
+    say(fmt::format("simulate: the drag is {}",
+                    exact ? "the exact one near a plane" : "that of " + path.string()));
+  const FitFile fit = exact ? exact_fit_file(c, run, provenance) : FitFile{path, read_file(path)};
   check_case_copies(run, c);
-  check_fit_copy(run, read_file(fit_path));
+  check_fit_copy(run, fit.text);
   refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
   refuse_other_kind(run.failed_models(), "", "failed_models.json");
-  for (const auto& model : models_to_run(c, models))
+  for (const auto& model : models_to_run(c, request.models))
     refuse_other_kind(run.trajectory(model), "", "trajectory");
-  const auto simulated = simulate_case(c, fit_path, models, outside);
+  const auto simulated = simulate_case(c, fit, request.models, request.outside);
   write_simulated(run, c, simulated, provenance);
   if (!simulated.failed.empty())
     throw error_of(simulated.failed, simulated.trajectories.size(), c.path);

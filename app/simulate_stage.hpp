@@ -20,6 +20,12 @@ struct OutsideFit {
   AboveInterval above = AboveInterval::kError;
 };
 
+/// A fit file: its name for messages, and its text.
+struct FitFile {
+  std::filesystem::path path;
+  std::string text;
+};
+
 /// The models of a run: those asked for, else those that the case names, else all that run by default.
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
 
@@ -36,7 +42,7 @@ struct Simulated {
 /// not converge) does not stop the others. Throws Error(kBadInput) that names the case or the fit if
 /// the fit is of another viscosity or radius than the case, or if a parameter of a model is wrong;
 /// and the first model's Error if no model can be computed.
-Simulated simulate_case(const Case& c, const std::filesystem::path& fit_path,
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside);
 
 /// Writes the trajectories, the models that failed, what the fit's errors do, and copies of case and
@@ -54,11 +60,18 @@ std::vector<FailedModel> recorded_failures(const RunFolder& run,
                                            const std::vector<std::string>& models, const Case& c,
                                            const std::string& fit_text, const OutsideFit& outside);
 
-/// Runs models (names; none: those that the case names, or all) with a fit file into the run
-/// folder's trajectories; copies case and fit beside them. Throws as simulate_case, having written
-/// nothing; and error_of() the models that failed, having written what the others computed.
-void simulate_stage(const Case& c, const std::filesystem::path& fit_path,
-                    const std::filesystem::path& folder, const std::vector<std::string>& models,
-                    const OutsideFit& outside, const Provenance& provenance);
+/// What a simulation is run with, apart from the case.
+struct SimulateRequest {
+  std::string
+      fit;  ///< fit file; empty: that of the case, the exact drag of the case, or DIR/fit.json
+  std::filesystem::path folder;     ///< DIR, a run's folder
+  std::vector<std::string> models;  ///< names; none: those that the case names, or all
+  OutsideFit outside;
+};
+
+/// Runs models into the run folder's trajectories; copies case and fit beside them. Throws as
+/// simulate_case, or Error(kWrongUsage) if there is no fit at all, having written nothing; and
+/// error_of() the models that failed, having written what the others computed.
+void simulate_stage(const Case& c, const SimulateRequest& request);
 
 }  // namespace viscontact

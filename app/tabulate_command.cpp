@@ -74,8 +74,7 @@ void add_tabulate(CLI::App& app) {
   command->callback([o, jobs, tasks, slurm_options, plot] {
     const bool slurm = o->launcher == "slurm";
     if (!slurm && (tasks->count() > 0 || slurm_options->count() > 0))
-      throw Error(ExitCode::kWrongUsage,
-                  "--tasks and --slurm-options are for --launcher slurm only");
+      throw Error(ExitCode::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
     check_outputs({o->output});
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);

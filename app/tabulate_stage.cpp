@@ -154,8 +154,8 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
     const auto [other, is_new] = case_of.insert({names.back(), file});
     if (!is_new)
       throw Error(ExitCode::kWrongUsage,
-                  fmt::format("{} and {} would both be tabulated to {}; rename one", other->second,
-                              file, names.back().string()));
+                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
+                              other->second, file, names.back().string()));
   }
   std::vector<CaseTable> tables;
   for (std::size_t i = 0; i < case_files.size(); ++i) {
@@ -174,7 +174,7 @@ Share parse_share(const std::string& text) {
     if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
   }
   throw Error(ExitCode::kWrongUsage,
-              fmt::format("--task is '{}'; must be K/T with 0 <= K < T", text));
+              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
 }
 
 std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,

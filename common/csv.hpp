@@ -106,15 +106,16 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
     }
   } catch (const io::error::duplicated_column_in_header& e) {
     throw_bad_input({file},
-                    std::string("column '") + e.column_name + "' is twice in the header line");
+                    std::string("column '") + e.column_name + "' stands twice in the header line");
   } catch (const io::error::header_missing&) {
-    throw_bad_input({file}, "has no header line; expected columns such as '" + names[0] + "'");
+    throw_bad_input({file},
+                    "has no header line; it must name the columns, such as '" + names[0] + "'");
   } catch (const io::error::too_few_columns& e) {
     throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
   } catch (const io::error::too_many_columns& e) {
     throw_bad_input({file, e.file_line}, "has more fields than the header line");
   } catch (const io::error::line_length_limit_exceeded& e) {
-    throw_bad_input({file, e.file_line}, "is too long for a line of a CSV file");
+    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
   } catch (const io::error::base& e) {
     throw_bad_input({file}, e.what());
   }
@@ -133,7 +134,8 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
 template <std::size_t columns>
 double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names,
                       std::size_t i, const std::string& file) {
-  if (!row.fields[i]) throw_bad_input({file, row.line}, names[i] + " is empty; must be a number");
+  if (!row.fields[i])
+    throw_bad_input({file, row.line}, names[i] + " is empty; it must be a number");
   return *row.fields[i];
 }
 

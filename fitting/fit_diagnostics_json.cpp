@@ -92,7 +92,9 @@ FitDiagnostics read_diagnostics(const JsonObject& json) {
   d.information_criterion = json.number_or_null("information_criterion");
   d.outliers = read_outliers(json);
   for (const Json& warning : json.array("warnings")) {
-    if (!warning.is_string()) json.fail("warnings", "must be texts");
+    if (!warning.is_string())
+      json.fail("warnings",
+                fmt::format("contains {}; it must be a list of texts in quotes", shown(warning)));
     d.warnings.push_back(warning.get<std::string>());
   }
   return d;

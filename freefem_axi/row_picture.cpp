@@ -46,7 +46,8 @@ class PictureReader {
 
  private:
   [[noreturn]] static void fail() {
-    throw Error(ExitCode::kExternalProgram, "what FreeFEM wrote for a picture is not whole");
+    throw Error(ExitCode::kExternalProgram,
+                "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {
     constexpr std::size_t kLargest = 100'000'000;

@@ -31,9 +31,9 @@ double allowed(const Row& row, const Names& names, std::size_t column, bool posi
   constexpr double kLargest = 1e100;  // squares and cubes of it, and of its inverse, are numbers
   if (positive && !(value >= 1 / kLargest))
     throw_bad_input({file, row.line},
-                    fmt::format("{} is {}; must be > 0, at least 1e-100", names[column], value));
+                    fmt::format("{} is {}; it must be > 0, at least 1e-100", names[column], value));
   if (!(std::abs(value) <= kLargest))
-    throw_bad_input({file, row.line}, fmt::format("{} is {}; must be at most {} in magnitude",
+    throw_bad_input({file, row.line}, fmt::format("{} is {}; it must be at most {} in magnitude",
                                                   names[column], value, kLargest));
   return value;
 }
@@ -52,11 +52,15 @@ void check_header(const std::filesystem::path& path, bool discs) {
     name = first == std::string::npos ? "" : name.substr(first, last - first + 1);
     if (std::ranges::find(kDiscs, name) == kDiscs.end())
       throw_bad_input({path.string()}, "has a column '" + shortened(name) +
-                                           "'; columns are id, x, y, z, vx, vy, vz, radius, mass");
+                                           "', which is not known; the known columns are id, x, y, "
+                                           "z, vx, vy, vz, radius, mass");
     if (name.starts_with('v')) ++velocities;
   }
   if (velocities != 0 && velocities != (discs ? 2U : 3U) && !(discs && velocities == 3))
-    throw_bad_input({path.string()}, "has some columns of velocities, not all");
+    throw_bad_input(
+        {path.string()},
+        "has some of the columns vx, vy, vz of the velocity, not all; it must have all of "
+        "them or none");
 }
 
 /// The ids of the rows; empty if the file has no column `id`, nothing in it, or 0, 1, ... as it is
@@ -102,8 +106,9 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension) {
   p.dimension = dimension;
   for (const auto& row : csv.rows) {
     if (discs && (row.fields[6] || row.fields[7]))
-      throw_bad_input({file, row.line},
-                      "has a third dimension (columns z, vz); space.dimension is 2");
+      throw_bad_input(
+          {file, row.line},
+          "has a value in a column of the third dimension (z or vz); space.dimension is 2");
     for (std::size_t i = 0; i < d; ++i) p.positions.push_back(allowed(row, names, i, false, file));
     p.radii.push_back(allowed(row, names, d, true, file));
     p.masses.push_back(allowed(row, names, d + 1, true, file));

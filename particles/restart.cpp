@@ -86,7 +86,7 @@ class Reader {
   }
   bool at_end() const { return bytes_.empty(); }
   [[noreturn]] void throw_short() const {
-    throw_bad_input({file_}, "is not a whole restart file; was it cut short?");
+    throw_bad_input({file_}, "is not a whole restart file; it seems to be cut short");
   }
 
  private:
@@ -105,7 +105,7 @@ class Reader {
 std::string_view line_of(std::string_view& rest, std::string_view begin, const std::string& file) {
   const auto end = rest.find('\n');
   if (!rest.starts_with(begin) || end == std::string_view::npos)
-    throw_bad_input({file}, "is no restart file of viscontact particles (restart.bin)");
+    throw_bad_input({file}, "is not a restart file of viscontact particles (restart.bin)");
   const auto value = rest.substr(begin.size(), end - begin.size());
   rest.remove_prefix(end + 1);
   return value;
@@ -129,8 +129,8 @@ State read_restart(const std::filesystem::path& path) {
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
   const bool version_1 = rest.starts_with(kVersion1);
   if (const auto order = line_of(rest, version_1 ? kVersion1 : kWhat, file); order != kOrder)
-    throw_bad_input({file}, "was written by a machine with another order of bytes (" +
-                                std::string(order.substr(0, 20)) + "; must be " +
+    throw_bad_input({file}, "was written by a machine with another byte order (" +
+                                std::string(order.substr(0, 20)) + "; it must be " +
                                 std::string(kOrder) + ")");
   const auto hash = line_of(rest, kHash, file);
   Reader reader(rest, file, version_1);

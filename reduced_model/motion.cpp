@@ -22,8 +22,8 @@ int step_count(double end, double step) {
   if (!(steps <= kMostSteps))
     throw Error(
         ExitCode::kBadInput,
-        fmt::format("time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed", step,
-                    steps, end, kMostSteps));
+        fmt::format("the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed",
+                    step, steps, end, kMostSteps));
   return std::max(1, static_cast<int>(steps));
 }
 

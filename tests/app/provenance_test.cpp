@@ -323,7 +323,8 @@ TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
         R"(["viscontact"])",
         R"(["viscontact","tabulate","case.toml","-o","t.csv","--launcher","slurm"])",
         R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
-    expect_refusal(forged(command), ExitCode::kBadInput, HasSubstr("makes no file"));
+    expect_refusal(forged(command), ExitCode::kBadInput,
+                   HasSubstr("holds a command that 'rerun' does not run"));
 }
 
 TEST_F(Rerun, FindsItInAJsonFileThatWasWrittenOutAgain) {

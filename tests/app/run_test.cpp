@@ -243,7 +243,7 @@ TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) 
   };
   const auto text = gentle_case_text();
   refused(replaced(text, "count = 6", "count = 4"),
-          "tabulation.gaps are 4; basis lecture needs at least 5");
+          "tabulation.gaps has 4 gap(s); the basis lecture needs at least 5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 2.0"),
           "motion.initial_gap is 2, above the largest gap of tabulation.gaps, 1.5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),

@@ -108,7 +108,8 @@ TEST_F(Csv, RefusesAMissingColumn) {
   EXPECT_EQ(refusal("time,gamma\n1,2\n"),
             ": column 'gap' is missing from the header line, 'time,gamma'");
   EXPECT_EQ(refusal("\"time\",\"gap\"\n1,2\n"),
-            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; names must stand "
+            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; the names of "
+            "columns must stand "
             "without quotes");
 }
 
@@ -125,7 +126,7 @@ TEST_F(Csv, KnowsTheCommentsThatContradictEachOther) {
 }
 
 TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
-  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' is twice in the header line");
+  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' stands twice in the header line");
 }
 
 TEST_F(Csv, RefusesAnEmptyFile) {
@@ -144,7 +145,7 @@ TEST_F(Csv, RefusesALongRow) {
 TEST_F(Csv, RefusesALineBeyondAllReason) {
   const std::size_t limit = std::size_t{1} << 24;  // of the library
   EXPECT_THAT(refusal("time,gap\n1," + std::string(limit, '1') + "\n").substr(0, 100),
-              HasSubstr("is too long for a line of a CSV file"));
+              HasSubstr("this line is too long for a CSV file"));
 }
 
 TEST_F(Csv, CutsALongFieldInItsMessage) {
@@ -188,7 +189,7 @@ TEST_F(Csv, RefusesABinaryFile) {
 TEST_F(Csv, NamesTheEmptyFieldThatMustBeThere) {
   const auto csv = read("time,gap\n1,\n");
   EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }),
-            "f.csv:2: gap is empty; must be a number");
+            "f.csv:2: gap is empty; it must be a number");
   EXPECT_EQ(required_field(csv.rows[0], kNames, 0, "f.csv"), 1.0);
 }
 
@@ -196,7 +197,7 @@ TEST(CsvComment, IsReadAsANumberOrNamedInTheError) {
   const CsvComments comments = {{"viscosity", "3.5"}, {"radius", "wide"}};
   EXPECT_EQ(csv_comment_number(comments, "viscosity", "f.csv"), 3.5);
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "radius", "f.csv"); }),
-            "f.csv: # radius: is not a finite number ('wide')");
+            "f.csv: the line '# radius: wide' must give a finite number");
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }),
             "f.csv: the line '# mass: NUMBER' is missing");
 }

@@ -195,7 +195,7 @@ TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
   const Sweep sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=1,-1,2"}));
   const auto row = fields_of(sweep.plan(), sweep.row(1));
   EXPECT_EQ(row.at("fluid.viscosity"), "-1");
-  EXPECT_THAT(row.at("failure"), HasSubstr("fluid.viscosity is -1; must be a number > 0"));
+  EXPECT_THAT(row.at("failure"), HasSubstr("fluid.viscosity is -1; it must be a number > 0"));
   for (const auto& [name, value] : row) {
     if (name != "fluid.viscosity" && name != "failure") {
       EXPECT_EQ(value, "") << name;
@@ -245,8 +245,8 @@ TEST(SweepPlanCheck, RadiusIsThatOfTheFitUnlessTheDragIsExact) {
   EXPECT_THAT(bad_input([] {
                 Sweep(varied(shipped("vanishing_viscosity.toml"), {"sphere.radius=0.3:0.4:3"}));
               }),
-              AllOf(HasSubstr("sphere.radius is 0.3"), HasSubstr("the fit's 0.23032943298089034"),
-                    HasSubstr("exact drag")));
+              AllOf(HasSubstr("sphere.radius is 0.3"),
+                    HasSubstr("the fit's radius is 0.23032943298089034"), HasSubstr("exact drag")));
   EXPECT_THAT(bad_input([] {
                 Sweep(varied(shipped("vanishing_viscosity.toml"),
                              {"sphere.radius=0.23032943298089034,0.4"}));
@@ -275,11 +275,12 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
     return failure(ExitCode::kWrongUsage, [&] { Sweep sweep(p); });
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
-              HasSubstr("the key sphere.mass is there twice"));
+              HasSubstr("the key sphere.mass is given twice"));
   EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
-              HasSubstr("the model inertial is there twice"));
-  EXPECT_THAT(wrong(with_models(plan, {"inertial"}, "viscous_contact")),
-              AllOf(HasSubstr("'viscous_contact' is none of the models"), HasSubstr("inertial")));
+              HasSubstr("the model inertial is given twice"));
+  EXPECT_THAT(
+      wrong(with_models(plan, {"inertial"}, "viscous_contact")),
+      AllOf(HasSubstr("'viscous_contact' is not one of the models"), HasSubstr("inertial")));
   EXPECT_THAT(bad_input([&] { Sweep sweep(with_models(plan, {"inertia"}, "inertia")); }),
               HasSubstr("inertia"));
 }
