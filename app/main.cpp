@@ -126,7 +126,7 @@ void add_simulate(CLI::App& app) {
 
 void add_compare(CLI::App& app) {
   struct Options {
-    std::string folder, reference = "inertial", output;
+    std::string folder, reference, output;
     std::vector<std::string> others;
     bool json = false;
   };
@@ -142,7 +142,7 @@ void add_compare(CLI::App& app) {
       ->type_name(kFile);
   command->add_option("--reference", o->reference, "model that the others are compared with")
       ->type_name(kModel)
-      ->capture_default_str();
+      ->default_str("inertial");
   command
       ->add_option("-o,--output", o->output,
                    "comparison to write (JSON); default: DIR/comparison.json")

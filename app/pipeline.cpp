@@ -6,6 +6,7 @@
 
 #include "app/command_options.hpp"
 #include "app/comparison_table.hpp"
+#include "app/failed_models.hpp"
 #include "app/fit_summary.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
@@ -182,11 +183,17 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   auto files = trajectory_files(folder);
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
-  const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
+  auto inputs = files;
+  if (const auto failed = RunFolder{folder}.failed_models(); fs::is_regular_file(failed))
+    inputs.push_back(failed);
+  const auto provenance = provenance_of(given.empty() ? Inputs{inputs, {}} : Inputs{given, inputs});
   std::vector<Trajectory> trajectories;
   for (const auto& file : files) trajectories.push_back(read_trajectory(file));
   warn_of_different_inputs(trajectories);
-  const auto comparison = compare_trajectories(trajectories, reference_model);
+  const auto failed = failures_without(trajectories, RunFolder{folder});
+  auto comparison =
+      compare_trajectories(trajectories, reference_among(trajectories, failed, reference_model));
+  comparison.failed_models = failed;
   write_output(comparison_path, TextKind::kJson, write_comparison(comparison), provenance);
   fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
 }
@@ -217,6 +224,7 @@ void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
   if (writes_fit && !is_copy) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
   refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  refuse_other_kind(run.failed_models(), "", "failed_models.json");
   check_report_files(run.path);
   for (const auto& file : files_of_models(run.trajectories()))
     refuse_other_kind(file, "", "trajectory");
@@ -241,6 +249,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
     check_run(c, models_to_run(c));
+    warn_of_gaps_outside(c, models_to_run(c));
     refuse_other_kind(run.table(), "# case: ", "table");
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
@@ -250,21 +259,24 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
 
   const auto models = models_to_run(c);
   const OutsideFit outside{request.below, request.above};
-  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
-  const std::string reference = has_inertial ? "inertial" : models.front();
   const std::string fit_text = read_file(fit);
+  auto failed = recorded_failures(run, models, c, fit_text, outside);
   const bool simulated = std::ranges::all_of(models, [&](const std::string& model) {
-    return is_simulated(run, model, c, fit_text, outside);
+    return std::ranges::find(failed, model, &FailedModel::model) != failed.end() ||
+           is_simulated(run, model, c, fit_text, outside);
   });
   if (simulated && fs::exists(run.case_file()) && !uncertainty_is_lost(run)) {
     say("simulate: trajectories are up to date");
-    if (up_to_date(
-            run.comparison(),
-            [&] { return read_comparison(run.comparison()).reference_model == reference; }) &&
+    if (up_to_date(run.comparison(),
+                   [&] {
+                     return read_comparison(run.comparison()).reference_model ==
+                            reference_without(models, failed);
+                   }) &&
         report_is_current(folder)) {
       say("compare, report: up to date");
       const auto comparison = read_comparison(run.comparison());
       fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
+      if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
       return;
     }
   } else {
@@ -276,11 +288,14 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
     for (const auto& file : files_of_models(run.trajectories())) remove_file(file);
     write_simulated(run, c, results,
                     provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
+    failed = results.failed;
   }
   throw_if_interrupted();
-  compare_stage(folder, {}, reference, run.comparison(), given, json);
+  compare_stage(folder, {}, reference_without(models, failed), run.comparison(), given, json);
   throw_if_interrupted();
   write_report(folder, given);
+  // Last, so that the results of the other models are whole.
+  if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
 }
 
 }  // namespace viscontact

@@ -105,6 +105,9 @@ std::string models_table(const RunResults& run) {
                                : "&ndash;",
         fmt::format("{:.3g}", model.sup_gap_distance), fmt::format("{:.3g}", model.l1_gap_distance),
         fmt::format("{:.3g}", model.l1_velocity_distance));
+  for (const auto& failed : run.comparison.failed_models)
+    rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n",
+                        escaped(failed.model), escaped(failed.reason));
   return fmt::format(
       "<div class=scroll><table><thead><tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th>"
       "<th rowspan=2>at time</th><th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"

@@ -57,6 +57,13 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
   }
 }
 
+void add_failed_models(Warnings& warnings, const RunResults& run) {
+  for (const auto& failed : run.comparison.failed_models)
+    warnings.push_back(
+        {fmt::format("{} failed and has no trajectory: {}", failed.model, failed.reason),
+         "failed_models.json"});
+}
+
 /// A residual is compared with the error estimate of its own row: that of another row may be much
 /// larger. A fit file of an earlier version does not have this comparison.
 void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
@@ -179,6 +186,7 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
 
 std::vector<ReportWarning> warnings_of(const RunResults& run) {
   Warnings warnings;
+  add_failed_models(warnings, run);
   add_extrapolation(warnings, run);
   add_poor_fit(warnings, run.fit);
   add_unmet_accuracy(warnings, run);

@@ -349,6 +349,8 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
 
   read_numerical_settings(root, radius, motion);
 
+  if (section.has("rows")) motion.output_rows = section.count("rows", 2, 100'000'000);
+
   if (section.has("time_scale")) {
     const double scale = section.number("time_scale", kPositive);
     motion.external_force = motion.external_force.stretched(scale);

@@ -193,14 +193,13 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                 fmt::format("the film would have to absorb an impulse of {}; it must be finite",
                             impulse_wanted));
   const auto [smallest, largest] = fitted_interval_;
-  const double low = std::log(smallest);
-  const double high = std::log(largest);
+  const double low = std::log(smallest / radius_);
+  const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
     // lambda > 1/eps and > 1, so Gamma/k is below ln eps on this side of eps = 1, and above ln eps and eps - 1 on that side.
     const double scaled = impulse_wanted / leading_;
-    const double at_radius = std::log(radius_);
-    if (scaled < 0) return {at_radius + std::max(scaled, low - at_radius), at_radius};
-    return {at_radius, at_radius + std::min(scaled, std::log1p(scaled))};
+    if (scaled < 0) return {std::max(scaled, low), 0.0};
+    return {0.0, std::min(scaled, std::log1p(scaled))};
   }
   if (impulse_wanted < impulse(smallest)) {
     if (exact_)
@@ -219,7 +218,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
     const double by_constant = constant * smallest / k;
     const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
-    const double thinnest = std::log(std::numeric_limits<double>::min());
+    const double thinnest = std::log(std::numeric_limits<double>::min()) - std::log(radius_);
     if (!(above >= thinnest))
       throw Error(ExitCode::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
@@ -235,18 +234,19 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                             smallest, largest));
   // R lies between its values at q2 and at infinity.
   const double stokes = stokes_resistance(viscosity_, radius_);
-  return {high, std::log(largest + beyond / std::min(stokes, resistance(largest)))};
+  return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a
-  // bracket that shrinks.
+  // Gamma is close to a linear function of s = ln(q/r) near contact, so Newton's method is applied
+  // in s, inside a bracket that shrinks. The radius r makes s, and with it the rounding of q,
+  // independent of the unit of length.
   auto [low, high] = bracket_of_impulse(impulse_wanted);
   double s = high - (high - low) / 2;
   constexpr int kMaxSteps = 200;  // bisection alone needs about 60
   // ln and exp of an end of the interval may come back a rounding outside it.
   const auto gap_at = [this](double log_gap) {
-    return std::clamp(std::exp(log_gap), interval()[0], interval()[1]);
+    return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
   };
   for (int step = 0; step < kMaxSteps; ++step) {
     const double gap = gap_at(s);

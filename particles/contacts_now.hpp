@@ -10,11 +10,11 @@
 namespace viscontact::particles {
 
 struct ContactNow {
-  std::int32_t first;   ///< particle, or -1 - k: plane k
-  std::int32_t second;  ///< particle
-  double gap;           ///< [L]
-  double gamma;         ///< [M L/T]
-  double gamma_error;   ///< Film::gamma_error [M L/T]
+  std::int32_t first;      ///< particle, or -1 - k: plane k
+  std::int32_t second;     ///< particle
+  double gap;              ///< [L]
+  double gamma;            ///< [M L/T]
+  double gamma_error = 0;  ///< Film::gamma_error [M L/T]
 };
 
 /// The names of both partners in files: a particle's id, then that of the other particle or

@@ -150,6 +150,9 @@ std::string write_comparison(const Comparison& comparison) {
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
   }
+  json["failed_models"] = Json::object();
+  for (const auto& failed : comparison.failed_models)
+    json["failed_models"][failed.model] = failed.reason;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -180,6 +183,9 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.seconds = entry.at("seconds").get<double>();
       comparison.models.push_back(model);
     }
+    if (json.contains("failed_models"))  // not in the files of Viscontact 0.1.0
+      for (const auto& [name, reason] : json.at("failed_models").items())
+        comparison.failed_models.push_back({name, reason.get<std::string>()});
     return comparison;
   } catch (const Json::exception& error) {
     throw_bad_input(

@@ -33,6 +33,7 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   model.film_thickness = [&force, impulse_at_contact](double gamma) {
     return force.gap_of_impulse(impulse_at_contact + gamma);
   };
+  model.film_law = "Gamma^-1(Gamma(threshold_gap) + gamma)";
   return model;
 }
 

