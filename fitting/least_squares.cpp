@@ -83,6 +83,11 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   if (!matrix.allFinite() || !right_hand_side.allFinite())
     throw Error(ExitCode::kBadInput,
                 "a gap or a force is too small or too large: a term of the fit overflows");
+  // Ceres starts at x = 0, where the cost is |b|^2 / 2. Ceres 2.2 fails if this is infinite, 2.1 goes
+  // on to coefficients that are not finite.
+  if (!std::isfinite(right_hand_side.squaredNorm()))
+    throw Error(ExitCode::kBadInput,
+                "the forces are too large or too different to be fitted in double precision");
   const Eigen::VectorXd scale = binary_scale(matrix);
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
 

@@ -14,7 +14,8 @@ struct LeastSquaresSolution {
 };
 
 /// The x that minimises |A x - b|_2; A is rows x columns, rows >= columns, every entry finite.
-/// Throws Error(kNotConverged) when the columns are linearly dependent to working precision, or
+/// Throws Error(kBadInput) when an entry is not finite or |b|^2 overflows, and
+/// Error(kNotConverged) when the columns are linearly dependent to working precision, or
 /// Ceres fails.
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side);

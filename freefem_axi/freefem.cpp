@@ -11,8 +11,8 @@
 namespace viscontact {
 namespace {
 
-// Debian's FreeFEM looks for its own files in folders that its package does not have (a trap
-// of 4.11): it is told.
+// FreeFEM of Debian 12 (4.11) and 13 (4.15) looks for its own files in folders that do not exist
+// (/etc/freefem++.pref names them), so Viscontact names the folders in which Debian installs them.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 

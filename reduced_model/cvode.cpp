@@ -3,11 +3,15 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <new>
+#include <sundials/sundials_context.hpp>
 #include <vector>
 
 #include "common/error.hpp"
@@ -19,62 +23,105 @@ std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(N_VGetLength(vector))};
 }
 
+/// Keeps SUNDIALS from printing its errors, because check() throws each of them as an Error.
+/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, SUNDIALS 7 (Debian 13) a list of
+/// error handlers in the context instead. Returns a code of SUNDIALS, < 0 if it fails.
+int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  return SUNContext_ClearErrHandlers(context);
+#else
+  return CVodeSetErrFile(memory, nullptr);
+#endif
+}
+
 constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back with a smaller step
+
+struct Deleters {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+};
+template <class T>
+using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
 
 }  // namespace
 
+/// The objects of SUNDIALS in the order in which they need each other, and the functions that CVODE
+/// calls. The argument `self` of these functions is the Cvode.
+struct Cvode::Sundials {
+  explicit Sundials(int dimension)
+      : state(N_VNew_Serial(dimension, context)),
+        interpolated(N_VClone(state.get())),
+        matrix(SUNDenseMatrix(dimension, dimension, context)),
+        solver(SUNLinSol_Dense(state.get(), matrix.get(), context)),
+        memory(CVodeCreate(CV_BDF, context)) {}
+  Sundials(const Sundials&) = delete;
+  Sundials& operator=(const Sundials&) = delete;
+  ~Sundials() { CVodeFree(&memory); }
+
+  static int derivative(double time, N_Vector y, N_Vector derivative, void* self);
+  static int jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self, N_Vector,
+                      N_Vector, N_Vector);
+  static int weights(N_Vector y, N_Vector weights, void* self);
+
+  sundials::Context context;
+  Owned<N_Vector> state;
+  Owned<N_Vector> interpolated;
+  Owned<SUNMatrix> matrix;
+  Owned<SUNLinearSolver> solver;
+  void* memory = nullptr;
+};
+
 Cvode::Cvode(StiffSystem system, std::span<const double> state)
-    : system_(std::move(system)),
-      state_(N_VNew_Serial(system_.dimension, context_)),
-      interpolated_(N_VClone(state_.get())),
-      matrix_(SUNDenseMatrix(system_.dimension, system_.dimension, context_)),
-      solver_(SUNLinSol_Dense(state_.get(), matrix_.get(), context_)),
-      memory_(CVodeCreate(CV_BDF, context_)) {
-  if (!state_ || !interpolated_ || !matrix_ || !solver_ || memory_ == nullptr)
+    : system_(std::move(system)), sundials_(std::make_unique<Sundials>(system_.dimension)) {
+  const Sundials& s = *sundials_;
+  if (!s.state || !s.interpolated || !s.matrix || !s.solver || s.memory == nullptr)
     throw std::bad_alloc();
-  std::ranges::copy(state, values(state_.get()).begin());
-  check(CVodeInit(memory_, evaluate_derivative, 0, state_.get()), "CVodeInit");
-  check(CVodeWFtolerances(memory_, evaluate_weights), "CVodeWFtolerances");
-  check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
-  check(CVodeSetErrFile(memory_, nullptr),
-        "CVodeSetErrFile");  // failures come as Error, not as text on stderr
-  check(CVodeSetLinearSolver(memory_, solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
-  check(CVodeSetJacFn(memory_, evaluate_jacobian), "CVodeSetJacFn");
+  set_state(state);
+  check(CVodeInit(s.memory, Sundials::derivative, 0, s.state.get()), "CVodeInit");
+  check(CVodeWFtolerances(s.memory, Sundials::weights), "CVodeWFtolerances");
+  check(CVodeSetUserData(s.memory, this), "CVodeSetUserData");
+  check(print_no_errors(s.context, s.memory), "print_no_errors");
+  // A negative number: CVODE never warns of steps below the rounding of the time. SUNDIALS 7 would
+  // print these warnings on standard output.
+  check(CVodeSetMaxHnilWarns(s.memory, -1), "CVodeSetMaxHnilWarns");
+  check(CVodeSetLinearSolver(s.memory, s.solver.get(), s.matrix.get()), "CVodeSetLinearSolver");
+  check(CVodeSetJacFn(s.memory, Sundials::jacobian), "CVodeSetJacFn");
   // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades
   // within a few steps (a film that opens), a Jacobian from before makes Newton's corrections
   // vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
-  check(CVodeSetLSetupFrequency(memory_, 1), "CVodeSetLSetupFrequency");
-  check(CVodeSetJacEvalFrequency(memory_, 1), "CVodeSetJacEvalFrequency");
+  check(CVodeSetLSetupFrequency(s.memory, 1), "CVodeSetLSetupFrequency");
+  check(CVodeSetJacEvalFrequency(s.memory, 1), "CVodeSetJacEvalFrequency");
 }
 
-Cvode::~Cvode() { CVodeFree(&memory_); }
+Cvode::~Cvode() = default;
 
-std::span<const double> Cvode::state() const { return values(state_.get()); }
+std::span<const double> Cvode::state() const { return values(sundials_->state.get()); }
 
 void Cvode::set_state(std::span<const double> state) {
-  std::ranges::copy(state, values(state_.get()).begin());
+  std::ranges::copy(state, values(sundials_->state.get()).begin());
 }
 
 long Cvode::steps() const {
   long steps = 0;
-  check(CVodeGetNumSteps(memory_, &steps), "CVodeGetNumSteps");
+  check(CVodeGetNumSteps(sundials_->memory, &steps), "CVodeGetNumSteps");
   return steps_before_restart_ + steps;
 }
 
 void Cvode::restart(double time, double stop_time, double first_step) {
   steps_before_restart_ = steps();
   time_ = time;
-  check(CVodeReInit(memory_, time, state_.get()), "CVodeReInit");
+  check(CVodeReInit(sundials_->memory, time, sundials_->state.get()), "CVodeReInit");
   // A stop time outlives CVodeReInit, so a new one is set each time.
-  check(CVodeSetStopTime(memory_, stop_time), "CVodeSetStopTime");
-  check(CVodeSetInitStep(memory_, first_step), "CVodeSetInitStep");
+  check(CVodeSetStopTime(sundials_->memory, stop_time), "CVodeSetStopTime");
+  check(CVodeSetInitStep(sundials_->memory, first_step), "CVodeSetInitStep");
   stop_time_ = stop_time;
   steps_since_restart_ = 0;
 }
 
 void Cvode::step() {
   const double before = time_;
-  int code = CVode(memory_, stop_time_, state_.get(), &time_, CV_ONE_STEP);
+  int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
   // A solution that runs away makes it creep for ever.
   constexpr long kMostSteps = 1'000'000;
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
@@ -83,26 +130,26 @@ void Cvode::step() {
     // Whatever CVODE gave up at in the end: it made no way beyond the time at which the system was asked where it is not defined.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
-    check(CVodeGetCurrentTime(memory_, &reached), "CVodeGetCurrentTime");
+    check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");
     if (reached <= system_error_time_ * (1 + kNoWay)) std::rethrow_exception(system_error_);
   }
   check(code, "CVode");
 }
 
 double Cvode::at(double time, std::size_t i) const {
-  check(CVodeGetDky(memory_, time, 0, interpolated_.get()), "CVodeGetDky");
-  return values(interpolated_.get())[i];
+  check(CVodeGetDky(sundials_->memory, time, 0, sundials_->interpolated.get()), "CVodeGetDky");
+  return values(sundials_->interpolated.get())[i];
 }
 
 std::vector<double> Cvode::expansion(std::size_t i) const {
   int order = 0;
-  check(CVodeGetLastOrder(memory_, &order), "CVodeGetLastOrder");
+  check(CVodeGetLastOrder(sundials_->memory, &order), "CVodeGetLastOrder");
   std::vector<double> coefficients;
   double factorial = 1;
   for (int k = 0; k <= order; ++k) {
     factorial *= std::max(1, k);
-    check(CVodeGetDky(memory_, time_, k, interpolated_.get()), "CVodeGetDky");
-    coefficients.push_back(values(interpolated_.get())[i] / factorial);
+    check(CVodeGetDky(sundials_->memory, time_, k, sundials_->interpolated.get()), "CVodeGetDky");
+    coefficients.push_back(values(sundials_->interpolated.get())[i] / factorial);
   }
   return coefficients;
 }
@@ -122,7 +169,7 @@ int Cvode::keep_error(double time) {
   return kTryAgain;
 }
 
-int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, void* self) {
+int Cvode::Sundials::derivative(double time, N_Vector y, N_Vector derivative, void* self) {
   auto& cvode = *static_cast<Cvode*>(self);
   try {
     cvode.system_.derivative(time, values(y), values(derivative));
@@ -132,7 +179,7 @@ int Cvode::evaluate_derivative(double time, N_Vector y, N_Vector derivative, voi
   return 0;
 }
 
-int Cvode::evaluate_weights(N_Vector y, N_Vector weights, void* self) {
+int Cvode::Sundials::weights(N_Vector y, N_Vector weights, void* self) {
   auto& cvode = *static_cast<Cvode*>(self);
   const auto weight = values(weights);
   try {
@@ -144,8 +191,8 @@ int Cvode::evaluate_weights(N_Vector y, N_Vector weights, void* self) {
   return 0;
 }
 
-int Cvode::evaluate_jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
-                             N_Vector, N_Vector, N_Vector) {
+int Cvode::Sundials::jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacobian, void* self,
+                              N_Vector, N_Vector, N_Vector) {
   auto& cvode = *static_cast<Cvode*>(self);
   const auto size = static_cast<std::size_t>(cvode.system_.dimension) *
                     static_cast<std::size_t>(cvode.system_.dimension);
