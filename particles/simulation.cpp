@@ -54,7 +54,8 @@ void find_walls(State& state, std::span<const PlanePlace> planes, double margin,
   state.walls = std::move(walls.values);
 }
 
-/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. Returns how many films hold.
+/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within its error
+/// is spent. Returns how many films hold.
 std::size_t remember(const Particles& p, const Projected& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
@@ -63,11 +64,13 @@ std::size_t remember(const Particles& p, const Projected& projected, const Conta
   for (std::size_t f = 0; f < projected.films.size(); ++f) {
     auto& film = *projected.films[f];
     const double gamma = film.gamma - film.impulse;
-    const double bound = gamma < 0 ? law.lower_bound(radius(film.second), radius(film.first)) : 0;
-    film.gamma = gamma < 0 ? std::max(gamma, bound) : 0.0;
-    film.gamma_error = film.gamma == bound || film.gamma == 0
-                           ? 0
-                           : film.gamma_error + projected.film_errors[f];
+    const double error = film.gamma_error + projected.film_errors[f] +
+                         std::numeric_limits<double>::epsilon() *
+                             (std::abs(film.gamma) + std::abs(film.impulse));
+    const bool spent = gamma >= -error;
+    const double bound = spent ? 0 : law.lower_bound(radius(film.second), radius(film.first));
+    film.gamma = spent ? 0.0 : std::max(gamma, bound);
+    film.gamma_error = spent || film.gamma == bound ? 0 : error;
     if (film.gamma < 0) ++glued;
   }
   return glued;
