@@ -7,23 +7,13 @@
 #include <thread>
 
 #include "common/error.hpp"
-#include "common/file.hpp"
+#include "reduced_model/models.hpp"
 
 namespace viscontact {
-
-void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind) {
-  if (!std::filesystem::is_regular_file(path))
-    return;  // nothing there, or write_file's own refusals
-  const std::string text = read_file(path);
-  if (!text.empty() && text.find(marker) == std::string::npos)
-    throw_bad_input(
-        {path}, fmt::format("is there and is no {}; remove it first, or write elsewhere", kind));
-}
-
 namespace {
 
 /// Where a file of that name is or would be, a link that leads nowhere yet included.
-std::filesystem::path place_of(std::filesystem::path path) {
+std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
   constexpr int kMostLinks = 40;  // as the kernel
   path = fs::absolute(path);
@@ -37,11 +27,18 @@ std::filesystem::path place_of(std::filesystem::path path) {
 void check_outputs(const std::vector<std::string>& paths) {
   namespace fs = std::filesystem;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i].empty()) throw Error(ExitCode::kWrongUsage, "an output has no name");
+    if (paths[i].empty())
+      throw Error(ExitCode::kWrongUsage, "an output has an empty name; give it one");
     for (std::size_t j = 0; j < i; ++j)
-      if (place_of(paths[i]) == place_of(paths[j]))
-        throw Error(ExitCode::kWrongUsage, fmt::format("{} would be written twice", paths[i]));
+      if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
+        throw Error(
+            ExitCode::kWrongUsage,
+            fmt::format("{} would be written twice; give each output its own name", paths[i]));
   }
+}
+
+void check_models(std::string_view option, const std::vector<std::string>& names) {
+  for (const auto& name : names) from_option(option, [&] { return find_model(name); });
 }
 
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

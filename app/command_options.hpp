@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/foreign_files.hpp"
+#include "common/error.hpp"
+
 namespace viscontact {
 
 // Type names of options: by them --help, the manual and the shells' completion know what goes there. Words to choose from are "word|word".
@@ -29,9 +32,20 @@ std::string words_of(const Table& table) {
 /// Refuses what is none of the words; --help has them in the type name.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// An output that is there already is replaced only if it is of the same kind: its text has the
-/// marker. Throws Error(kBadInput) otherwise.
-void refuse_other_kind(const std::string& path, std::string_view marker, std::string_view kind);
+/// The value of a call that reads a word of the command line, such as the name of a basis: the
+/// Error(kBadInput) of a word that is not known becomes an Error(kWrongUsage) that names the option.
+template <class Read>
+auto from_option(std::string_view option, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    if (error.exit_code() != ExitCode::kBadInput) throw;
+    throw Error(ExitCode::kWrongUsage, std::string(option) + ": " + error.what());
+  }
+}
+
+/// Throws Error(kWrongUsage) that names the option for a name that is not a model's.
+void check_models(std::string_view option, const std::vector<std::string>& names);
 
 /// Throws Error(kWrongUsage) if an output has no name, or two have the same.
 void check_outputs(const std::vector<std::string>& paths);

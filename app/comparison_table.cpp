@@ -17,6 +17,8 @@ std::string comparison_table(const Comparison& comparison) {
                                              (*model.contact_interval)[1])
                                : "-",
         fmt::format("{:.3g}", model.sup_gap_distance));
+  for (const auto& failed : comparison.failed_models)
+    text += fmt::format("{:<30} failed: {}\n", failed.model, failed.reason);
   return text;
 }
 

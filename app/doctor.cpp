@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -43,7 +44,8 @@ Finding solve_known_row(const FreeFem& freefem) {
 
 void examine_freefem(const Report& report) {
   try {
-    const auto freefem = default_freefem();
+    auto freefem = default_freefem();
+    freefem.row_limit = freefem.version_limit;  // the row takes about a second
     report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
                               freefem.executable, freefem.script_folder.string())});
     report(solve_known_row(freefem));
@@ -54,9 +56,11 @@ void examine_freefem(const Report& report) {
 }
 
 Finding examine_gnuplot() {
-  const auto gnuplot = run_process({"gnuplot", "--version"});
+  constexpr auto kLongest = std::chrono::minutes(1);  // it answers within a second
+  const auto gnuplot = run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest);
   if (!gnuplot.started || gnuplot.exit_status != 0)
-    return {false, "gnuplot, for the report's plots; apt-get install gnuplot-nox"};
+    return {false,
+            "gnuplot, for --plot and for the report's still pictures; apt-get install gnuplot-nox"};
   return {true, gnuplot.output.substr(0, gnuplot.output.find('\n'))};
 }
 

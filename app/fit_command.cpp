@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/command_options.hpp"
 #include "app/pipeline.hpp"
@@ -27,7 +28,7 @@ void read_fix(const std::string& word, FitSettings& settings) {
   if (!settings.leading_value)
     throw Error(
         ExitCode::kWrongUsage,
-        fmt::format("--fix is '{}'; must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
+        fmt::format("--fix is '{}'; it must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
 }
 
 }  // namespace
@@ -79,14 +80,16 @@ void add_fit(CLI::App& app) {
       ->type_name(kFile);
   command->callback([o, output, terms, fix] {
     FitSettings settings;
-    settings.basis = terms->count() == 0 ? find_basis(o->basis) : parse_terms(o->terms);
-    settings.weights = parse_weights(o->weights);
-    settings.loss = parse_loss(o->loss);
+    settings.basis = terms->count() == 0
+                         ? from_option("--basis", [&] { return find_basis(o->basis); })
+                         : from_option("--terms", [&] { return parse_terms(o->terms); });
+    settings.weights = from_option("--weights", [&] { return parse_weights(o->weights); });
+    settings.loss = from_option("--loss", [&] { return parse_loss(o->loss); });
     if (fix->count() > 0) read_fix(o->fix, settings);
     if (output->count() == 0 && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--output is required (or --compare-bases)");
+      throw Error(ExitCode::kWrongUsage, "--output is required where --compare-bases is not given");
     if (!o->plot.empty() && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--plot is for --compare-bases only");
+      throw Error(ExitCode::kWrongUsage, "--plot needs --compare-bases");
     std::filesystem::path plot = o->plot;
     if (plot.empty() && output->count() > 0)
       plot = std::filesystem::path(o->fit).replace_extension(".bases.svg");
@@ -96,11 +99,17 @@ void add_fit(CLI::App& app) {
     if (o->compare_bases) outputs.push_back(plot.string());
     check_outputs(outputs);
     if (output->count() > 0) refuse_other_kind(o->fit, "\"gap_interval\"", "fit");
-    if (o->compare_bases) {
-      refuse_other_kind(plot.string(), "<svg", "picture");
-      compare_bases_stage(o->table, settings, plot, o->json);
+    if (o->compare_bases) refuse_other_kind(plot, "<svg", "picture");
+    std::optional<Error> without_picture;
+    try {
+      if (o->compare_bases) compare_bases_stage(o->table, settings, plot, o->json);
+    } catch (const Error& error) {
+      // The fit does not need gnuplot: it is written first.
+      if (error.exit_code() != ExitCode::kExternalProgram) throw;
+      without_picture = error;
     }
     if (output->count() > 0) fit_stage(o->table, o->fit, settings, provenance_of({{o->table}, {}}));
+    if (without_picture) throw Error(*without_picture);
   });
 }
 
@@ -126,16 +135,18 @@ void add_export(CLI::App& app) {
       check_outputs({o->output});
       refuse_other_kind(o->output, "written by 'viscontact export'", "export");
     }
+    (void)from_option("--to",
+                      [&] { return &require_named(export_targets(), o->target, "export target"); });
     const Fit fit = read_fit(o->fit);
     std::string text;
     try {
-      text = export_fit(fit, o->target);
+      text = export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
     } catch (const Error& error) {
       throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
       write_output(o->output, find_named(export_targets(), o->target)->kind, text,
-                   provenance_of({{o->fit}, {}}));
+                   without_folders(provenance_of({{o->fit}, {}})));
     else
       fmt::print("{}", text);
   });

@@ -17,11 +17,17 @@ std::string number_or_dash(const std::optional<double>& number, const char* form
 
 std::string misfit_in_words(const FitDiagnostics& d) {
   if (!d.chi_squared) return "";
-  return fmt::format("; chi-squared {:.3g} for {} degrees of freedom{}", *d.chi_squared,
-                     d.degrees_of_freedom,
-                     d.misfit == Misfit::kBasis  ? ": the misfit is the basis's, not the data's"
-                     : d.misfit == Misfit::kData ? ": the data explain the residuals"
-                                                 : "");
+  return fmt::format(
+      "; chi-squared {:.3g} for {} degrees of freedom{}", *d.chi_squared, d.degrees_of_freedom,
+      d.misfit == Misfit::kBasis  ? ": the misfit is the basis's, not the data's"
+      : d.misfit != Misfit::kData ? ""
+      : d.outliers.empty()        ? ": the data explain the residuals"
+                                  : ": but for the outliers, the data explain the residuals");
+}
+
+/// The largest residual of a row that is left out, as text.
+std::string left_out(const std::optional<LeftOutRow>& row, const char* format) {
+  return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
 
 }  // namespace
@@ -29,10 +35,10 @@ std::string misfit_in_words(const FitDiagnostics& d) {
 std::string fit_in_words(const Fit& fit) {
   const auto& d = fit.diagnostics.value();
   std::string text = fmt::format(
-      "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {}, condition "
-      "number {:.2g}{}",
-      fit.basis, fit.largest_relative_residual, d.worst_gap,
-      number_or_dash(d.leave_one_out_largest, "{:.2g}"), fit.condition_number, misfit_in_words(d));
+      "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {} between the "
+      "rows and {} beyond an end, condition number {:.2g}{}",
+      fit.basis, fit.largest_relative_residual, d.worst_gap, left_out(d.left_out_inner, "{:.2g}"),
+      left_out(d.left_out_end, "{:.2g}"), fit.condition_number, misfit_in_words(d));
   for (const auto& outlier : d.outliers)
     text += fmt::format(
         "\nfit: outlier at gap {:.6g}, velocity {:.6g}: the fit is {:+.2g} relative from it",
@@ -41,9 +47,9 @@ std::string fit_in_words(const Fit& fit) {
 }
 
 std::string basis_table(const std::vector<BasisResult>& results) {
-  constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>13} {:>11} {:>10} {:>8}\n";
+  constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>14} {:>9} {:>11} {:>10} {:>8}\n";
   std::string text = fmt::format(fmt::runtime(kLine), "basis", "terms", "largest res.", "rms",
-                                 "left one out", "chi2/dof", "condition", "AICc");
+                                 "left out inner", "end", "chi2/dof", "condition", "AICc");
   for (const auto& result : results) {
     if (!result.fit) {
       text += fmt::format("{:<20} {}\n", result.basis, result.failure);
@@ -59,7 +65,7 @@ std::string basis_table(const std::vector<BasisResult>& results) {
         fmt::format(fmt::runtime(kLine), result.basis, fit.terms.size(),
                     fmt::format("{:.2e}", fit.largest_relative_residual),
                     fmt::format("{:.1e}", fit.rms_relative_residual),
-                    number_or_dash(d.leave_one_out_largest, "{:.2e}"),
+                    left_out(d.left_out_inner, "{:.2e}"), left_out(d.left_out_end, "{:.2e}"),
                     number_or_dash(reduced, "{:.2g}"), fmt::format("{:.1e}", fit.condition_number),
                     number_or_dash(d.information_criterion, "{:.1f}"));
   }

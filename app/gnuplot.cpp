@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -105,16 +106,21 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
+  constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);  // a picture takes one second
   // Its warnings come after the picture, not within.
   const auto result = run_process(
       {"/bin/sh", "-c",
        "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
-      {"LC_ALL=C"}, script);
+      {"LC_ALL=C"}, script, {}, kLongest);
+  if (result.timed_out)
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("gnuplot had not ended after {} s and was stopped", kLongest.count()));
   constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
-    throw Error(ExitCode::kExternalProgram,
-                fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
-                            result.output));
+    throw GnuplotMissing(
+        ExitCode::kExternalProgram,
+        fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
+                    result.output));
   const auto start = result.output.find("<svg");
   const auto end = result.output.rfind("</svg>");
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)

@@ -6,7 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
+
 namespace viscontact {
+
+/// gnuplot is not installed, or cannot be started.
+class GnuplotMissing : public Error {
+ public:
+  using Error::Error;
+};
 
 struct Curve {
   std::string legend;                             ///< empty: none
@@ -34,7 +42,8 @@ struct Panel {
 std::string quoted_for_gnuplot(const std::string& text);
 
 /// The panels one below the other as one SVG element, to stand in an HTML page. Throws
-/// Error(kExternalProgram) if gnuplot is missing or fails.
+/// GnuplotMissing(kExternalProgram) if gnuplot cannot be run, Error(kExternalProgram) if it fails or
+/// has not ended after ten minutes.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height);
 
 }  // namespace viscontact

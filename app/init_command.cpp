@@ -25,7 +25,7 @@ void add_init(CLI::App& app) {
     check_outputs({*file});
     const std::filesystem::path path = *file;
     if (std::filesystem::exists(std::filesystem::symlink_status(path)))
-      throw_bad_input({*file}, "is there; it is not replaced: remove it first, or write elsewhere");
+      throw_bad_input({*file}, "is there and is not replaced; remove it first, or write elsewhere");
     write_file(path, case_template());
     const auto named = [](std::string name) {  // no option
       return shell_word(name.starts_with('-') ? "./" + name : name);

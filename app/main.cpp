@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "app/fit_command.hpp"
 #include "app/init_command.hpp"
 #include "app/manual.hpp"
+#include "app/optional_values.hpp"
 #include "app/particles_command.hpp"
 #include "app/pipeline.hpp"
 #include "app/progress.hpp"
@@ -62,7 +64,7 @@ void add_shift(CLI::App& app) {
     auto outputs = std::vector{o->shift};
     if (!o->plot.empty()) outputs.push_back(o->plot);
     check_outputs(outputs);
-    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of shifts");
+    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
     if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
     shift_stage(o->table, o->fit, o->shift, o->plot);
   });
@@ -78,8 +80,10 @@ void add_simulate(CLI::App& app) {
   auto* command = app.add_subcommand("simulate", "one trajectory for each model of motion");
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->case_file, "case file (TOML)")->required()->type_name(kFile);
-  command->add_option("--fit", o->fit, "fit of the lubrication force (JSON)")
-      ->required()
+  command
+      ->add_option("--fit", o->fit,
+                   "fit of the lubrication force (JSON); default: the case's [fit] file or exact "
+                   "drag, else DIR/fit.json")
       ->type_name(kFile);
   command
       ->add_option("-o,--output", o->folder,
@@ -88,36 +92,41 @@ void add_simulate(CLI::App& app) {
       ->type_name(kFolder);
   command
       ->add_option("--models", o->models,
-                   "comma-separated; default: the case's, or all of: " + names_of(all_models()))
+                   "comma-separated; default: those of the case, else " +
+                       names_of(default_models()) +
+                       "; on request: " + names_of(models_on_request()))
       ->type_name(kModels)
       ->delimiter(',');
   auto* limit = command
                     ->add_option("--lubrication-limit", o->lubrication_limit,
                                  "below the fit's smallest gap let the drag grow as k/q instead of "
-                                 "stopping; k: fitted (default), or theory's")
+                                 "stopping; k: fitted (default), or theory's; without this option "
+                                 "as the case's [fit] below says")
                     ->check(one_of({"fitted", "theory"}))
                     ->expected(0, 1)
                     ->type_name("fitted|theory");
   command->add_flag("--stokes-limit", o->stokes_limit,
-                    "above the fit's largest gap let the drag fall to Stokes' instead of stopping");
+                    "above the fit's largest gap let the drag fall to Stokes' instead of stopping; "
+                    "without this option as the case's [fit] above says");
   command->callback([o, limit] {
     check_outputs({o->folder});
-    const auto below = limit->count() == 0                ? BelowInterval::kError
-                       : o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
-                                                          : BelowInterval::kLubricationLimit;
+    check_models("--models", o->models);
     const Case c = read_case(o->case_file);
-    auto inputs = files_of_motion(c);
-    inputs.emplace_back(o->fit);
-    const auto above = o->stokes_limit ? AboveInterval::kStokesLimit : AboveInterval::kError;
-    const auto provenance = provenance_of({inputs, {}});
+    // What the command line does not say is as in the case.
+    const FitRequest request = c.fit.value_or(FitRequest{});
+    OutsideFit outside{request.below, request.above};
+    if (limit->count() > 0)
+      outside.below = o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
+                                                       : BelowInterval::kLubricationLimit;
+    if (o->stokes_limit) outside.above = AboveInterval::kStokesLimit;
     const LockedFolder ours(o->folder, kFolderIsHeld);
-    simulate_stage(c, o->fit, o->folder, o->models, {below, above}, provenance);
+    simulate_stage(c, {o->fit, o->folder, o->models, outside});
   });
 }
 
 void add_compare(CLI::App& app) {
   struct Options {
-    std::string folder, reference = "inertial", output;
+    std::string folder, reference, output;
     std::vector<std::string> others;
     bool json = false;
   };
@@ -133,7 +142,7 @@ void add_compare(CLI::App& app) {
       ->type_name(kFile);
   command->add_option("--reference", o->reference, "model that the others are compared with")
       ->type_name(kModel)
-      ->capture_default_str();
+      ->default_str("inertial");
   command
       ->add_option("-o,--output", o->output,
                    "comparison to write (JSON); default: DIR/comparison.json")
@@ -142,7 +151,7 @@ void add_compare(CLI::App& app) {
   command->callback([o] {
     const std::filesystem::path output =
         o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
-    refuse_other_kind(output.string(), "\"reference_model\"", "comparison");
+    refuse_other_kind(output, "\"reference_model\"", "comparison");
     std::optional<LockedFolder> ours;
     if (o->output.empty() && std::filesystem::is_directory(o->folder))
       ours.emplace(o->folder, kFolderIsHeld);
@@ -246,7 +255,9 @@ int run(int argc, char** argv) {
                   fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names));
   }
   try {
-    app.parse(argc, argv);
+    auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});
+    std::ranges::reverse(arguments);  // as CLI11 takes them
+    app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));

@@ -13,7 +13,8 @@ constexpr std::array kExitCodes = {
     std::pair("0", "done"),
     std::pair("2", "wrong usage"),
     std::pair("3", "bad input: a file, a value in it"),
-    std::pair("4", "a computation did not converge, or memory ran out"),
+    std::pair("4",
+              "a computation did not converge, every point of a sweep failed, or memory ran out"),
     std::pair("5", "FreeFEM or gnuplot failed or is missing"),
     std::pair("130",
               "interrupted; what was finished is kept, the same command goes on (particles: from "
@@ -22,6 +23,9 @@ constexpr std::array kExitCodes = {
 
 constexpr std::array kEnvironment = {
     std::pair("VISCONTACT_FREEFEM", "the FreeFEM to run; default: FreeFem++-nw on the PATH"),
+    std::pair("VISCONTACT_FREEFEM_TIME_LIMIT",
+              "seconds after which FreeFEM is stopped; default: 1800 for a row of a table, 120 for "
+              "the question which version it is"),
     std::pair("NO_COLOR", "set and not empty: no colours on a terminal"),
     std::pair("SOURCE_DATE_EPOCH", "seconds since 1970 to be written as the time of making"),
 };

@@ -177,7 +177,8 @@ std::pair<Choice, Contacts> fitting(const Playback& playback, const Grid& grid, 
   for (std::size_t every = 1;; every *= 2) {
     auto choice = choice_of(playback, every);
     const auto others = kRest + choice.frames.size() * frame_bytes(playback, choice, grid) +
-                        base64_size(shown_particles(playback, choice) * sizeof(float));
+                        base64_size(shown_particles(playback, choice) * sizeof(float)) *
+                            (playback.ids.empty() ? 1 : 2);
     const bool last = choice.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
     auto contacts = contacts_of(playback, choice, lowest);
@@ -228,9 +229,11 @@ std::string data_of(const Playback& playback, const Choice& choice, const Contac
   for (int c = 0; c < kColours; ++c)
     colours += fmt::format("{}\"{}\"", c == 0 ? "" : ",",
                            film_colour(static_cast<double>(c) / (kColours - 1)));
-  Bytes radii, times, planes;
+  Bytes radii, ids, times, planes;
   for (std::size_t k = 0; k < playback.radii.size(); k += choice.every_particle)
     append(radii, playback.radii[k]);
+  for (std::size_t k = 0; k < playback.ids.size(); k += choice.every_particle)
+    append(ids, playback.ids[k]);
   for (const auto f : choice.frames) {
     append(times, playback.frames[f].time);
     for (const auto& plane : playback.frames[f].planes) {
@@ -246,7 +249,7 @@ std::string data_of(const Playback& playback, const Choice& choice, const Contac
              list_of(grid.low, playback.dimension), list_of(grid.step, playback.dimension),
              list_of(room.low, playback.dimension), list_of(room.high, playback.dimension), lowest,
              kTouchingColour, colours) +
-         block("radii", radii) + block("times", times) +
+         block("radii", radii) + (ids.empty() ? "" : block("ids", ids)) + block("times", times) +
          block("positions", positions_of(playback, choice, grid)) + block("planes", planes) +
          block("pairs", contacts.pairs) + block("offsets", contacts.offsets) +
          block("contacts", contacts.frames);

@@ -5,17 +5,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "app/command_options.hpp"
+#include "app/particles_earlier_run.hpp"
+#include "app/particles_frames.hpp"
 #include "app/particles_page.hpp"
 #include "app/particles_picture.hpp"
+#include "app/particles_record.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
 #include "case_file/particles_case.hpp"
@@ -23,10 +24,8 @@
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/locked_folder.hpp"
-#include "common/number.hpp"
 #include "particles/contacts_now.hpp"
 #include "particles/particle_file.hpp"
-#include "particles/playback.hpp"
 #include "particles/restart.hpp"
 #include "particles/vtk.hpp"
 
@@ -34,98 +33,9 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using particles::Playback;
 using particles::Simulation;
 using particles::StepReport;
 using Clock = std::chrono::steady_clock;
-
-/// What run.json says.
-struct Record {
-  std::int64_t steps = 0, unconverged = 0, iterations = 0;
-  int most_iterations = 0;
-  double first_time = 0, last_time = 0;
-  double largest_residual = 0, largest_overlap = 0;
-  std::string rows = "step,time,contacts,glued,iterations,residual,largest_overlap,converged\n";
-
-  void add(std::int64_t step, const StepReport& report) {
-    ++steps;
-    unconverged += report.converged ? 0 : 1;
-    iterations += report.iterations;
-    most_iterations = std::max(most_iterations, report.iterations);
-    largest_residual = std::max(largest_residual, report.residual);
-    largest_overlap = std::max(largest_overlap, report.largest_overlap);
-    last_time = report.time;
-    // Beyond a million rows, 50 MB, every thousandth step and those that did not converge are enough.
-    constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
-    if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
-    fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{}\n", step,
-                   format_number(report.time), report.contacts, report.glued, report.iterations,
-                   format_number(report.residual), format_number(report.largest_overlap),
-                   report.converged ? 1 : 0);
-  }
-};
-
-/// Frames written as they come, and kept to be drawn.
-class Frames {
- public:
-  Frames(fs::path folder, const Provenance& provenance, const particles::Particles& particles)
-      : folder_(std::move(folder)), provenance_(provenance) {
-    playback_.dimension = particles.dimension;
-    playback_.radii.assign(particles.radii.begin(), particles.radii.end());
-  }
-
-  void add(const Simulation& simulation) {
-    const auto& state = simulation.state();
-    auto contacts = particles::contacts_of(simulation.setting(), state);
-    const auto name = fmt::format("particles_{:05}.vtp", files_.size());
-    write_output(folder_ / name, TextKind::kXml, particles::write_vtp(state.particles, contacts),
-                 provenance_);
-    files_.emplace_back(state.time, name);
-    if ((files_.size() - 1) % every_ != 0) return;
-    keep(simulation, std::move(contacts));
-  }
-
-  /// The last state is always among them.
-  void end(const Simulation& simulation) {
-    if (files_.empty()) return;  // not even the first could be written
-    if (files_.back().first < simulation.state().time) add(simulation);
-    if (playback_.frames.back().time < simulation.state().time)
-      keep(simulation, particles::contacts_of(simulation.setting(), simulation.state()));
-  }
-
-  const Playback& playback() const { return playback_; }
-  const std::vector<std::pair<double, std::string>>& files() const { return files_; }
-
- private:
-  void keep(const Simulation& simulation, std::vector<particles::ContactNow> contacts) {
-    const auto& state = simulation.state();
-    particles::Frame frame;
-    frame.time = state.time;
-    frame.positions.assign(state.particles.positions.begin(), state.particles.positions.end());
-    for (const auto& plane : simulation.setting().planes)
-      frame.planes.push_back(plane.at(state.time));
-    frame.contacts = std::move(contacts);
-    kept_bytes_ += frame.positions.size() * sizeof(float) +
-                   frame.contacts.size() * sizeof(particles::ContactNow);
-    playback_.frames.push_back(std::move(frame));
-    // Beyond what a page can show, every second is enough.
-    constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
-    if (kept_bytes_ > kMostBytes && playback_.frames.size() > 4) {
-      std::vector<particles::Frame> half;
-      for (std::size_t i = 0; i < playback_.frames.size(); i += 2)
-        half.push_back(std::move(playback_.frames[i]));
-      playback_.frames = std::move(half);
-      kept_bytes_ /= 2;
-      every_ *= 2;
-    }
-  }
-
-  fs::path folder_;
-  const Provenance& provenance_;
-  Playback playback_;
-  std::vector<std::pair<double, std::string>> files_;
-  std::size_t every_ = 1, kept_bytes_ = 0;
-};
 
 particles::State first_state(const ParticlesCase& c, const std::string& restart) {
   particles::State state;
@@ -134,24 +44,12 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
     return state;
   }
   state = particles::read_restart(restart);
-  const auto& p = state.particles;
-  const auto differs = [&](const std::string& what) {
-    throw_bad_input({restart}, fmt::format("is of other particles than {}: {}; the case that is "
-                                           "continued has the same, in the same order",
-                                           c.path.string(), what));
-  };
-  if (p.dimension != c.particles.dimension)
-    differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
-  if (p.count() != c.particles.count())
-    differs(fmt::format("{}, not {}", p.count(), c.particles.count()));
-  if (p.radii != c.particles.radii) differs("with other radii");
-  if (p.masses != c.particles.masses) differs("with other masses");
-  for (const auto& film : state.walls)
-    if (static_cast<std::size_t>(-1 - film.first) >= c.setting.planes.size())
-      differs(fmt::format("at plane {}, which is not there", -film.first));
+  check_same_particles(state, c, restart);
+  state.particles.ids = c.particles.ids;
   if (state.time > c.end_time * (1 - 1e-9))
-    throw_bad_input({restart}, fmt::format("is at time {}; {} ends at {}: nothing is left to do",
-                                           state.time, c.path.string(), c.end_time));
+    throw_bad_input({restart},
+                    fmt::format("is at time {} and {} ends at {}, so that nothing is left to do",
+                                state.time, c.path.string(), c.end_time));
   // Another step than before begins a grid of times of its own.
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
@@ -162,10 +60,8 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
   return state;
 }
 
-nlohmann::ordered_json record_of(const ParticlesCase& c, const Record& record,
-                                 const Simulation& simulation, double seconds) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+nlohmann::ordered_json record_of(const ParticlesCase& c, const StepSums& record,
+                                 const Simulation& simulation) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
   nlohmann::ordered_json json;
   json["title"] = c.title;
@@ -180,29 +76,17 @@ nlohmann::ordered_json record_of(const ParticlesCase& c, const Record& record,
   json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
   json["largest_iterations"] = record.most_iterations;
   json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
   json["largest_residual"] = record.largest_residual;
+  json["largest_impulse_residual"] = record.largest_impulse_residual;
+  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
+  json["divided_steps"] = record.divided;
+  json["unresolved_contacts"] = record.unresolved;
   json["largest_overlap"] = record.largest_overlap;
   json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
-  json["seconds"] = seconds;
-  json["peak_memory_mebibytes"] = static_cast<double>(usage.ru_maxrss) / 1024;
+  json["seconds"] = record.seconds;
+  json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
   return json;
-}
-
-constexpr const char* kResults[] = {
-    "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
-    "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
-
-/// A file of the name of a frame.
-bool is_named_as_frame(const fs::path& path) {
-  constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  constexpr std::size_t kDigits = 5;
-  const std::string name = path.filename();
-  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
-      name.size() < kBegin.size() + kDigits + kEnd.size())
-    return false;
-  const auto digits =
-      std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
-  return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
 }
 
 /// Refuses a file that is no result of ours; by its head, where each says how it was made: the rest may be a gigabyte.
@@ -219,7 +103,7 @@ void check_is_ours(const fs::path& path) {
 
 /// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
 void remove_earlier_run(const fs::path& folder) {
-  for (const auto* name : kResults) remove_file(folder / name);
+  for (const auto* name : kParticleResults) remove_file(folder / name);
   std::vector<fs::path> frames;
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_named_as_frame(entry.path())) frames.push_back(entry.path());
@@ -228,7 +112,7 @@ void remove_earlier_run(const fs::path& folder) {
 
 /// Refuses to write over what is no result of ours.
 void check_folder_is_ours(const fs::path& folder) {
-  for (const auto* name : kResults) check_is_ours(folder / name);
+  for (const auto* name : kParticleResults) check_is_ours(folder / name);
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_named_as_frame(entry.path())) check_is_ours(entry.path());
 }
@@ -237,15 +121,17 @@ void check_folder_is_ours(const fs::path& folder) {
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
-    throw_bad_input({restart.string()},
-                    "is of the run in the folder that is to be written, whose frames and record "
-                    "would be lost; choose another folder");
+    throw_bad_input(
+        {restart.string()},
+        "belongs to the run in the output folder, whose frames and record would be lost; choose "
+        "another folder, or leave out --restart: the same command continues an interrupted run in "
+        "its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
-    for (const auto* output : kResults) {
+    for (const auto* output : kParticleResults) {
       std::error_code ignored;
       if (fs::equivalent(input, folder / output, ignored))
-        throw_bad_input({input.string()}, "would be written over by the run's " +
+        throw_bad_input({input.string()}, "would be overwritten by the run's " +
                                               std::string(output) + "; choose another folder");
     }
   }
@@ -254,30 +140,29 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
 /// A run on its way: everything in it is there to be written at any time.
 class Run {
  public:
-  Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance)
+  /// `record` and `frames` are those of an interrupted run, or new ones.
+  Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance,
+      StepRecord record, ParticleFrames frames)
       : case_(c),
         simulation_(simulation),
         folder_(std::move(folder)),
         provenance_(provenance),
-        frames_(folder_, provenance, simulation.state().particles) {
-    record_.first_time = record_.last_time = simulation_.state().time;
-  }
+        frames_(std::move(frames)),
+        record_(std::move(record)),
+        earlier_(record_) {}
 
   /// To the end, or until it is interrupted.
   void simulate() {
-    frames_.add(simulation_);
+    if (frames_.files().empty()) frames_.add(simulation_);
     save();
-    // Times that differ by rounding are equal.
-    const double tiny = 1e-6 * case_.setting.time_step;
-    const double every = std::max(case_.frame_interval, case_.setting.time_step);
-    double next_frame = record_.first_time + every;
-    while (simulation_.state().time < case_.end_time - tiny && !interrupted()) {
+    const auto times = frame_times(case_, record_.first_time);
+    double next_frame = times.after(frames_.files().back().first);
+    while (simulation_.state().time < case_.end_time - times.tiny && !interrupted()) {
       const auto report = simulation_.step(case_.end_time);
       record_.add(simulation_.state().steps, report);
-      if (report.time >= next_frame - tiny) {
+      if (report.time >= next_frame - times.tiny) {
         frames_.add(simulation_);
-        next_frame = record_.first_time +
-                     (std::floor((report.time + tiny - record_.first_time) / every) + 1) * every;
+        next_frame = times.after(report.time);
       }
       tell(report);
       constexpr double kSaveEvery = 60;  // seconds
@@ -294,17 +179,17 @@ class Run {
     write("final_particles.csv", TextKind::kHashComment,
           particles::write_particles(state.particles));
     write("final_contacts.csv", TextKind::kHashComment,
-          particles::write_contacts(particles::contacts_of(case_.setting, state)));
+          particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
     constexpr int kPanels = 4;
     write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           particles_picture(frames_.playback(), case_.title, kPanels));
-    const auto json = record_of(case_, record_, simulation_, seconds_since(begin_)).dump(2) + "\n";
+    const auto json = record_of(case_, with_costs(), simulation_).dump(2) + "\n";
     write("run.json", TextKind::kJson, json);
     return json;
   }
 
-  const Record& record() const { return record_; }
+  const StepRecord& record() const { return record_; }
 
  private:
   static double seconds_since(Clock::time_point time) {
@@ -314,11 +199,28 @@ class Run {
     write_output(folder_ / name, kind, text, provenance_);
   }
 
-  /// What a killed run is gone on from, and the frames so far.
+  /// The sums, with the time and memory of this call and those before it.
+  StepSums with_costs() const {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    StepSums record = record_;
+    record.seconds += seconds_since(begin_);
+    record.peak_memory_mebibytes =
+        std::max(record.peak_memory_mebibytes, static_cast<double>(usage.ru_maxrss) / 1024);
+    return record;
+  }
+
+  /// What a killed run is gone on from, and the frames so far. restart.bin comes last, because a
+  /// run goes on from its step: whenever the process is killed, the other files know that step.
+  /// steps.csv may then be newer by one call of this function, so it keeps the record of the one before.
   void save() {
-    write("restart.bin", TextKind::kHashComment, particles::write_restart(simulation_.state()));
+    const auto record = with_costs();
     write("particles.pvd", TextKind::kXml, particles::write_pvd(frames_.files()));
-    write("steps.csv", TextKind::kHashComment, record_.rows);
+    write("steps.csv", TextKind::kHashComment,
+          (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
+              record_comment(record) + record_.rows);
+    write("restart.bin", TextKind::kHashComment, particles::write_restart(simulation_.state()));
+    earlier_ = record;
     last_saved_ = Clock::now();
   }
 
@@ -335,13 +237,14 @@ class Run {
   Simulation& simulation_;
   fs::path folder_;
   const Provenance& provenance_;
-  Frames frames_;
-  Record record_;
+  ParticleFrames frames_;
+  StepRecord record_;
+  StepSums earlier_;  // as they were when restart.bin was written
   Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
 };
 
 /// The last words on a run that was written. Throws if it was interrupted or has a step that did not converge.
-void judge(const ParticlesCase& c, const Record& record, const fs::path& folder) {
+void judge(const ParticlesCase& c, const StepSums& record, const fs::path& folder) {
   say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -350,19 +253,38 @@ void judge(const ParticlesCase& c, const Record& record, const fs::path& folder)
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
   if (record.unconverged > 0)
-    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerance {}",
-                     record.unconverged, record.steps, c.setting.solver.tolerance));
+    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
+                     record.unconverged, record.steps, c.setting.solver.tolerance,
+                     c.setting.solver.impulse_tolerance));
+  if (record.unresolved > 0)
+    warn(fmt::format(
+        "particles: warning: {} contacts were computed although their particles move past each "
+        "other by more than a quarter of their diameters even in a {}th of the time step (steps.csv "
+        "says when); use a shorter time_step",
+        record.unresolved, 1 << Simulation::kMostHalvings));
   if (interrupted())
-    say(fmt::format("particles: interrupted at t = {:.6g}; --restart {} goes on", record.last_time,
-                    (folder / "restart.bin").string()));
+    say(fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
+                    record.last_time));
   throw_if_interrupted();
   if (record.unconverged > 0)
     throw Error(ExitCode::kNotConverged,
-                fmt::format("{}: {} of {} steps have a residual up to {:.2g}, not {}; all is "
-                            "written, steps.csv says which; raise solver.max_iterations or "
-                            "solver.tolerance, or do walls leave too little room?",
+                fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                            "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                            "solver.impulse_tolerance is {}). All results are written, and "
+                            "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                            "tolerances",
                             c.path.string(), record.unconverged, record.steps,
-                            record.largest_residual, c.setting.solver.tolerance));
+                            record.largest_residual, c.setting.solver.tolerance,
+                            record.largest_impulse_residual, c.setting.solver.impulse_tolerance,
+                            c.setting.solver.max_iterations));
+}
+
+/// For a run that has nothing left to do: what the call that ended it said.
+void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
+                   bool json) {
+  if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
+  say(fmt::format("particles: {} is up to date", folder.string()));
+  judge(c, run.record, folder);
 }
 
 }  // namespace
@@ -375,12 +297,30 @@ void run_particles(const ParticlesRequest& request) {
   const Provenance provenance = provenance_of({inputs, {}});
   const fs::path folder = request.folder;
   check_inputs_stay(c, request.restart, folder);
-  Simulation simulation(c.setting, first_state(c, request.restart), request.threads);
+  auto state = first_state(c, request.restart);
   const LockedFolder ours(folder, kFolderIsHeld);
   check_folder_is_ours(folder);
-  remove_earlier_run(folder);
-
-  Run run(c, simulation, folder, provenance);
+  auto earlier = find_earlier_run(c, folder, provenance);
+  if (earlier && is_finished(*earlier, c, folder)) {
+    tell_finished(c, *earlier, folder, request.json);
+    return;
+  }
+  StepRecord record;
+  ParticleFrames frames(folder, provenance, c.particles);
+  if (earlier) {
+    remove_later_frames(*earlier, folder);
+    say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
+                    folder.string(), earlier->state.time, earlier->state.steps));
+    state = std::move(earlier->state);
+    record = std::move(earlier->record);
+  } else {
+    remove_earlier_run(folder);
+    record.first_time = record.last_time = state.time;
+    record.last_step = state.steps;
+  }
+  Simulation simulation(c.setting, std::move(state), request.threads);
+  Run run(c, simulation, folder, provenance, std::move(record),
+          earlier ? std::move(earlier->frames) : std::move(frames));
   try {
     run.simulate();
   } catch (const Error&) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "app/flow_plots.hpp"
+#include "app/foreign_files.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
 #include "common/error.hpp"
@@ -14,6 +16,31 @@
 #include "common/number.hpp"
 
 namespace viscontact {
+namespace {
+
+struct PictureFile {
+  std::string_view end;     ///< of the file's name
+  std::string_view marker;  ///< a text that is in every file of this kind
+  std::string_view kind;    ///< in words
+};
+constexpr PictureFile kMesh{"_mesh.svg", "<svg", "picture"};
+constexpr PictureFile kFlow{"_flow.svg", "<svg", "picture"};
+constexpr PictureFile kFilm{"_film.svg", "<svg", "picture"};
+constexpr PictureFile kVtu{".vtu", "<VTKFile", "VTK file"};
+
+/// Seven digits of the gap are enough for gaps_to_picture to find it by the file's name.
+std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
+                              const PictureFile& file) {
+  return folder / fmt::format("gap_{:.7g}{}", gap, file.end);
+}
+
+}  // namespace
+
+void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder) {
+  for (const double gap : gaps)
+    for (const auto& file : {kMesh, kFlow, kFilm, kVtu})
+      refuse_other_kind(path_of(folder, gap, file), file.marker, file.kind);
+}
 
 std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
   constexpr double kTolerance = 1e-6;
@@ -29,14 +56,16 @@ std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::str
   for (std::string word; std::getline(words, word, ',');) {
     const auto gap = parse_number(word);
     if (!gap)
-      throw Error(ExitCode::kWrongUsage,
-                  fmt::format("--plot: '{}' is not a number; give gaps separated by commas", word));
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
+                      word));
     const double nearest =
         *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
     if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
       throw Error(ExitCode::kBadInput,
-                  fmt::format("--plot: {} is none of the case's gaps; the nearest is {}", word,
-                              format_number(nearest)));
+                  fmt::format("--plot: {} is not one of the case's gaps; the nearest of them is {}",
+                              word, format_number(nearest)));
     gaps.push_back(nearest);
   }
   return gaps;
@@ -56,16 +85,14 @@ void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps
     show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
     const auto picture =
         solve_row_for_picture(freefem, tabulation, gap, tabulation.reference_velocities.front());
-    // Seven digits: enough for gaps_to_picture to find the gap by its name.
-    const auto path = [&](const char* end) {
-      return folder / (fmt::format("gap_{:.7g}", gap) + end);
-    };
-    write_output(path("_mesh.svg"), TextKind::kSvg, plot_mesh(picture, tabulation), provenance);
-    write_output(path("_flow.svg"), TextKind::kSvg, plot_flow(picture, tabulation), provenance);
-    write_output(path("_film.svg"), TextKind::kSvg, plot_gap_flow(picture, tabulation), provenance);
-    write_output(path(".vtu"), TextKind::kXml, write_vtu(picture.flow), provenance);
+    const auto path = [&](const PictureFile& file) { return path_of(folder, gap, file); };
+    // The VTK file comes first because it needs no gnuplot, which may be missing.
+    write_output(path(kVtu), TextKind::kXml, write_vtu(picture.flow), provenance);
+    write_output(path(kMesh), TextKind::kSvg, plot_mesh(picture, tabulation), provenance);
+    write_output(path(kFlow), TextKind::kSvg, plot_flow(picture, tabulation), provenance);
+    write_output(path(kFilm), TextKind::kSvg, plot_gap_flow(picture, tabulation), provenance);
     clear_progress();
-    say(fmt::format("tabulate: {}", path("_{mesh,flow,film}.svg, .vtu").string()));
+    say(fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));
   }
 }
 

@@ -16,6 +16,10 @@ std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::str
 /// The folder of a table's pictures, beside it: table.csv has table.plots/.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path);
 
+/// Throws Error(kBadInput) if a picture of those gaps would replace a file that Viscontact did not
+/// write. To be called before the tabulation.
+void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder);
+
 /// Solves those rows again, at the first velocity, and writes of each gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu. `case_file` is where the tabulation stands.
 void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
                    const std::filesystem::path& folder, const std::filesystem::path& case_file);

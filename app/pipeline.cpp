@@ -6,6 +6,7 @@
 
 #include "app/command_options.hpp"
 #include "app/comparison_table.hpp"
+#include "app/failed_models.hpp"
 #include "app/fit_summary.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
@@ -138,8 +139,9 @@ void compare_bases_stage(const fs::path& table_path, const FitSettings& settings
   if (std::ranges::none_of(results,
                            [](const BasisResult& result) { return result.fit.has_value(); }))
     throw_bad_input({table_path.string()}, results.front().failure);
-  write_output(plot_path, TextKind::kSvg, plot_bases(table, results), provenance);
+  // The numbers come first because the picture needs gnuplot, which may be missing.
   fmt::print("{}", json ? basis_json(results) : basis_table(results));
+  write_output(plot_path, TextKind::kSvg, plot_bases(table, results), provenance);
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
@@ -167,13 +169,12 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
     text += fmt::format("{},{},{},{}\n", format_number(row.gap), format_number(row.shift),
                         format_number(row.relative_residual),
                         format_number(row.relative_error_estimate));
-  const std::string picture =
-      plot_path.empty() ? ""
-                        : plot_wall_shift(shift, rough.geometry);  // before anything is written
   write_output(shift_path, TextKind::kHashComment, text, provenance);
-  if (!plot_path.empty()) write_output(plot_path, TextKind::kSvg, picture, provenance);
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
+  // Last, because the picture needs gnuplot, which may be missing.
+  if (!plot_path.empty())
+    write_output(plot_path, TextKind::kSvg, plot_wall_shift(shift, rough.geometry), provenance);
 }
 
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
@@ -182,11 +183,17 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   auto files = trajectory_files(folder);
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
-  const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
+  auto inputs = files;
+  if (const auto failed = RunFolder{folder}.failed_models(); fs::is_regular_file(failed))
+    inputs.push_back(failed);
+  const auto provenance = provenance_of(given.empty() ? Inputs{inputs, {}} : Inputs{given, inputs});
   std::vector<Trajectory> trajectories;
   for (const auto& file : files) trajectories.push_back(read_trajectory(file));
   warn_of_different_inputs(trajectories);
-  const auto comparison = compare_trajectories(trajectories, reference_model);
+  const auto failed = failures_without(trajectories, RunFolder{folder});
+  auto comparison =
+      compare_trajectories(trajectories, reference_among(trajectories, failed, reference_model));
+  comparison.failed_models = failed;
   write_output(comparison_path, TextKind::kJson, write_comparison(comparison), provenance);
   fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
 }
@@ -206,13 +213,21 @@ bool uncertainty_is_lost(const RunFolder& run) {
   }
 }
 
-/// Before a long computation: nothing that a user put there is written over.
+/// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
+/// Called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
-  if (writes_fit) refuse_other_kind(run.fit().string(), "\"gap_interval\"", "fit");
-  refuse_other_kind(run.comparison().string(), "\"reference_model\"", "comparison");
-  refuse_other_kind(run.report().string(), "id=\"provenance\"", "report of ours");
+  // The folder of an earlier run may hold a copy of a fit that the user wrote by hand.
+  const bool is_copy = holds_a_run(run) && up_to_date(run.fit(), [&] {
+                         (void)read_fit(run.fit());
+                         return true;
+                       });
+  if (writes_fit && !is_copy) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
+  refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
+  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  check_report_files(run.path);
   for (const auto& file : files_of_models(run.trajectories()))
-    refuse_other_kind(file.string(), "# provenance: ", "trajectory of ours");
+    refuse_other_kind(file, "", "trajectory");
 }
 
 }  // namespace
@@ -234,8 +249,8 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
       write_output(fit, TextKind::kJson, text, provenance_of({given, {}}));
   } else {
     check_run(c, models_to_run(c));
-    // Its first line, which a table cut short still has.
-    refuse_other_kind(run.table().string(), "# case: ", "table of ours");
+    warn_of_gaps_outside(c, models_to_run(c));
+    refuse_other_kind(run.table(), "# case: ", "table");
     tabulate_stage({{c, run.table()}}, jobs);
     throw_if_interrupted();
     fit_stage(run.table(), fit, request.settings, provenance_of({given, {run.table()}}));
@@ -244,25 +259,28 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
 
   const auto models = models_to_run(c);
   const OutsideFit outside{request.below, request.above};
-  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
-  const std::string reference = has_inertial ? "inertial" : models.front();
   const std::string fit_text = read_file(fit);
+  auto failed = recorded_failures(run, models, c, fit_text, outside);
   const bool simulated = std::ranges::all_of(models, [&](const std::string& model) {
-    return is_simulated(run, model, c, fit_text, outside);
+    return std::ranges::find(failed, model, &FailedModel::model) != failed.end() ||
+           is_simulated(run, model, c, fit_text, outside);
   });
   if (simulated && fs::exists(run.case_file()) && !uncertainty_is_lost(run)) {
     say("simulate: trajectories are up to date");
-    if (up_to_date(
-            run.comparison(),
-            [&] { return read_comparison(run.comparison()).reference_model == reference; }) &&
+    if (up_to_date(run.comparison(),
+                   [&] {
+                     return read_comparison(run.comparison()).reference_model ==
+                            reference_without(models, failed);
+                   }) &&
         report_is_current(folder)) {
       say("compare, report: up to date");
       const auto comparison = read_comparison(run.comparison());
       fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
+      if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
       return;
     }
   } else {
-    const auto results = simulate_case(c, fit, models, outside);
+    const auto results = simulate_case(c, {fit, fit_text}, models, outside);
     throw_if_interrupted();
     // What was made from the old trajectories goes before the new ones come, so that no crash leaves it beside them.
     remove_file(run.comparison());
@@ -270,11 +288,14 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
     for (const auto& file : files_of_models(run.trajectories())) remove_file(file);
     write_simulated(run, c, results,
                     provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
+    failed = results.failed;
   }
   throw_if_interrupted();
-  compare_stage(folder, {}, reference, run.comparison(), given, json);
+  compare_stage(folder, {}, reference_without(models, failed), run.comparison(), given, json);
   throw_if_interrupted();
   write_report(folder, given);
+  // Last, so that the results of the other models are whole.
+  if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
 }
 
 }  // namespace viscontact

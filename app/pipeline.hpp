@@ -29,7 +29,8 @@ void shift_stage(const std::filesystem::path& table_path, const std::filesystem:
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path);
 
 /// Compares a folder's trajectories, and other files, into `comparison_path`. `given`: the user's files that the trajectories were made from by the same
-/// command; empty if they are the user's own.
+/// command; empty if they are the user's own. An empty `reference_model` is `inertial`, or the first
+/// model with a trajectory if `inertial` failed.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,

@@ -7,16 +7,14 @@
 #include <charconv>
 #include <cstdlib>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "app/versions.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/json.hpp"
 
 namespace viscontact {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // By this a line is known, among those of a user's.
 constexpr std::string_view kName = "provenance";
@@ -41,10 +39,11 @@ std::string time_of_making() {
     const std::string_view text = epoch;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
     if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
-      throw Error(ExitCode::kWrongUsage,
-                  fmt::format("SOURCE_DATE_EPOCH is '{}'; must be a whole number of seconds from 0 "
-                              "to {}",
-                              epoch, kYear9999));
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format("SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 "
+                      "to {}",
+                      epoch, kYear9999));
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
@@ -167,6 +166,32 @@ Provenance provenance_of(const Inputs& inputs) {
   return provenance;
 }
 
+Provenance without_folders(Provenance provenance) {
+  namespace fs = std::filesystem;
+  const fs::path folder = provenance.folder;
+  const auto shorten = [&](std::string& word, std::size_t begin) {
+    const fs::path path = word.substr(begin);
+    if (!path.is_absolute()) return;
+    const auto relative = path.lexically_normal().lexically_relative(folder);
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    word.replace(begin, std::string::npos, (below ? relative : path.filename()).string());
+  };
+  for (auto& word : provenance.command) shorten(word, path_in_word(word));
+  if (!provenance.command.empty())
+    provenance.command[0] = fs::path(provenance.command[0]).filename();
+  for (auto& input : provenance.inputs) shorten(input.file, 0);
+  shorten(provenance.output, 0);
+  provenance.folder.clear();
+  return provenance;
+}
+
+std::size_t path_in_word(const std::string& word) {
+  const auto value = word.find("=/");  // --output=/...
+  return value != std::string::npos && word.starts_with("--") ? value + 1
+         : word.starts_with("-o/")                            ? 2
+                                                              : 0;
+}
+
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
   const auto place = place_in(kind, text);
   const auto [before, after, forbidden] = frame_of(kind);
@@ -207,8 +232,9 @@ std::optional<Provenance> provenance_in(const std::string& text, const std::stri
     provenance.output = json.value("output", "");
     provenance.made = json.at("made").get<std::string>();
     return provenance;
-  } catch (const Json::exception&) {
-    throw_bad_input({file}, "its line 'provenance' is damaged");
+  } catch (const Json::exception& error) {
+    throw_bad_input({file},
+                    fmt::format("its line 'provenance' is damaged ({})", cause_in_words(error)));
   }
 }
 
@@ -230,11 +256,20 @@ std::string provenance_line(Provenance provenance, const std::filesystem::path& 
   return with_provenance(TextKind::kHashComment, "", provenance);
 }
 
-void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
-                  Provenance provenance) {
+std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                        Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
-  write_file(path, with_provenance(kind, text, provenance));
+  if (provenance.folder.empty()) {  // without_folders: the name of the output is shortened, too
+    provenance.folder = std::filesystem::current_path().string();
+    provenance = without_folders(provenance);
+  }
+  return with_provenance(kind, text, provenance);
+}
+
+void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                  Provenance provenance) {
+  write_file(path, output_text(path, kind, text, std::move(provenance)));
 }
 
 }  // namespace viscontact

@@ -19,8 +19,8 @@ struct InputFile {
 };
 
 struct Provenance {
-  std::vector<std::string> command;             ///< as it was typed: program, arguments
-  std::string folder;                           ///< in which it was typed, absolute
+  std::vector<std::string> command;  ///< as it was typed: program, arguments
+  std::string folder;  ///< in which it was typed, absolute; empty: not told (without_folders)
   std::vector<InputFile> inputs;                ///< in the order in which they are used
   std::map<std::string, std::string> versions;  ///< program: version
   std::string output;  ///< the file that was written, as named by the command
@@ -36,6 +36,14 @@ struct Inputs {
 /// Of what this process makes from these files, which are read for their hashes: to be asked for before a long computation, in which a user may edit
 /// them. `output` and `made` are empty. Throws Error(kBadInput) if one cannot be read.
 Provenance provenance_of(const Inputs& inputs);
+
+/// Where in a word of a command an absolute path would begin: behind "--output=" or "-o", else at 0.
+std::size_t path_in_word(const std::string& word);
+
+/// The same for a file that is made to be handed on: it names its source, and not where on a machine
+/// it lies. `folder` is empty; a path below it is relative to it, any other absolute path and the
+/// program are their file names only.
+Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance in it, as one line: a comment at its head, for kJson the first key, for kSvg metadata, for kHtml a data script in <head>.
 /// `text` is whole and of that kind; an object with keys, for kJson.
@@ -58,6 +66,10 @@ std::string change_of(const InputFile& input, const std::filesystem::path& folde
 
 /// "# provenance: {...}\n", made now, for the CSV file `path`, which is written row by row.
 std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
+
+/// What write_output writes: the text with the provenance, made now.
+std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                        Provenance provenance);
 
 /// write_file with the provenance, made now.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,

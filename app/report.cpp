@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
 #include <future>
 
+#include "app/foreign_files.hpp"
+#include "app/gnuplot.hpp"
 #include "app/html.hpp"
 #include "app/progress.hpp"
 #include "app/provenance.hpp"
@@ -15,6 +19,7 @@
 #include "app/run_results.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/on_one_line.hpp"
 
 namespace viscontact {
 namespace {
@@ -25,8 +30,10 @@ constexpr std::string_view kPlotNames[] = {
 
 struct Picture {
   Plot plot;
-  std::string svg;
+  std::string svg;  ///< empty if it could not be drawn
 };
+
+constexpr std::string_view kStillPicture = "<div class=still><svg";
 
 std::vector<Plot> plots_of(const RunResults& run) {
   const auto& motion = required_motion(run.c);
@@ -46,13 +53,22 @@ std::vector<Plot> plots_of(const RunResults& run) {
   return plots;
 }
 
-/// Drawn all at once: each is a process of gnuplot, most of whose time is its start.
-std::vector<Picture> draw(std::vector<Plot> plots) {
+/// Draws all plots at once, because each is a process of gnuplot, most of whose time is its start. If
+/// one cannot be drawn, none is, and `failure` is the reason.
+std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
     drawings.push_back(std::async(std::launch::async, [&plot] { return svg_of(plot); }));
   std::vector<std::string> drawn;
-  for (auto& drawing : drawings) drawn.push_back(drawing.get());
+  try {
+    for (auto& drawing : drawings) drawn.push_back(drawing.get());
+  } catch (const Error& error) {
+    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    failure = std::current_exception();
+    drawn.assign(plots.size(), "");
+  }
+  for (auto& drawing : drawings)
+    if (drawing.valid()) drawing.wait();  // it refers to its plot
   std::vector<Picture> pictures;
   for (std::size_t i = 0; i < plots.size(); ++i)
     pictures.push_back({std::move(plots[i]), std::move(drawn[i])});
@@ -69,8 +85,13 @@ std::string figures(const std::vector<Picture>& pictures,
         text += fmt::format(
             "<figure data-plot=\"{0}\">\n<div class=still>{1}</div>\n"
             "<script type=\"application/json\">{2}</script>\n"
-            "<figcaption><a href=\"plots/{0}.svg\">plots/{0}.svg</a></figcaption></figure>\n",
-            name, picture.svg, json_of(picture.plot));
+            "{3}</figure>\n",
+            name, picture.svg, json_of(picture.plot),
+            picture.svg.empty()
+                ? ""
+                : fmt::format(
+                      "<figcaption><a href=\"plots/{0}.svg\">plots/{0}.svg</a></figcaption>",
+                      name));
   return text;
 }
 
@@ -121,6 +142,12 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
       "<p class=hint>Drag in a plot to zoom, double click or tap twice for the whole; the values "
       "under the "
       "pointer stand beside its legend.</p>\n";
+  if (std::ranges::any_of(pictures, [](const Picture& picture) { return picture.svg.empty(); }))
+    page +=
+        "<p class=fine>gnuplot could not draw when this page was made: it has no still pictures, "
+        "so "
+        "that print, and a browser without JavaScript, show no plots. Install gnuplot "
+        "(<code>apt-get install gnuplot-nox</code>) and make the report again.</p>\n";
   page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
   page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
   page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
@@ -137,13 +164,35 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
   return page;
 }
 
+/// A report without gnuplot's pictures is written: a warning if gnuplot is not there, an error if
+/// it is and fails.
+void warn_or_throw(const std::exception_ptr& failure) {
+  constexpr const char* kWritten =
+      "the report is written, without still pictures and without the files in plots/";
+  try {
+    std::rethrow_exception(failure);
+  } catch (const GnuplotMissing& missing) {
+    warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
+  } catch (const Error& error) {
+    throw Error(error.exit_code(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
+  }
+}
+
 }  // namespace
+
+void check_report_files(const std::filesystem::path& folder) {
+  const RunFolder run{folder};
+  refuse_other_kind(run.report(), "id=\"provenance\"", "report");
+  for (const auto name : kPlotNames)
+    refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
+}
 
 bool report_is_current(const std::filesystem::path& folder) {
   const RunFolder run{folder};
   try {
     if (!std::filesystem::exists(run.report())) return false;
     const auto page = read_file(run.report());
+    if (page.find(kStillPicture) == std::string::npos) return false;
     const auto provenance = provenance_in(page, run.report().string());
     if (!provenance) return false;
     for (const auto& input : provenance->inputs)  // a pipe's content is in the copy of the case
@@ -159,11 +208,14 @@ bool report_is_current(const std::filesystem::path& folder) {
 
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given) {
+  check_report_files(folder);
   const auto run = read_run(folder);
   const auto files = files_of(run);
   const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
-  const auto pictures = draw(plots_of(run));
+  std::exception_ptr failure;
+  auto pictures = draw(plots_of(run), failure);
   const auto page = page_of(run, pictures);
+  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
   for (const auto& [plot, svg] : pictures)
     write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
   write_output(run.folder.report(), TextKind::kHtml, page, provenance);
@@ -172,6 +224,7 @@ void write_report(const std::filesystem::path& folder,
         pictures.end())
       remove_file(run.folder.plot(std::string(name)));
   say(fmt::format("report: {}", run.folder.report().string()));
+  if (failure) warn_or_throw(failure);
 }
 
 }  // namespace viscontact

@@ -42,9 +42,12 @@ std::string origin_section(const RunResults& run) {
   auto versions = library_versions();
   versions.insert(run.fit.versions.begin(), run.fit.versions.end());
   if (run.table) versions.insert(run.table->versions.begin(), run.table->versions.end());
-  std::vector<std::string> files = {"table.csv", "fit.json", "comparison.json"};
+  std::vector<std::string> files;
+  if (run.table) files.emplace_back("table.csv");
+  files.emplace_back("fit.json");
   if (!run.trajectories.empty())
-    files.insert(files.begin() + 2, "trajectories/" + run.trajectories.front().model + ".csv");
+    files.push_back("trajectories/" + run.trajectories.front().model + ".csv");
+  files.emplace_back("comparison.json");
   for (const auto& file : files) {
     const auto path = run.folder.path / file;
     if (!std::filesystem::exists(path)) continue;

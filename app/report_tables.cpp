@@ -13,10 +13,19 @@ namespace {
 std::string trust(const FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
-    text += fmt::format(
-        "Each row predicted from the others: root mean square {:.3g}, largest {:.3g} at gap "
-        "{:.4g}. ",
-        *d.leave_one_out_rms, d.leave_one_out_largest.value(), d.leave_one_out_gap.value());
+    text += fmt::format("Each row predicted from the others: root mean square {:.3g}",
+                        *d.leave_one_out_rms);
+  if (d.left_out_inner)
+    text += fmt::format(", between the rows at worst {:.3g} at gap {:.4g}",
+                        d.left_out_inner->relative_residual, d.left_out_inner->gap);
+  if (d.left_out_end)
+    text += fmt::format(", beyond an end (an extrapolation) {:.3g} at gap {:.4g}",
+                        d.left_out_end->relative_residual, d.left_out_end->gap);
+  // A fit file of an earlier version does not tell the two apart.
+  if (d.leave_one_out_rms && !d.left_out_inner && !d.left_out_end)
+    text += fmt::format(", largest {:.3g} at gap {:.4g}", d.leave_one_out_largest.value(),
+                        d.leave_one_out_gap.value());
+  if (d.leave_one_out_rms) text += ". ";
   if (d.chi_squared)
     text += fmt::format(
         "Chi-squared against the table's error estimates: {:.3g} for {} degrees of freedom{}.",
@@ -96,6 +105,9 @@ std::string models_table(const RunResults& run) {
                                : "&ndash;",
         fmt::format("{:.3g}", model.sup_gap_distance), fmt::format("{:.3g}", model.l1_gap_distance),
         fmt::format("{:.3g}", model.l1_velocity_distance));
+  for (const auto& failed : run.comparison.failed_models)
+    rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n",
+                        escaped(failed.model), escaped(failed.reason));
   return fmt::format(
       "<div class=scroll><table><thead><tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th>"
       "<th rowspan=2>at time</th><th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"

@@ -57,6 +57,32 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
   }
 }
 
+void add_failed_models(Warnings& warnings, const RunResults& run) {
+  for (const auto& failed : run.comparison.failed_models)
+    warnings.push_back(
+        {fmt::format("{} failed and has no trajectory: {}", failed.model, failed.reason),
+         "failed_models.json"});
+}
+
+/// A residual is compared with the error estimate of its own row: that of another row may be much
+/// larger. A fit file of an earlier version does not have this comparison.
+void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
+  if (d.misfit != Misfit::kBasis) return;
+  if (const auto& worst = d.worst_to_estimate)
+    warnings.push_back(
+        {fmt::format("The fit is coarser than the table: {} of {} rows have a relative residual "
+                     "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
+                     "which is {:.2g} times its estimate); another basis can do better",
+                     d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
+                     worst->ratio),
+         "fit.json"});
+  else
+    warnings.push_back({fmt::format("The fit is coarser than the table: chi-squared is {:.2g} for "
+                                    "{} degrees of freedom; another basis can do better",
+                                    d.chi_squared.value_or(0), d.degrees_of_freedom),
+                        "fit.json"});
+}
+
 void add_poor_fit(Warnings& warnings, const Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
@@ -70,13 +96,7 @@ void add_poor_fit(Warnings& warnings, const Fit& fit) {
   if (!diagnostics) return;
   for (const auto& warning : diagnostics->warnings)
     warnings.push_back({"Fit: " + warning, "fit.json"});
-  if (diagnostics->misfit == Misfit::kBasis)
-    warnings.push_back(
-        {fmt::format(
-             "The fit is coarser than the table: its largest relative residual is {:.2g}, the "
-             "table's largest error estimate {:.2g}; another basis can do better",
-             diagnostics->largest_inlier_residual, diagnostics->largest_error_estimate),
-         "fit.json"});
+  add_coarser_than_table(warnings, *diagnostics);
 }
 
 void add_unmet_accuracy(Warnings& warnings, const RunResults& run) {
@@ -166,6 +186,7 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
 
 std::vector<ReportWarning> warnings_of(const RunResults& run) {
   Warnings warnings;
+  add_failed_models(warnings, run);
   add_extrapolation(warnings, run);
   add_poor_fit(warnings, run.fit);
   add_unmet_accuracy(warnings, run);

@@ -40,7 +40,7 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
            word.starts_with("--slurm-options");
   };
   if (!known || std::ranges::any_of(command, is_refused))
-    throw_bad_input({file}, "its line 'provenance' has a command that makes no file");
+    throw_bad_input({file}, "its line 'provenance' holds a command that 'rerun' does not run");
 }
 
 /// Where an option of the command has its value: the word, and where in it the value begins.
@@ -90,21 +90,25 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
       command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
       return command;
     }
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("the command that made {} ('{}') writes to one place; leave out -o",
-                            o.file, command[1]));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("the command that made {} ('{}') can write to its own place only; leave out -o",
+                    o.file, command[1]));
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
   if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("{} is a picture that is drawn beside the table; repeat that, with -o "
-                            "TABLE, and its pictures are drawn beside it",
-                            o.file));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format(
+            "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
+            "its pictures are drawn beside it",
+            o.file));
   if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must "
-                            "be a folder for all of them, it is '{}'",
-                            o.file, command[1], value_at(command, *output), o.output));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must be "
+                    "a folder for all of them, but it is '{}'",
+                    o.file, command[1], value_at(command, *output), o.output));
   put(*output);
   // Its picture would be drawn over the first one.
   if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
@@ -118,20 +122,26 @@ std::vector<std::string> with_output(const Options& o, const Provenance& provena
 /// old place.
 void move_to(Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
+  // A file that does not tell its folder has no absolute paths either.
+  const bool tells_folder = !provenance.folder.empty();
   const auto move = [&](std::string& word, std::size_t begin) {
-    if (word.compare(begin, from.size(), from) == 0)
+    if (tells_folder && word.compare(begin, from.size(), from) == 0)
       word.replace(begin, from.size(), (to / "").string());
   };
-  for (std::size_t i = 2; i < provenance.command.size(); ++i) {
-    auto& word = provenance.command[i];
-    const auto value = word.find("=/");  // --output=/...
-    move(word, value != std::string::npos && word.starts_with("--") ? value + 1
-               : word.starts_with("-o/")                            ? 2
-                                                                    : 0);
-  }
+  for (std::size_t i = 2; i < provenance.command.size(); ++i)
+    move(provenance.command[i], path_in_word(provenance.command[i]));
   for (auto& input : provenance.inputs) move(input.file, 0);
   move(provenance.output, 0);
   provenance.folder = to.string();
+}
+
+/// The folder of the command that made `file`, for a file that does not tell it: the one in which
+/// the command would write to this very place, or else the one in which the file lies.
+fs::path folder_around(const fs::path& file, const std::string& output) {
+  const auto path = fs::weakly_canonical(file);
+  auto folder = path;
+  for ([[maybe_unused]] const auto& part : fs::path(output)) folder = folder.parent_path();
+  return folder / output == path ? folder : path.parent_path();
 }
 
 std::string in_words(const std::vector<std::string>& command) {
@@ -147,22 +157,26 @@ void rerun(const Options& o) {
                     "does not say how it was made (no line 'provenance'); files that "
                     "Viscontact writes do, copies of yours do not");
   const std::string made_in = provenance->folder;
+  if (made_in.empty() && o.folder.empty())
+    provenance->folder = folder_around(o.file, provenance->output).string();
   if (!o.folder.empty()) move_to(*provenance, fs::weakly_canonical(o.folder));
   const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))
-    throw_bad_input({folder.string()},
-                    fmt::format("is no folder; the command that made {} ran in {}; '--folder DIR' "
-                                "names another one",
-                                o.file, made_in));
+    throw_bad_input(
+        {folder.string()},
+        fmt::format("is no folder; the command that made {} ran in {}, and '--folder DIR' "
+                    "names another folder to run it in",
+                    o.file, made_in));
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
     if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())
       changes.push_back(change);
   const std::string list = fmt::format("{}", fmt::join(changes, "; "));
   if (!changes.empty() && !o.changed_inputs && !o.dry_run)
-    throw_bad_input({o.file}, fmt::format("was made from other inputs: {}; with --changed-inputs "
-                                          "what is there now is used",
-                                          list));
+    throw_bad_input({o.file},
+                    fmt::format("was made from other inputs: {}; give --changed-inputs to "
+                                "use the inputs as they are now",
+                                list));
   check_command(o.file, provenance->command);
   auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
   // The rows that were gathered may be gone: what is missing is computed here.

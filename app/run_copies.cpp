@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/foreign_files.hpp"
 #include "app/provenance.hpp"
 #include "common/error.hpp"
 #include "common/file.hpp"
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 void check_copy(const RunFolder& run, const fs::path& copy, const std::string& text,
                 std::string_view kind) {
-  if (fs::is_directory(run.trajectories()) || !fs::is_regular_file(copy)) return;
+  if (!fs::is_regular_file(copy) || holds_a_run(run)) return;
   if (without_provenance(read_file(copy)) != without_provenance(text))
     throw_bad_input(
         {copy.string()},
@@ -21,6 +22,16 @@ void check_copy(const RunFolder& run, const fs::path& copy, const std::string& t
 }
 
 }  // namespace
+
+bool holds_a_run(const RunFolder& run) {
+  if (!fs::is_directory(run.trajectories())) return false;
+  bool is_empty = true;
+  for (const auto& entry : fs::directory_iterator(run.trajectories())) {
+    is_empty = false;
+    if (entry.is_regular_file() && is_written_by_viscontact(entry.path())) return true;
+  }
+  return is_empty;
+}
 
 std::string text_of_forces(const Case& c) {
   std::string text;

@@ -24,6 +24,8 @@ struct RunFolder {
   }
   std::filesystem::path comparison() const { return path / "comparison.json"; }
   std::filesystem::path uncertainty() const { return path / "uncertainty.json"; }
+  /// The models without a trajectory, and why; there only if a model failed.
+  std::filesystem::path failed_models() const { return path / "failed_models.json"; }
   std::filesystem::path plot(const std::string& name) const {
     return path / "plots" / (name + ".svg");
   }

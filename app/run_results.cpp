@@ -1,8 +1,23 @@
 #include "app/run_results.hpp"
 
+#include "app/provenance.hpp"
 #include "common/error.hpp"
+#include "common/file.hpp"
 
 namespace viscontact {
+namespace {
+
+/// True if the table in the folder is the run's own: the fit was made from it; or the case asks for
+/// a fit of a table, so that another table in its place deserves a warning. A case with `exact` or
+/// `file` in [fit] needs no table: then table.csv is what an earlier case has left there, or a file
+/// of the user's, and may be anything.
+bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
+  if (!std::filesystem::is_regular_file(run.table())) return false;
+  const bool needs_none = fit.basis == kExactPlane || (c.fit && (c.fit->exact || c.fit->file));
+  return !needs_none || content_sha256(read_file(run.table())) == fit.table_sha256;
+}
+
+}  // namespace
 
 RunResults read_run(const std::filesystem::path& folder) {
   const RunFolder run{folder};
@@ -17,8 +32,9 @@ RunResults read_run(const std::filesystem::path& folder) {
     if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
       results.trajectories.push_back(read_trajectory(file));
   if (results.trajectories.empty())
-    throw_bad_input({run.trajectories().string()}, "has none of the comparison's trajectories");
-  if (std::filesystem::exists(run.table())) results.table = read_force_table(run.table());
+    throw_bad_input({run.trajectories().string()},
+                    "has no trajectory of the models that the comparison names");
+  if (has_table(run, results.c, results.fit)) results.table = read_force_table(run.table());
   if (std::filesystem::exists(run.uncertainty()))
     results.uncertainty = read_uncertainty(run.uncertainty());
   return results;

@@ -22,7 +22,7 @@ struct RunResults {
   Comparison comparison;
   std::vector<Trajectory>
       trajectories;  ///< those of the comparison's models that are there; at least one
-  std::optional<ForceTable> table;
+  std::optional<ForceTable> table;  ///< of the fit; none if the run needs none
   std::optional<FitUncertainty> uncertainty;
 };
 

@@ -80,7 +80,7 @@ SweepPlot picture_of(const Options& o, const Case& c, const SweepPlan& plan) {
   }
   if (!picture.y.empty() && plan.samples > 0)
     throw Error(ExitCode::kWrongUsage,
-                "a map is drawn of a grid, not of random samples; leave out --y");
+                "a map can be drawn of a grid only, not of random samples; leave out --y");
   if (picture.columns.empty())
     for (const auto& model : plan.models) picture.columns.push_back(model + ".minimal_gap");
   return picture;
@@ -90,8 +90,9 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   const auto columns = sweep_columns(plan);
   const auto check = [&](const std::string& name) {
     if (std::ranges::find(columns, name) != columns.end()) return;
-    throw Error(ExitCode::kWrongUsage, fmt::format("there is no column '{}' to plot; there are: {}",
-                                                   name, fmt::join(columns, ", ")));
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("there is no column '{}' to plot; the columns are: {}", name,
+                            fmt::join(columns, ", ")));
   };
   for (const auto& axis : {picture.x, picture.y}) {
     if (axis.empty()) continue;
@@ -100,7 +101,8 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
       throw Error(
           ExitCode::kWrongUsage,
           fmt::format(
-              "'{}' cannot be an axis of the plot: it is no key that is varied, or has one value",
+              "'{}' cannot be an axis of the plot; an axis must be a key that is varied over at "
+              "least two values",
               axis));
   }
   for (const auto& column : picture.columns) {
@@ -128,7 +130,21 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
+/// "; ... failed at 3 points", or nothing if no model failed anywhere.
+std::string failures_in_words(const SweepOutcome& outcome) {
+  const auto points = [](std::uint64_t n) {
+    return fmt::format("{} point{}", n, n == 1 ? "" : "s");
+  };
+  std::string text;
+  if (outcome.without_result > 0)
+    text += fmt::format("; every model failed at {}", points(outcome.without_result));
+  if (outcome.with_some_results > 0)
+    text += fmt::format("; some models failed at {}", points(outcome.with_some_results));
+  return text.empty() ? text : text + " (the column 'failure' says why)";
+}
+
 void run(const Options& o) {
+  check_models("--models", o.models);
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
   if (!o.plot.empty()) refuse_other_kind(o.plot, "<svg", "picture");
@@ -160,11 +176,18 @@ void run(const Options& o) {
       });
   clear_progress();
   const auto size = sweep_size(sweep.plan());
-  say(computed == 0
-          ? fmt::format("sweep: {} is up to date", o.output)
-          : fmt::format(
-                "sweep: {} rows in {}{}", size, o.output,
-                computed < size ? fmt::format(", {} of them from before", size - computed) : ""));
+  const auto outcome = read_outcome(sweep.plan(), o.output);
+  say((computed == 0
+           ? fmt::format("sweep: {} is up to date", o.output)
+           : fmt::format(
+                 "sweep: {} rows in {}{}", size, o.output,
+                 computed < size ? fmt::format(", {} of them from before", size - computed) : "")) +
+      failures_in_words(outcome));
+  if (outcome.without_result == outcome.points)
+    throw Error(ExitCode::kNotConverged,
+                fmt::format("{}: every model failed at every point; the column 'failure' says why, "
+                            "at the first point: {}",
+                            o.output, outcome.first_failure));
   if (!o.plot.empty())
     write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture),
                  provenance_of(Inputs{files, {o.output}}));

@@ -50,10 +50,12 @@ class SweepRows {
     return {index_of(name.substr(0, slash)), index_of(name.substr(slash + 1))};
   }
 
-  /// The next row; false at the end.
+  /// The next row; false at the end. Blank lines are no rows.
   bool next() {
     std::string line;
-    if (!std::getline(file_, line)) return false;
+    do
+      if (!std::getline(file_, line)) return false;
+    while (line.find_first_not_of(" \t\r,") == std::string::npos);
     fields_ = fields_of(line);
     return true;
   }
@@ -68,7 +70,7 @@ class SweepRows {
   std::size_t index_of(const std::string& name) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end())
-      throw_bad_input({path_.string()}, fmt::format("has no column '{}'; there are: {}", name,
+      throw_bad_input({path_.string()}, fmt::format("has no column '{}'; its columns are: {}", name,
                                                     fmt::join(names_, ", ")));
     return static_cast<std::size_t>(found - names_.begin());
   }
@@ -115,7 +117,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
       ys.push_back(rows.value(places[i]));
     }
   if (std::ranges::none_of(ys, [](double y) { return std::isfinite(y); }))
-    throw_bad_input({path.string()}, "has no value to draw in these columns");
+    throw_bad_input({path.string()}, "has no value to draw in the columns that were asked for");
   // Random samples come in no order.
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
@@ -139,9 +141,10 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
     values.push_back(rows.value(column));
   }
   if (xs.size() < 2 || ys.size() < 2)
-    throw_bad_input({path.string()}, "is no grid of two or more values in each direction");
+    throw_bad_input({path.string()},
+                    "is not a grid of at least two values in each direction, which a map needs");
   if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); }))
-    throw_bad_input({path.string()}, "has no value to draw in this column");
+    throw_bad_input({path.string()}, "has no value to draw in the column that was asked for");
   const bool log_x = is_logarithmic({xs.begin(), xs.end()});
   const bool log_y = is_logarithmic({ys.begin(), ys.end()});
   const bool log_value = is_logarithmic(values);

@@ -74,15 +74,17 @@ void add_tabulate(CLI::App& app) {
   command->callback([o, jobs, tasks, slurm_options, plot] {
     const bool slurm = o->launcher == "slurm";
     if (!slurm && (tasks->count() > 0 || slurm_options->count() > 0))
-      throw Error(ExitCode::kWrongUsage,
-                  "--tasks and --slurm-options are for --launcher slurm only");
+      throw Error(ExitCode::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
     check_outputs({o->output});
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);
     for (const auto& one : tables) refuse_other_kind(one.table.string(), "# case: ", "table");
     std::vector<std::vector<double>> pictures;  // gaps, for each table; before any work is done
     if (plot->count() > 0)
-      for (const auto& one : tables) pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
+      for (const auto& one : tables) {
+        pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));
+        check_pictures(pictures.back(), picture_folder(one.table));
+      }
     if (o->dry_run) {
       std::vector<DryRun> runs;
       for (const auto& one : tables) runs.push_back(dry_run(one));

@@ -52,10 +52,19 @@ void show_rows(const TabulateProgress& progress) {
                             progress.rows, progress.seconds_left));
 }
 
+/// How many rows there are, and how many of them an earlier call has finished.
+std::string rows_in_words(const CaseTable& one, const std::vector<GridPoint>& points) {
+  const auto missing = missing_points(read_row_record(one.table, one.hash()), points);
+  const auto kept = points.size() - missing.size();
+  return fmt::format("{} rows{}", points.size(),
+                     kept > 0 ? fmt::format(" ({} of them from before)", kept) : "");
+}
+
 void tabulate_one(const CaseTable& one, int jobs) {
   if (is_up_to_date(one)) return;
   check_output_file(one.table);
-  say(fmt::format("tabulate: {} rows on {} processes", grid_of(one.tabulation()).size(), jobs));
+  say(fmt::format("tabulate: {} on {} processes", rows_in_words(one, grid_of(one.tabulation())),
+                  jobs));
   const auto provenance = provenance_of({{one.c.path}, {}});
   auto table = tabulate(default_freefem(), one.tabulation(), jobs, one.table, show_rows);
   clear_progress();
@@ -145,8 +154,8 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
     const auto [other, is_new] = case_of.insert({names.back(), file});
     if (!is_new)
       throw Error(ExitCode::kWrongUsage,
-                  fmt::format("{} and {} would both be tabulated to {}; rename one", other->second,
-                              file, names.back().string()));
+                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
+                              other->second, file, names.back().string()));
   }
   std::vector<CaseTable> tables;
   for (std::size_t i = 0; i < case_files.size(); ++i) {
@@ -165,7 +174,7 @@ Share parse_share(const std::string& text) {
     if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
   }
   throw Error(ExitCode::kWrongUsage,
-              fmt::format("--task is '{}'; must be K/T with 0 <= K < T", text));
+              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
 }
 
 std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
@@ -189,7 +198,8 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
   const auto points = points_of(tables, share);
   for_each_table(tables, [&](std::size_t i) {
     if (points[i].empty()) return;
-    say(fmt::format("tabulate: {} rows of {}", points[i].size(), tables[i].table.string()));
+    say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
+                    tables[i].table.string()));
     compute_rows(worker, tables[i].tabulation(), points[i], tables[i].table, show_rows);
   });
 }

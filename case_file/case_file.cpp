@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
@@ -29,7 +30,7 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
   try {
     return check();
   } catch (const Error& error) {
-    section.fail(key, fmt::format("is wrong: {}", error.what()));
+    section.fail(key, fmt::format("is not accepted: {}", error.what()));
   }
 }
 
@@ -39,7 +40,7 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
     auto gaps = tabulation.numbers("gaps", kPositive);
     std::ranges::sort(gaps);
     if (std::ranges::adjacent_find(gaps) != gaps.end())
-      tabulation.fail("gaps", "has the same gap twice");
+      tabulation.fail("gaps", "contains the same gap twice; each gap must be there once");
     return gaps;
   }
   const auto grid = tabulation.section("gaps");
@@ -48,9 +49,10 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   const int count = grid.count("count", 2, 100000);
   const std::string spacing = grid.text("spacing");
   grid.finish();
-  if (!(to > from)) grid.fail("to", fmt::format("is {}; must be greater than from, {}", to, from));
+  if (!(to > from))
+    grid.fail("to", fmt::format("is {}; it must be greater than from, {}", to, from));
   if (spacing != "log" && spacing != "linear")
-    grid.fail("spacing", fmt::format("is '{}'; must be \"log\" or \"linear\"", spacing));
+    grid.fail("spacing", fmt::format("is '{}'; it must be \"log\" or \"linear\"", spacing));
   std::vector<double> gaps;
   for (int i = 0; i < count; ++i) {
     const double w = static_cast<double>(i) / (count - 1);
@@ -58,8 +60,9 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   }
   gaps.back() = to;
   if (std::ranges::adjacent_find(gaps, std::greater_equal()) != gaps.end())
-    grid.fail("count", fmt::format("is {}: more gaps than there are numbers from {} to {}", count,
-                                   from, to));
+    grid.fail("count", fmt::format("is {}; there are not so many different numbers of double "
+                                   "precision from {} to {}",
+                                   count, from, to));
   return gaps;
 }
 
@@ -82,7 +85,7 @@ void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation
 void read_container(const TomlSection& section, const RoomNeeded& room, Tabulation& tabulation) {
   if (!find_geometry(tabulation.geometry).takes_container) {
     if (section.has("container"))
-      section.fail("container", fmt::format("must not be there: a {} is its own container",
+      section.fail("container", fmt::format("must be left out, because a {} is its own container",
                                             tabulation.geometry));
     return;
   }
@@ -90,20 +93,34 @@ void read_container(const TomlSection& section, const RoomNeeded& room, Tabulati
     if (const auto text = section.text("container"); text != "unbounded")
       section.fail(
           "container",
-          fmt::format("is '{}'; must be \"unbounded\" or a table with radius and height", text));
+          fmt::format(
+              "is '{}'; it must be \"unbounded\" or a table {{ radius = ..., height = ... }}",
+              text));
     return;
   }
   const auto table = section.section("container");
   const Container container{table.number("radius", kPositive), table.number("height", kPositive)};
   table.finish();
   if (!(container.radius > room.container_radius))
-    table.fail("radius", fmt::format("is {}; must be greater than that of sphere and neighbour, {}",
-                                     container.radius, room.container_radius));
+    table.fail("radius",
+               fmt::format("is {}; it must be greater than {}, the radius of sphere and neighbour",
+                           container.radius, room.container_radius));
   if (!(container.height > room.container_height))
-    table.fail("height",
-               fmt::format("is {}; must be greater than {}, what the largest gap, the sphere and "
-                           "its neighbour need",
-                           container.height, room.container_height));
+    table.fail(
+        "height",
+        fmt::format("is {}; it must be greater than {}, what the largest gap, the sphere and "
+                    "its neighbour need",
+                    container.height, room.container_height));
+  // Beyond, FreeFEM's mesh generator cannot make edges that are short enough for the gap
+  // (graded_boundary.idp); that much wider, the fluid may as well be unbounded.
+  constexpr double kLargest = 2e5;
+  for (const auto& [key, length] :
+       {std::pair("radius", container.radius), std::pair("height", container.height)})
+    if (length > kLargest * tabulation.radius)
+      table.fail(key,
+                 fmt::format("is {}; it must be at most {} sphere radii, {}, or the container must be "
+                             "\"unbounded\"",
+                             length, kLargest, kLargest * tabulation.radius));
   tabulation.container = container;
 }
 
@@ -116,21 +133,24 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   auto velocities = tabulation.reference_velocities;
   std::ranges::sort(velocities);
   if (std::ranges::adjacent_find(velocities) != velocities.end())
-    section.fail("reference_velocities", "has the same velocity twice");
+    section.fail("reference_velocities",
+                 "contains the same velocity twice; each velocity must be there once");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   read_geometry(section, tabulation);
   // Below, the matrices are beyond double precision.
   constexpr double kSmallestGap = 1e-8;
   if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)
-    section.fail("gaps", fmt::format("goes down to {}; a gap is at least {} sphere radii, {}",
-                                     narrowest, kSmallestGap, kSmallestGap * radius));
+    section.fail("gaps",
+                 fmt::format("goes down to {}; a gap must be at least {} sphere radii, which is {}",
+                             narrowest, kSmallestGap, kSmallestGap * radius));
   const double widest = tabulation.gaps.back();
   const auto room =
       find_geometry(tabulation.geometry).room(radius, widest, tabulation.geometry_parameters);
-  if (!(room.largest_gap > 0)) section.fail("geometry", "leaves no room for the sphere");
+  if (!(room.largest_gap > 0))
+    section.fail("geometry", "leaves no room for the sphere; give it a larger radius");
   // Two lengths that are subtracted: equal up to rounding is equal.
   if (!(widest <= room.largest_gap * (1 + 1e-12)))
-    section.fail("gaps", fmt::format("goes up to {}; in this {} a gap is at most {}", widest,
+    section.fail("gaps", fmt::format("goes up to {}; in this {} a gap must be at most {}", widest,
                                      tabulation.geometry, room.largest_gap));
   read_container(section, room, tabulation);
   section.finish();
@@ -147,7 +167,7 @@ Value one_of(const TomlSection& section, std::string_view key,
     if (name == word) return value;
     allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : " or ", name);
   }
-  section.fail(key, fmt::format("is '{}'; must be {}", word, allowed));
+  section.fail(key, fmt::format("is '{}'; it must be {}", word, allowed));
 }
 
 FitRequest read_fit_request(const TomlSection& section, const std::filesystem::path& case_folder) {
@@ -156,19 +176,22 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
     fit.file = case_folder / section.text("file");
   } else if (section.has("exact")) {
     if (const auto wall = section.text("exact"); wall != "plane")
-      section.fail("exact", fmt::format("is '{}'; must be \"plane\"", wall));
+      section.fail("exact", fmt::format("is '{}'; it must be \"plane\"", wall));
     fit.exact = true;
   } else {
     auto& settings = fit.settings;
     const std::string basis_key = section.has("terms") ? "terms" : "basis";
-    const std::string basis = section.text(basis_key);
+    // Defaults are those of the command `fit`.
+    const std::string basis = section.has(basis_key) ? section.text(basis_key) : "lecture";
     if (basis_key == "terms" && section.has("basis"))
-      section.fail("basis", "must not be there beside terms, a basis of your own");
+      section.fail("basis", "must be left out where terms gives a basis of its own");
     settings.basis = at_key(section, basis_key, [&] {
       return basis_key == "terms" ? parse_terms(basis) : find_basis(basis);
     });
-    const std::string weights = section.text("weights");
-    settings.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
+    if (section.has("weights")) {
+      const std::string weights = section.text("weights");
+      settings.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
+    }
     if (section.has("loss")) {
       const std::string loss = section.text("loss");
       settings.loss = at_key(section, "loss", [&] { return parse_loss(loss); });
@@ -178,8 +201,9 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
       if (!section.is_text("fix"))
         settings.leading_value = section.number("fix", kFinite);
       else if (section.text("fix") != "theory")
-        section.fail("fix", fmt::format("is '{}'; must be \"theory\" or the coefficient of 1/q",
-                                        section.text("fix")));
+        section.fail(
+            "fix", fmt::format("is '{}'; it must be \"theory\" or a number, the coefficient of 1/q",
+                               section.text("fix")));
     }
   }
   if (section.has("below"))
@@ -198,7 +222,7 @@ ExternalForce::Piece read_piece(const TomlSection& entry) {
   ExternalForce::Piece piece{entry.number("until", kPositive), 0};
   if (entry.has("polynomial")) {
     if (entry.has("value"))
-      entry.fail("value", "must not be there beside polynomial, whose first coefficient it is");
+      entry.fail("value", "must be left out where polynomial gives it as the first coefficient");
     auto coefficients = entry.numbers("polynomial", kFinite);
     piece.value = coefficients.front();
     piece.higher.assign(coefficients.begin() + 1, coefficients.end());
@@ -243,7 +267,7 @@ ExternalForce read_forces(const TomlSection& motion, double end_time,
   if (!pieces.empty()) {
     summands.push_back(at_key(motion, "external_force", [&] { return ExternalForce(pieces); }));
     if (pieces.back().until < end_time)
-      motion.fail("external_force", fmt::format("ends at {}; must reach motion.end_time, {}",
+      motion.fail("external_force", fmt::format("ends at {}; it must reach motion.end_time, {}",
                                                 pieces.back().until, end_time));
   }
   ExternalForce force = summands.front();
@@ -254,9 +278,9 @@ ExternalForce read_forces(const TomlSection& motion, double end_time,
 double read_time_step(const TomlSection& section, double end_time) {
   const double step = section.number("time_step", kPositive);
   if (step > end_time)
-    section.fail(
-        "time_step",
-        fmt::format("is {}; must be a number > 0, at most motion.end_time, {}", step, end_time));
+    section.fail("time_step",
+                 fmt::format("is {}; it must be a number > 0 and at most motion.end_time, {}", step,
+                             end_time));
   return step;
 }
 
@@ -268,6 +292,53 @@ std::vector<std::string> read_models(const TomlSection& section) {
   return models;
 }
 
+/// `roughness`: the heights on sphere and plane, whose sum is below the radius.
+std::array<double, 2> read_roughness(const TomlSection& contact, double radius) {
+  const auto roughness = contact.numbers("roughness", kNotNegative);
+  if (roughness.size() != 2)
+    contact.fail("roughness",
+                 fmt::format("contains {} number(s); it must be two numbers >= 0, the heights on "
+                             "the sphere and on the plane",
+                             roughness.size()));
+  if (!(roughness[0] + roughness[1] < radius))
+    contact.fail("roughness",
+                 fmt::format("adds up to {}; it must be less than the sphere's radius, {}",
+                             roughness[0] + roughness[1], radius));
+  return {roughness[0], roughness[1]};
+}
+
+/// The numerical settings of the models, each with its default where the case leaves it out:
+/// time steps are end_time/4000, as in the lecture's case; surfaces are smooth; the threshold gap
+/// is a tenth of the radius, or of the initial gap where that is smaller. A section that is there
+/// is checked whether or not a model will use it.
+void read_numerical_settings(const TomlSection& root, double radius, Motion& motion) {
+  constexpr int kSteps = 4000;
+  constexpr double kRelativeTolerance = 1e-9;
+  motion.reference_time_step = motion.contact_time_step = motion.end_time / kSteps;
+  motion.inertial_relative_tolerance = kRelativeTolerance;
+  motion.threshold_gap = std::min(radius, motion.initial_gap) / 10;
+
+  if (root.has("reference")) {
+    const auto reference = root.section("reference");
+    if (reference.has("time_step"))
+      motion.reference_time_step = read_time_step(reference, motion.end_time);
+    reference.finish();
+  }
+  if (root.has("inertial")) {
+    const auto inertial = root.section("inertial");
+    if (inertial.has("relative_tolerance"))
+      motion.inertial_relative_tolerance = inertial.number("relative_tolerance", kOdeTolerance);
+    inertial.finish();
+  }
+  if (!root.has("viscous_contact")) return;
+  const auto contact = root.section("viscous_contact");
+  if (contact.has("time_step")) motion.contact_time_step = read_time_step(contact, motion.end_time);
+  if (contact.has("threshold_gap"))
+    motion.threshold_gap = contact.number("threshold_gap", kPositive);
+  if (contact.has("roughness")) motion.roughness = read_roughness(contact, radius);
+  contact.finish();
+}
+
 Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius,
                    const std::filesystem::path& case_folder,
                    std::vector<std::filesystem::path>& force_files) {
@@ -276,26 +347,9 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
                 section.number("initial_velocity", kFinite), end_time,
                 read_forces(section, end_time, case_folder, force_files)};
 
-  const auto reference = root.section("reference");
-  motion.reference_time_step = read_time_step(reference, end_time);
-  reference.finish();
+  read_numerical_settings(root, radius, motion);
 
-  const auto inertial = root.section("inertial");
-  motion.inertial_relative_tolerance = inertial.number("relative_tolerance", kOdeTolerance);
-  inertial.finish();
-
-  const auto contact = root.section("viscous_contact");
-  motion.contact_time_step = read_time_step(contact, end_time);
-  motion.threshold_gap = contact.number("threshold_gap", kPositive);
-  const auto roughness = contact.numbers("roughness", kNotNegative);
-  if (roughness.size() != 2)
-    contact.fail("roughness", "must be two numbers >= 0: the sphere's and the plane's");
-  motion.roughness = {roughness[0], roughness[1]};
-  if (!(roughness[0] + roughness[1] < radius))
-    contact.fail("roughness",
-                 fmt::format("adds up to {}; must be less than the sphere's radius, {}",
-                             roughness[0] + roughness[1], radius));
-  contact.finish();
+  if (section.has("rows")) motion.output_rows = section.count("rows", 2, 100'000'000);
 
   if (section.has("time_scale")) {
     const double scale = section.number("time_scale", kPositive);
@@ -307,7 +361,8 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
       if (!std::isnormal(time))
         section.fail(
             "time_scale",
-            fmt::format("is {}; times multiplied by it must be numbers of full precision", scale));
+            fmt::format("is {}; every time multiplied by it must stay within the range of a double",
+                        scale));
   }
   return motion;
 }
@@ -336,7 +391,7 @@ SweepRequest read_sweep(const TomlSection& section) {
   sweep.y = optional_text("y");
   if (section.has("plot")) sweep.plot = section.texts("plot");
   constexpr Allowed kSamples = {[](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
-                                "from 1 to 1e12, and whole"};
+                                "from 1 to 1e12 without a fraction"};
   if (section.has("samples"))
     sweep.samples = static_cast<std::uint64_t>(section.number("samples", kSamples));
   section.finish();
@@ -376,12 +431,15 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
   }
   const bool other_wall = c.tabulation && !c.tabulation->geometry.starts_with("plane");
   if (other_wall && c.fit && c.fit->exact)
-    root.section("fit").fail("exact", fmt::format("is of a plane; the tabulation's geometry is {}",
-                                                  c.tabulation->geometry));
+    root.section("fit").fail(
+        "exact", fmt::format("is the drag near a plane; tabulation.geometry is {}, for which "
+                             "the exact drag is not known",
+                             c.tabulation->geometry));
   for (const auto& model : c.models)
     if (other_wall && find_model(model).exact_drag)
       root.section("motion").fail(
-          "models", fmt::format("has {}, with the drag of a plane; the tabulation's geometry is {}",
+          "models", fmt::format("contains {}, which runs with the exact drag near a plane; "
+                                "tabulation.geometry is {}",
                                 model, c.tabulation->geometry));
   if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
   // Without [motion] these are not read, but they are no strangers.
@@ -398,8 +456,22 @@ Case read_case(const std::filesystem::path& path) {
   return read_case(root, std::move(text), path);
 }
 
+namespace {
+
+/// The case's text with those sections empty that it leaves out, so that their keys can be set.
+std::string with_numerical_settings(std::string text, const std::filesystem::path& path) {
+  const auto root = TomlSection::parse(text, path.string());
+  for (const auto* section : {"reference", "inertial", "viscous_contact"})
+    if (!root.has(section)) text += fmt::format("\n[{}]\n", section);
+  return text;
+}
+
+}  // namespace
+
 CaseTemplate::CaseTemplate(const std::filesystem::path& path)
-    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {}
+    : path_(path),
+      text_(read_file(path)),
+      root_(TomlSection::parse(with_numerical_settings(text_, path), path.string())) {}
 
 Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers) const {
   return read_case(root_.with_numbers(numbers), text_, path_);

@@ -51,7 +51,7 @@ struct Case {
   // below.
   std::optional<Tabulation> tabulation;
   std::optional<FitRequest> fit;
-  std::optional<Motion> motion;
+  std::optional<Motion> motion;     ///< with the settings of the models, or their defaults
   std::vector<std::string> models;  ///< names of the models of motion to run; empty: all
   std::optional<PublishedGap> published;
   std::optional<SweepRequest> sweep;

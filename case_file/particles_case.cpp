@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,9 @@ constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
 Vector read_vector(const TomlSection& section, std::string_view key, int dimension) {
   const auto numbers = section.numbers(key, kModerate);
   if (numbers.size() != static_cast<std::size_t>(dimension))
-    section.fail(key,
-                 fmt::format("has {} numbers; space.dimension is {}", numbers.size(), dimension));
+    section.fail(
+        key, fmt::format("contains {} numbers; it must contain {}, one for each dimension of space",
+                         numbers.size(), dimension));
   return {numbers[0], numbers[1], dimension == 3 ? numbers[2] : 0.0};
 }
 
@@ -48,7 +50,8 @@ PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, 
   PiecewiseConstant function;
   if (!section.is_array_of_tables(key)) {
     if (section.has(key) && !section.is_array(key))
-      section.fail(key, "must be a list of numbers, or a list of pieces { until, value }");
+      section.fail(
+          key, "is not a list; it must be a list of numbers, or a list of pieces { until, value }");
     function.pieces.push_back(
         {std::numeric_limits<double>::max(), read_vector(section, key, dimension)});
     return function;
@@ -57,14 +60,16 @@ PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, 
   for (const auto& piece : section.sections(key)) {
     const double until = piece.number("until", kPositive);
     if (!(until > before))
-      piece.fail("until", fmt::format("is {}; must be after the piece before, {}", until, before));
+      piece.fail("until",
+                 fmt::format("is {}; it must be greater than {}, where the piece before ends",
+                             until, before));
     function.pieces.push_back({until, read_vector(piece, "value", dimension)});
     piece.finish();
     before = until;
   }
   if (before < end_time * (1 - 1e-9))
-    section.fail(
-        key, fmt::format("ends at {}; must reach viscous_contact.end_time, {}", before, end_time));
+    section.fail(key, fmt::format("ends at {}; it must reach viscous_contact.end_time, {}", before,
+                                  end_time));
   // At the end itself round-off must not find it over.
   function.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
   return function;
@@ -75,10 +80,15 @@ void read_law(const TomlSection& section, particles::ContactLaw& law) {
   if (section.has("viscosity")) law.viscosity = section.number("viscosity", kModeratelyPositive);
   if (section.has("roughness")) law.roughness = section.number("roughness", kModeratelyPositive);
   if (law.gamma_min && law.viscosity)
-    section.fail("viscosity", "must not be there beside gamma_min, which it would give");
+    section.fail(
+        "viscosity",
+        "must be left out where gamma_min is given, because gamma_min would follow from it");
   if (law.viscosity.has_value() != law.roughness.has_value())
-    section.fail(law.viscosity ? "viscosity" : "roughness",
-                 "must be there with the other of viscosity and roughness, or not at all");
+    section.fail(
+        law.viscosity ? "roughness" : "viscosity",
+        fmt::format("is missing; a case with a {} needs both viscosity and roughness, from "
+                    "which gamma_min follows",
+                    law.viscosity ? "viscosity" : "roughness"));
 }
 
 particles::Plane read_plane(const TomlSection& section, int dimension, double end_time) {
@@ -86,7 +96,8 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
   plane.start.point = read_vector(section, "point", dimension);
   Vector normal = read_vector(section, "normal", dimension);
   const double length = particles::norm(normal);
-  if (!(length > 1e-100)) section.fail("normal", "is 0; must point into the free side");
+  if (!(length > 1e-100))
+    section.fail("normal", "is 0; it must be a vector that points into the free side of the plane");
   plane.start.normal = (1 / length) * normal;
   if (section.has("velocity"))
     plane.velocity = read_pieces(section, "velocity", dimension, end_time);
@@ -95,7 +106,7 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
                                  ? Vector{0, 0, section.number("angular_velocity", kModerate)}
                                  : read_vector(section, "angular_velocity", dimension);
   else if (section.has("pivot"))
-    section.fail("pivot", "is for a plane with an angular_velocity; there is none");
+    section.fail("pivot", "must be left out, because this plane has no angular_velocity");
   plane.pivot = section.has("pivot") ? read_vector(section, "pivot", dimension) : plane.start.point;
   section.finish();
   return plane;
@@ -110,6 +121,17 @@ void add(Particles& p, const Vector& centre, const Vector& velocity, double radi
   p.masses.push_back(mass);
 }
 
+/// Names a particle of a table in a case whose file gives ids: they go on after the largest.
+void add_id(Particles& p, const TomlSection& section) {
+  const auto largest = std::ranges::max(p.ids);
+  if (largest == std::numeric_limits<std::int32_t>::max())
+    section.fail("centre", fmt::format("is of a particle without an id: the file has the largest "
+                                       "one that is possible, {}, and the particles of tables "
+                                       "have the following ones",
+                                       largest));
+  p.ids.push_back(largest + 1);
+}
+
 /// How messages name a particle.
 class Names {
  public:
@@ -118,7 +140,7 @@ class Names {
     const auto x = case_.particles.position(k);
     const auto place = case_.particles.dimension == 2 ? fmt::format("{}, {}", x[0], x[1])
                                                       : fmt::format("{}, {}, {}", x[0], x[1], x[2]);
-    return fmt::format("particle {} ({}centre {}, radius {})", k,
+    return fmt::format("particle {} ({}centre {}, radius {})", case_.particles.id(k),
                        k < lines_.size() ? fmt::format("line {}, ", lines_[k]) : "", place,
                        case_.particles.radii[k]);
   }
@@ -140,8 +162,9 @@ void check_start(const ParticlesCase& c, const Names& names) {
       static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
   if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
     throw_bad_input(names.at(smallest),
-                    fmt::format("{} is too small for solver.tolerance, {}: that times the mean "
-                                "radius is {:.3g}, and must be at most a hundredth of each radius",
+                    fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
+                                "the mean radius is {:.3g}; it must be at most a hundredth of each "
+                                "radius",
                                 names(smallest), tolerance, allowed));
   const double farthest = particles::farthest(tolerance, particles::mean_radius(p));
   for (std::size_t k = 0; k < p.count(); ++k)
@@ -149,7 +172,8 @@ void check_start(const ParticlesCase& c, const Names& names) {
       if (std::abs(x) > farthest)
         throw_bad_input(names.at(k),
                         fmt::format("{} is too far from the origin for its gaps to be known to "
-                                    "solver.tolerance: at most {:.3g}",
+                                    "solver.tolerance; each coordinate must be at most {:.3g} in "
+                                    "magnitude",
                                     names(k), farthest));
   particles::Team team(1);
   for (const auto& [first, second] :
@@ -169,22 +193,41 @@ void check_start(const ParticlesCase& c, const Names& names) {
         throw_bad_input(
             names.at(k),
             fmt::format("{} is {:.3g} into plane {} at the start, or behind it; a plane's "
-                        "normal points into the free side",
+                        "normal must point into the free side",
                         names(k), -gap, w + 1));
   }
 }
 
-/// [[force]]: the same force on particles named by their number.
-void read_forces_by_number(const TomlSection& root, int dimension, double end_time,
-                           ParticlesCase& c) {
+/// The place of each particle in the arrays, by its id.
+std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
+  std::unordered_map<std::int32_t, std::int32_t> places;
+  for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
+  return places;
+}
+
+/// [[force]]: the same force on particles named by their ids.
+void read_forces_by_id(const TomlSection& root, int dimension, double end_time, ParticlesCase& c) {
+  const auto places = places_by_id(c.particles);
   for (const auto& section : root.sections("force")) {
     const auto function = read_pieces(section, "value", dimension, end_time);
-    for (const double number : section.numbers("particles", kNotNegative)) {
-      if (number != std::floor(number) || number >= static_cast<double>(c.particles.count()))
-        section.fail("particles", fmt::format("has {}; the particles' numbers are 0 to {}", number,
-                                              c.particles.count() - 1));
-      if (!c.setting.forces.emplace(static_cast<std::int32_t>(number), function).second)
-        section.fail("particles", fmt::format("has {}, which has a force already", number));
+    for (const double id : section.numbers("particles", kNotNegative)) {
+      const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
+      const auto place = whole ? places.find(static_cast<std::int32_t>(id)) : places.end();
+      if (place == places.end())
+        section.fail("particles",
+                     c.particles.ids.empty()
+                         ? fmt::format("contains {}, which is not the number of a particle; the "
+                                       "particles are numbered from 0 to {}",
+                                       id, c.particles.count() - 1)
+                         : fmt::format("contains {}, which is not the id of a particle; {} "
+                                       "gives the ids",
+                                       id,
+                                       c.particles_file.string()));
+      if (!c.setting.forces.emplace(place->second, function).second)
+        section.fail(
+            "particles",
+            fmt::format("contains particle {} a second time; each particle must have one force",
+                        id));
     }
     section.finish();
   }
@@ -197,7 +240,7 @@ std::string_view read_method(const TomlSection& solver) {
     if (row.name == text) return row.name;
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", row.name);
   }
-  solver.fail("method", fmt::format("is '{}'; must be one of {}", text, names));
+  solver.fail("method", fmt::format("is '{}'; it must be one of {}", text, names));
 }
 
 }  // namespace
@@ -219,12 +262,13 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
   c.end_time = contact.number("end_time", kModeratelyPositive);
   c.setting.time_step = contact.number("time_step", kModeratelyPositive);
   if (c.setting.time_step > c.end_time)
-    contact.fail("time_step", fmt::format("is {}; must be at most end_time, {}",
+    contact.fail("time_step", fmt::format("is {}; it must be at most end_time, {}",
                                           c.setting.time_step, c.end_time));
   if (constexpr double kMostSteps = 1e9; c.end_time / c.setting.time_step > kMostSteps)
-    contact.fail("time_step",
-                 fmt::format("is {}: {:.3g} steps to end_time; at most {:.0e} are allowed",
-                             c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
+    contact.fail(
+        "time_step",
+        fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
+                    c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
   read_law(contact, c.setting.law);
   contact.finish();
 
@@ -232,6 +276,8 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
     const auto solver = root.section("solver");
     auto& settings = c.setting.solver;
     if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
+    if (solver.has("impulse_tolerance"))
+      settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
     if (solver.has("max_iterations"))
       settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
     if (solver.has("method")) settings.method = read_method(solver);
@@ -265,15 +311,16 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
           section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
           section.number("radius", kModeratelyPositive),
           section.number("mass", kModeratelyPositive));
+      if (!c.particles.ids.empty()) add_id(c.particles, section);
       section.finish();
     }
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
-                    "has no particle; a row each after the header line");
+                    "has no particle; it must have a row for each particle after the header line");
   if (c.particles.count() == 0)
     throw_bad_input({path.string()},
                     "has no particle; name a file in [particles] or add a [[particle]]");
-  if (root.has("force")) read_forces_by_number(root, dimension, c.end_time, c);
+  if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
   root.finish();
   check_start(c, Names(c, std::move(lines)));
   return c;

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "case_file/dotted_keys.hpp"
 #include "common/error.hpp"
 
 namespace viscontact {
@@ -23,6 +24,7 @@ namespace {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
+/// A value for a message.
 std::string show(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   std::ostringstream text;
@@ -33,6 +35,7 @@ std::string show(const toml::node& node) {
 }  // namespace
 
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
+  check_dotted_keys(text, file);
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text, file));
     const auto* table = root.get();
@@ -57,7 +60,7 @@ TomlSection TomlSection::with_numbers(
       const auto dot = path.rfind('.');
       auto* parent =
           dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
-      if (parent == nullptr) refuse("is no key of this case");
+      if (parent == nullptr) refuse("is not a key of this case");
       parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
     } else if (auto* decimal = place->as_floating_point()) {
       **decimal = value;
@@ -75,11 +78,17 @@ TomlSection TomlSection::with_numbers(
         parent->insert_or_assign(path.substr(dot + 1), value);
       }
     } else {
-      refuse("is no number in this case");
+      refuse("is not a number in this case");
     }
   }
   const auto* table = root.get();
   return TomlSection(std::make_shared<Node>(Node{std::move(root), table, node_->file, "", {}}));
+}
+
+void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
+  if (node_->path.empty())
+    throw_bad_input({node_->file}, fmt::format("section [{}] {}", key, what));
+  fail(key, what);
 }
 
 void TomlSection::fail(std::string_view key, const std::string& what) const {
@@ -109,18 +118,21 @@ bool TomlSection::is_array_of_tables(std::string_view key) const {
 }
 
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
-  if (!has(key)) fail(key, fmt::format("is missing; must be a number {}", allowed.words));
+  if (!has(key)) fail(key, fmt::format("is missing; it must be a number {}", allowed.words));
   const auto* node = node_->table->get(key);
   const auto value = node->is_number() ? node->value<double>() : std::nullopt;
   if (!value || !std::isfinite(*value) || !allowed.test(*value))
-    fail(key, fmt::format("is {}; must be a number {}", show(*node), allowed.words));
+    fail(key, fmt::format("is {}; it must be a number {}", show(*node), allowed.words));
   return *value;
 }
 
 int TomlSection::count(std::string_view key, int least, int most) const {
-  const std::string allowed = fmt::format("must be a whole number from {} to {}", least, most);
+  const std::string allowed = fmt::format("it must be a whole number from {} to {}", least, most);
   if (!has(key)) fail(key, "is missing; " + allowed);
   const auto* node = node_->table->get(key);
+  if (const auto decimal = node->value_exact<double>();
+      decimal && *decimal == std::floor(*decimal))  // of which show() leaves out the point
+    fail(key, fmt::format("is {:.1f}; {}, without a decimal point", *decimal, allowed));
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
   if (!value || *value < least || *value > most)
     fail(key, fmt::format("is {}; {}", show(*node), allowed));
@@ -128,61 +140,69 @@ int TomlSection::count(std::string_view key, int least, int most) const {
 }
 
 std::string TomlSection::text(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; must be text");
+  if (!has(key)) fail(key, "is missing; it must be a text in quotes");
   const auto* node = node_->table->get(key);
   const auto value = node->is_string() ? node->value<std::string>() : std::nullopt;
-  if (!value) fail(key, fmt::format("is {}; must be text", show(*node)));
+  if (!value) fail(key, fmt::format("is {}; it must be a text in quotes", show(*node)));
   return *value;
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& allowed) const {
-  if (!has(key)) fail(key, fmt::format("is missing; must be a list of numbers {}", allowed.words));
+  if (!has(key))
+    fail(key, fmt::format("is missing; it must be a list of numbers {}", allowed.words));
   const auto* array = node_->table->get(key)->as_array();
   if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; must be a list of numbers {}", show(*node_->table->get(key)),
-                          allowed.words));
+    fail(key, fmt::format("is {}; it must be a list of at least one number, each {}",
+                          show(*node_->table->get(key)), allowed.words));
   std::vector<double> values;
   for (const auto& element : *array) {
     const auto value = element.is_number() ? element.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value) || !allowed.test(*value))
-      fail(key,
-           fmt::format("holds {}; must be a list of numbers {}", show(element), allowed.words));
+      fail(key, fmt::format("contains {}; it must be a list of numbers {}", show(element),
+                            allowed.words));
     values.push_back(*value);
   }
   return values;
 }
 
 std::vector<std::string> TomlSection::texts(std::string_view key) const {
-  const auto* array = has(key) ? node_->table->get(key)->as_array() : nullptr;
-  if (array == nullptr || array->empty()) fail(key, "must be a list of texts");
+  if (!has(key)) fail(key, "is missing; it must be a list of texts in quotes");
+  const auto* array = node_->table->get(key)->as_array();
+  if (array == nullptr || array->empty())
+    fail(key, fmt::format("is {}; it must be a list of at least one text in quotes",
+                          show(*node_->table->get(key))));
   std::vector<std::string> values;
   for (const auto& element : *array) {
     const auto value = element.value_exact<std::string>();
-    if (!value) fail(key, fmt::format("holds {}; must be a list of texts", show(element)));
+    if (!value)
+      fail(key, fmt::format("contains {}; it must be a list of texts in quotes", show(element)));
     values.push_back(*value);
   }
   return values;
 }
 
 TomlSection TomlSection::section(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; must be a table");
+  if (!has(key))
+    fail_of_section(key, node_->path.empty() ? "is missing" : "is missing; it must be a table");
   const auto* table = node_->table->get(key)->as_table();
   if (table == nullptr)
-    fail(key, fmt::format("is {}; must be a table", show(*node_->table->get(key))));
+    fail(key, fmt::format("is {}; it must be a table", show(*node_->table->get(key))));
   const std::string path =
       node_->path.empty() ? std::string(key) : fmt::format("{}.{}", node_->path, key);
   return TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}}));
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; must be a list of tables");
+  if (!has(key)) fail(key, "is missing; it must be a list of tables { ... }");
   const auto* array = node_->table->get(key)->as_array();
-  if (array == nullptr || array->empty()) fail(key, "must be a list of at least one table");
+  if (array == nullptr || array->empty())
+    fail(key, fmt::format("is {}; it must be a list of at least one table {{ ... }}",
+                          show(*node_->table->get(key))));
   std::vector<TomlSection> sections;
   for (const auto& element : *array) {
     const auto* table = element.as_table();
     if (table == nullptr)
-      fail(key, fmt::format("holds {}; must be a list of tables", show(element)));
+      fail(key, fmt::format("contains {}; it must be a list of tables {{ ... }}", show(element)));
     const std::string path = fmt::format("{}{}{}[{}]", node_->path, node_->path.empty() ? "" : ".",
                                          key, sections.size());
     sections.push_back(
@@ -198,7 +218,7 @@ void TomlSection::finish() const {
       for (const auto& name : node_->asked)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
       throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
-                      fmt::format("{}{}{} is not a key that is known here; there are: {}",
+                      fmt::format("{}{}{} is not a key that is known here; the known keys are: {}",
                                   node_->path, node_->path.empty() ? "" : ".", key.str(), known));
     }
 }

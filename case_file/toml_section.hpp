@@ -52,6 +52,8 @@ class TomlSection {
 
  private:
   struct Node;
+  /// As fail; of a section of the root without a line, since it stands nowhere.
+  [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   explicit TomlSection(std::shared_ptr<Node> node) : node_(std::move(node)) {}
   std::shared_ptr<Node> node_;
 };

@@ -13,6 +13,6 @@ struct Allowed {
 inline constexpr Allowed kPositive = {[](double v) { return v > 0; }, "> 0"};
 inline constexpr Allowed kNotNegative = {[](double v) { return v >= 0; }, ">= 0"};
 inline constexpr Allowed kNotZero = {[](double v) { return v != 0; }, "different from 0"};
-inline constexpr Allowed kFinite = {[](double) { return true; }, "that is finite"};
+inline constexpr Allowed kFinite = {[](double) { return true; }, "of finite value"};
 
 }  // namespace viscontact

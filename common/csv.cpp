@@ -14,16 +14,26 @@ std::string hint_of_separator(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#')) continue;
     if (line.find('"') != std::string::npos)
-      return ", '" + shortened(line) + "'; names must stand without quotes";
+      return ", '" + shortened(line) + "'; the names of columns must stand without quotes";
     if (line.find(',') != std::string::npos) return ", '" + shortened(line) + "'";
-    if (line.find('\0') != std::string::npos) return "; is it UTF-16? must be UTF-8";
+    if (line.find('\0') != std::string::npos)
+      return "; the file seems to be UTF-16, it must be UTF-8";
     if (line.find(';') != std::string::npos)
-      return ", whose fields are separated by semicolons; must be by commas, with decimal points";
+      return ", whose fields are separated by semicolons; they must be separated by commas, with "
+             "decimal points";
     if (line.find('\t') != std::string::npos)
-      return ", whose fields are separated by tabs; must be by commas";
+      return ", whose fields are separated by tabs; they must be separated by commas";
     return "";
   }
   return "";
+}
+
+void remove_trailing_blank_lines(std::string& text) {
+  const auto last = text.find_last_not_of(" \t\r\n,");
+  if (last == std::string::npos) return;
+  // Empty fields at the end of the last row are part of it.
+  const auto end_of_row = text.find('\n', last);
+  if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
 }
 
 CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
@@ -63,7 +73,8 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
     throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
   const auto value = parse_number(found->second);
   if (!value)
-    throw_bad_input({file}, fmt::format("# {}: is not a finite number ('{}')", key, found->second));
+    throw_bad_input(
+        {file}, fmt::format("the line '# {}: {}' must give a finite number", key, found->second));
   return *value;
 }
 

@@ -56,19 +56,24 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
 /// For a message about missing columns: the header line; or ", whose fields seem to be separated by ..." if the header line has no comma but that.
 std::string hint_of_separator(const std::string& text);
 
+/// Removes the lines at the end of `text` that hold nothing but spaces, tabs and commas, as editors
+/// and spreadsheets leave them: they are no rows. Blank lines above the last row stay.
+void remove_trailing_blank_lines(std::string& text);
+
 /// Text fit to be shown in a message: its beginning, if it is long.
 std::string shortened(const std::string& text);
 
 /// The asked columns of a CSV file, in the order of `names`; the file may have them in another
 /// order, and others besides. The first `required` columns must be there, the others read as empty
-/// where they are not. Throws Error(kBadInput) with file and line for a missing column, a row of
+/// where they are not. Blank lines after the last row are no rows. Throws Error(kBadInput) with file and line for a missing column, a row of
 /// another length, a field that is neither empty nor a finite number, or fewer rows than a line "#
 /// rows: N" promises (a truncated file).
 template <std::size_t columns>
 CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {
   const std::string file = path.string();
-  const std::string text = read_file(path);
+  std::string text = read_file(path);
+  remove_trailing_blank_lines(text);
   CsvFile<columns> result;
   result.comments = read_csv_comments(text, &result.contradictions);
   std::istringstream stream(text);
@@ -101,15 +106,16 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
     }
   } catch (const io::error::duplicated_column_in_header& e) {
     throw_bad_input({file},
-                    std::string("column '") + e.column_name + "' is twice in the header line");
+                    std::string("column '") + e.column_name + "' stands twice in the header line");
   } catch (const io::error::header_missing&) {
-    throw_bad_input({file}, "has no header line; expected columns such as '" + names[0] + "'");
+    throw_bad_input({file},
+                    "has no header line; it must name the columns, such as '" + names[0] + "'");
   } catch (const io::error::too_few_columns& e) {
     throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
   } catch (const io::error::too_many_columns& e) {
     throw_bad_input({file, e.file_line}, "has more fields than the header line");
   } catch (const io::error::line_length_limit_exceeded& e) {
-    throw_bad_input({file, e.file_line}, "is too long for a line of a CSV file");
+    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
   } catch (const io::error::base& e) {
     throw_bad_input({file}, e.what());
   }
@@ -128,7 +134,8 @@ CsvFile<columns> read_csv(const std::filesystem::path& path,
 template <std::size_t columns>
 double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names,
                       std::size_t i, const std::string& file) {
-  if (!row.fields[i]) throw_bad_input({file, row.line}, names[i] + " is empty; must be a number");
+  if (!row.fields[i])
+    throw_bad_input({file, row.line}, names[i] + " is empty; it must be a number");
   return *row.fields[i];
 }
 

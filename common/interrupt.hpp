@@ -3,10 +3,12 @@
 
 namespace viscontact {
 
-/// From now on SIGINT and SIGTERM set a flag instead of ending the process. Called once, by app/.
+/// From now on SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. SIGHUP is what
+/// a process gets whose terminal or connection is lost; it stays ignored if it was ignored before,
+/// as `nohup` arranges. Called once, by app/.
 void catch_interrupts();
 
-/// True once SIGINT or SIGTERM came.
+/// True once one of these signals came.
 bool interrupted();
 
 /// Throws Error(kInterrupted) if interrupted().

@@ -14,6 +14,11 @@
 namespace viscontact {
 namespace {
 
+/// `path` cannot be opened for writing: nothing is in it yet.
+[[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
+  throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
+}
+
 [[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()},
                   fmt::format("cannot be written ({}); finished rows are kept, the same command "
@@ -35,7 +40,7 @@ bool is_still_at(int file, const std::filesystem::path& path) {
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& held) {
   for (;;) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (file.get() < 0) throw_not_written(path, errno);
+    if (file.get() < 0) throw_not_opened(path, errno);
     // A file system without locks is no reason to compute nothing.
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw_bad_input({path.string()}, held);

@@ -8,8 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <system_error>
@@ -54,9 +56,12 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return result;
 }
 
-/// Feeds `input` to the child and collects what it says, until it closes its output or the user
-/// interrupts.
-std::string converse(Descriptor& to_child, int from_child, std::string_view input) {
+using Clock = std::chrono::steady_clock;
+
+/// Feeds `input` to the child and collects what it says, until it closes its output, the user
+/// interrupts, or `deadline` has passed.
+std::string converse(Descriptor& to_child, int from_child, std::string_view input,
+                     Clock::time_point deadline) {
   std::string output;
   if (input.empty()) to_child.close();
   for (;;) {
@@ -64,7 +69,7 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
                                    pollfd{to_child.get(), POLLOUT, 0}};
     constexpr int kMilliseconds = 100;  // how late an interrupt may be noticed
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
-    if (interrupted()) return output;
+    if (interrupted() || Clock::now() > deadline) return output;
     if (ready <= 0) continue;
     if (to_child.get() >= 0 && files[1].revents != 0) {
       const ssize_t count =
@@ -78,6 +83,31 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
       if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
       if (count == 0) return output;
     }
+  }
+}
+
+struct ChildEnd {
+  int status = 0;  ///< as wait4 gives it
+  rusage usage{};
+  bool interrupted = false, timed_out = false;  ///< why the child was killed, if it was
+};
+
+/// Waits until the child has ended. Kills the child's process group first if the user interrupts
+/// or `deadline` passes. A child can close its output and go on, so that both must be looked at
+/// here too.
+ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
+  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two looks
+  ChildEnd end;
+  for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
+    const bool to_kill = !end.interrupted && !end.timed_out;
+    if (to_kill && interrupted())
+      end.interrupted = true;
+    else if (to_kill && Clock::now() > deadline)
+      end.timed_out = true;
+    if (to_kill && (end.interrupted || end.timed_out)) ::kill(-child, SIGKILL);
+    const pid_t ended = ::wait4(child, &end.status, WNOHANG, &end.usage);
+    if (ended == child || (ended < 0 && errno != EINTR)) return end;
+    ::poll(nullptr, 0, pause);
   }
 }
 
@@ -102,7 +132,9 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input,
-                          const std::string& folder) {
+                          const std::string& folder,
+                          std::optional<std::chrono::milliseconds> time_limit) {
+  const auto deadline = time_limit ? Clock::now() + *time_limit : Clock::time_point::max();
   Pipe in = make_pipe();
   Pipe out = make_pipe();
   Pipe failure = make_pipe();
@@ -130,15 +162,10 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   }
   ProcessResult result;
   result.started = true;
-  result.output = converse(in.write_end, out.read_end.get(), input);
-  const bool cut_short = interrupted();
-  if (cut_short) ::kill(-child, SIGKILL);
-  int status = 0;
-  rusage usage = {};
-  while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
-    if (interrupted()) ::kill(-child, SIGKILL);
-  }
-  // A child that had said all is listened to all the same.
+  result.output = converse(in.write_end, out.read_end.get(), input, deadline);
+  const auto [status, usage, cut_short, timed_out] = wait_for_end(child, deadline);
+  result.timed_out = timed_out;
+  // A child that the user's interrupt has ended has no result.
   if (cut_short || WIFSIGNALED(status)) throw_if_interrupted();
   result.exit_status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (WIFSIGNALED(status)) {

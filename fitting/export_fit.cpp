@@ -64,7 +64,7 @@ std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
 }
 
 /// What a reader must know before using the numbers, a line each.
-std::vector<std::string> facts(const Fit& fit) {
+std::vector<std::string> facts(const Fit& fit, std::string_view source) {
   const auto version = fit.versions.find("Viscontact");
   std::vector<std::string> lines = {
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
@@ -82,6 +82,7 @@ std::vector<std::string> facts(const Fit& fit) {
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
     lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
                                 fit.diagnostics->largest_error_estimate));
+  if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
   if (!fit.table_sha256.empty())
     lines.push_back(fmt::format("SHA-256 of the table: {}.", fit.table_sha256));
   // They stand in comments: a line end from a fit file must not become code.
@@ -91,13 +92,13 @@ std::vector<std::string> facts(const Fit& fit) {
   return lines;
 }
 
-std::string commented(const Fit& fit, std::string_view mark) {
+std::string commented(const Fit& fit, std::string_view source, std::string_view mark) {
   std::string text;
-  for (const auto& line : facts(fit)) text += fmt::format("{} {}\n", mark, line);
+  for (const auto& line : facts(fit, source)) text += fmt::format("{} {}\n", mark, line);
   return text;
 }
 
-std::string write_c_header(const Fit& fit) {
+std::string write_c_header(const Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
   const auto function = [&](std::string_view name, Formula Term::*formula,
                             const std::string& tail) {
@@ -109,7 +110,8 @@ std::string write_c_header(const Fit& fit) {
         "  return {}{};\n}}\n\n",
         name, terms_text(sum, formula, c_literal, "\n      + "), tail);
   };
-  return commented(fit, "//") + "// C99 or C++11. Outside the interval the answer is NaN.\n" +
+  return commented(fit, source, "//") +
+         "// C99 or C++11. Outside the interval the answer is NaN.\n" +
          fmt::format(
              "#ifndef VISCONTACT_LUBRICATION_H\n#define VISCONTACT_LUBRICATION_H\n\n"
              "#include <math.h>\n\n#define VISCONTACT_SMALLEST_GAP {}\n"
@@ -122,7 +124,7 @@ std::string write_c_header(const Fit& fit) {
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
-std::string write_fortran(const Fit& fit) {
+std::string write_fortran(const Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
   const auto function = [&](std::string_view name, Formula Term::*formula,
                             const std::string& tail) {
@@ -140,7 +142,7 @@ std::string write_fortran(const Fit& fit) {
         "  end function\n\n",
         name, terms_text(sum, formula, fortran_literal, " &\n      + "), tail);
   };
-  return commented(fit, "!") + "! Outside the interval the answer is NaN.\n" +
+  return commented(fit, source, "!") + "! Outside the interval the answer is NaN.\n" +
          fmt::format(
              "module viscontact_lubrication\n"
              "  use, intrinsic :: iso_fortran_env, only: real64\n"
@@ -161,7 +163,7 @@ std::string write_fortran(const Fit& fit) {
          "end module\n";
 }
 
-std::string write_python(const Fit& fit) {
+std::string write_python(const Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
   const auto function = [&](std::string_view name, std::string_view what, Formula Term::*formula,
                             const std::string& tail) {
@@ -173,7 +175,7 @@ std::string write_python(const Fit& fit) {
         "    return ({2}{3})\n\n\n",
         name, what, terms_text(sum, formula, plain, "\n            + "), tail);
   };
-  return commented(fit, "#") +
+  return commented(fit, source, "#") +
          fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
                      plain(fit.gap_interval[0]), plain(fit.gap_interval[1])) +
          "def _check(gap):\n"
@@ -188,11 +190,11 @@ std::string write_python(const Fit& fit) {
          "    return -resistance(gap) * velocity\n";
 }
 
-std::string write_json(const Fit& fit) {
+std::string write_json(const Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
   const LubricationForce force(fit);
   nlohmann::ordered_json json;
-  json["about"] = facts(fit);
+  json["about"] = facts(fit, source);
   json["formulas"] =
       "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
       "impulse_offset";
@@ -218,9 +220,9 @@ std::string write_json(const Fit& fit) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string write_csv(const Fit& fit) {
+std::string write_csv(const Fit& fit, std::string_view source) {
   const LubricationForce force(fit);
-  std::string text = commented(fit, "#");
+  std::string text = commented(fit, source, "#");
   text += fmt::format("# force: at velocity {}\ngap,resistance,impulse,force\n",
                       plain(fit.reference_velocity));
   for (const double gap : spread_gaps(fit.gap_interval))
@@ -242,9 +244,9 @@ constexpr std::array kTargets = {
 
 std::span<const ExportTarget> export_targets() { return kTargets; }
 
-std::string export_fit(const Fit& fit, std::string_view target) {
+std::string export_fit(const Fit& fit, std::string_view target, std::string_view source) {
   (void)LubricationForce(fit);  // refuses a fit whose drag is not positive
-  return require_named(kTargets, target, "export target").write(fit);
+  return require_named(kTargets, target, "export target").write(fit, source);
 }
 
 }  // namespace viscontact

@@ -14,7 +14,7 @@ struct ExportTarget {
   std::string_view name;         ///< what users type
   std::string_view description;  ///< a line for --help
   TextKind kind;                 ///< of the text
-  std::string (*write)(const Fit& fit);
+  std::string (*write)(const Fit& fit, std::string_view source);
 };
 
 /// Every target there is: c-header, fortran, python, json, csv. Each holds the resistance R(q), the force -R(q) u and Gamma(q) = int_r^q R, summed in the
@@ -22,7 +22,8 @@ struct ExportTarget {
 /// Code outside the interval answers NaN (C, Fortran) or raises ValueError (Python).
 std::span<const ExportTarget> export_targets();
 
-/// The text for that target. Throws Error(kBadInput) for an unknown name, and as LubricationForce for a fit that is of no use.
-std::string export_fit(const Fit& fit, std::string_view target);
+/// The text for that target. `source` is the name of the fit's file, which is named in the text, or
+/// empty. Throws Error(kBadInput) for an unknown name, and as LubricationForce for a fit that is of no use.
+std::string export_fit(const Fit& fit, std::string_view target, std::string_view source = "");
 
 }  // namespace viscontact

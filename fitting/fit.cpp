@@ -25,8 +25,8 @@ void check_linearity(const ForceTable& table) {
     if (allowed > 0 && std::abs(ratio - 1) > allowed)
       throw Error(ExitCode::kBadInput,
                   fmt::format("at gap {} the force is not linear in the velocity: force over "
-                              "velocity differs by {:.2g} relative between {} and {}, "
-                              "the rows' error estimates allow {:.2g}",
+                              "velocity differs by {:.2g} relative between the velocities {} and "
+                              "{}; the rows' error estimates allow {:.2g}",
                               row.gap, ratio - 1, first->reference_velocity, row.reference_velocity,
                               allowed));
   }
@@ -41,7 +41,8 @@ std::string_view to_string(Weights weights) {
 Weights parse_weights(std::string_view word) {
   if (word == "relative") return Weights::kRelative;
   if (word == "absolute") return Weights::kAbsolute;
-  throw Error(ExitCode::kBadInput, fmt::format("weights '{}'; must be relative or absolute", word));
+  throw Error(ExitCode::kBadInput,
+              fmt::format("the weights are '{}'; they must be relative or absolute", word));
 }
 
 namespace {
@@ -52,23 +53,24 @@ double held_leading(const ForceTable& table, const FitSettings& settings) {
     throw Error(ExitCode::kBadInput, "the basis has no term 1/q whose coefficient could be held");
   if (settings.leading_value) return *settings.leading_value;
   if (!table.leading_coefficient)
-    throw Error(ExitCode::kBadInput,
-                "the table does not say what theory's coefficient of 1/q is; give the value to "
-                "hold, or write k of R = "
-                "k/q into its header (# leading_coefficient: k)");
+    throw Error(
+        ExitCode::kBadInput,
+        "the table does not say what theory's coefficient of 1/q is; give the value to hold, "
+        "or write the k of R = k/q into the table's header (# leading_coefficient: k)");
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
 void check_gaps(const ForceTable& table, const FitSettings& settings) {
   if (settings.hold_leading && settings.basis.terms.size() == 1)
-    throw Error(ExitCode::kBadInput, "the only coefficient is held; there is nothing to fit");
+    throw Error(ExitCode::kBadInput,
+                "the only coefficient is held, so that there is nothing to fit; give more terms");
   std::set<double> gaps;
   for (const auto& row : table.rows) gaps.insert(row.gap);
   const std::size_t needed =
       std::max<std::size_t>(2, settings.basis.terms.size() - (settings.hold_leading ? 1 : 0));
   if (gaps.size() < needed)
     throw Error(ExitCode::kBadInput,
-                fmt::format("the table has {} different gap(s); basis {} needs at least {}",
+                fmt::format("the table has {} different gap(s); the basis {} needs at least {}",
                             gaps.size(), settings.basis.name, needed));
 }
 
@@ -201,8 +203,9 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
       std::ranges::any_of(fit.terms, [](const FitTerm& term) {
         return !std::isfinite(term.coefficient) || !std::isfinite(term.standard_error);
       }))
-    throw Error(ExitCode::kBadInput,
-                "the forces are too large or too different to be fitted in double precision");
+    throw Error(
+        ExitCode::kBadInput,
+        "the forces are too large, or differ too much in size, to be fitted in double precision");
   fit.diagnostics = diagnose(table, system, fit);
   return fit;
 }

@@ -86,9 +86,12 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings);
 /// The same with a basis by name, every row counted. Throws Error(kBadInput) for an unknown basis too.
 Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
 
-/// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) naming the
-/// offending key.
+/// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the
+/// line, the offending key and what is allowed.
 Fit read_fit(const std::filesystem::path& path);
+
+/// The same of a fit file's text; `file` is its name for messages.
+Fit parse_fit(const std::string& text, const std::string& file);
 
 /// The text of the fit file (JSON).
 std::string write_fit(const Fit& fit);

@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/named.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/fit_diagnostics_json.hpp"
 #include "fitting/json_object.hpp"
@@ -13,30 +14,13 @@
 namespace viscontact {
 namespace {
 
-Json parse(const std::string& file, const std::string& text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const auto line =
-        1 +
-        std::count(text.begin(),
-                   text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size())),
-                   '\n');
-    throw_bad_input({file, static_cast<int>(line)},
-                    "is not valid JSON; write one with 'viscontact fit'");
-  } catch (const Json::exception& error) {
-    // "[json.exception.out_of_range.406] number overflow parsing '1e400'": what is for users comes behind the bracket.
-    const std::string what = error.what();
-    throw_bad_input({file}, what.substr(std::min(what.size(), what.find("] ") + 2), 80));
-  }
-}
-
 std::vector<FitTerm> read_terms(const JsonObject& root) {
   std::vector<FitTerm> terms;
   const Json& array = root.array("terms");
   const bool exact = root.text("basis") == kExactPlane;
   if (array.empty() != exact)
-    root.fail("terms", exact ? "is not empty; the exact drag has no terms" : "is empty");
+    root.fail("terms", exact ? "is not empty; a fit of the exact drag must have no terms"
+                             : "is empty; a fit must have at least one term");
   for (std::size_t i = 0; i < array.size(); ++i) {
     const JsonObject object = root.element("terms", i);
     object.allow_only({"name", "coefficient", "standard_error", "held"});
@@ -44,10 +28,12 @@ std::vector<FitTerm> read_terms(const JsonObject& root) {
                  object.number_above("standard_error", 0, true),
                  object.has("held") && object.truth("held")};
     if (!find_term(term.name))
-      object.fail("name", fmt::format("is '{}', which is no term", term.name));
+      object.fail("name", fmt::format("is '{}', which is not a term; the terms are: {}", term.name,
+                                      names_of(all_terms())));
     for (const auto& other : terms)
       if (other.name == term.name)
-        object.fail("name", fmt::format("is '{}', a second time", term.name));
+        object.fail("name", fmt::format("is '{}' for the second time; a term must be there once",
+                                        term.name));
     terms.push_back(term);
   }
   return terms;
@@ -55,26 +41,37 @@ std::vector<FitTerm> read_terms(const JsonObject& root) {
 
 std::vector<std::vector<double>> read_covariance(const JsonObject& root, std::size_t size) {
   std::vector<std::vector<double>> covariance;
+  const auto refuse = [&] {
+    root.fail("covariance", fmt::format("must be a matrix of {0} rows with {0} numbers each, one "
+                                        "for each term",
+                                        size));
+  };
   for (const Json& row : root.array("covariance")) {
-    if (!row.is_array() || row.size() != size)
-      root.fail("covariance", fmt::format("must be {} x {}", size, size));
+    if (!row.is_array() || row.size() != size) refuse();
     covariance.emplace_back();
-    for (const Json& value : row) covariance.back().push_back(root.finite("covariance", value));
+    for (const Json& value : row) {
+      const auto key =
+          fmt::format("covariance[{}][{}]", covariance.size() - 1, covariance.back().size());
+      covariance.back().push_back(root.finite(key, value));
+    }
   }
-  if (covariance.size() != size)
-    root.fail("covariance", fmt::format("must be {} x {}", size, size));
+  if (covariance.size() != size) refuse();
   for (std::size_t i = 0; i < size; ++i)
     if (covariance[i][i] < 0)
-      root.fail("covariance", fmt::format("has the variance {}; must be >= 0", covariance[i][i]));
+      root.fail(fmt::format("covariance[{0}][{0}]", i),
+                fmt::format("is {}; it must be >= 0, since it is a variance", covariance[i][i]));
   return covariance;
 }
 
 }  // namespace
 
 Fit read_fit(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const Json json = parse(file, read_file(path));
-  const JsonObject root(json, file, "");
+  return parse_fit(read_file(path), path.string());
+}
+
+Fit parse_fit(const std::string& text, const std::string& file) {
+  const auto document = JsonDocument::parse(text, file);
+  const JsonObject root(document);
   root.allow_only({"basis", "reference_velocity", "viscosity", "radius", "gap_interval", "weights",
                    "terms", "largest_relative_residual", "rms_relative_residual",
                    "condition_number", "covariance", "table_sha256", "versions", "loss", "geometry",
@@ -82,32 +79,35 @@ Fit read_fit(const std::filesystem::path& path) {
   Fit fit;
   fit.basis = root.text("basis");
   fit.reference_velocity = root.number("reference_velocity");
-  if (fit.reference_velocity == 0) root.fail("reference_velocity", "is 0; must not be");
+  if (fit.reference_velocity == 0)
+    root.fail("reference_velocity", "is 0; it must be different from 0");
   fit.viscosity = root.number_above("viscosity", 0, false);
   fit.radius = root.number_above("radius", 0, false);
   const Json& interval = root.array("gap_interval");
-  if (interval.size() != 2) root.fail("gap_interval", "must be two gaps");
+  if (interval.size() != 2)
+    root.fail("gap_interval", fmt::format("has {} elements; it must be two gaps", interval.size()));
   fit.gap_interval = {root.finite("gap_interval[0]", interval[0]),
                       root.finite("gap_interval[1]", interval[1])};
   if (!(fit.gap_interval[0] > 0 && fit.gap_interval[1] > fit.gap_interval[0]))
-    root.fail("gap_interval", fmt::format("is {}; must be 0 < first < second", interval.dump()));
+    root.fail("gap_interval",
+              fmt::format("is {}; it must be two gaps with 0 < first < second", interval.dump()));
   fit.weights = root.word("weights", parse_weights);
   if (root.has("loss")) fit.loss = root.word("loss", parse_loss);
   if (root.has("geometry")) fit.geometry = root.text("geometry");
   if (root.has("leading_coefficient")) fit.leading_coefficient = root.number("leading_coefficient");
-  if (root.has("diagnostics"))
-    fit.diagnostics = read_diagnostics({root.at("diagnostics"), file, "diagnostics"});
+  if (root.has("diagnostics")) fit.diagnostics = read_diagnostics(root.object("diagnostics"));
   fit.terms = read_terms(root);
   fit.largest_relative_residual = root.number_above("largest_relative_residual", 0, true);
   fit.rms_relative_residual = root.number_above("rms_relative_residual", 0, true);
   fit.condition_number = root.number_above("condition_number", 1, true);
   fit.covariance = read_covariance(root, fit.terms.size());
   fit.table_sha256 = root.text("table_sha256");
-  if (root.has("provenance") && !root.at("provenance").is_object())
-    root.fail("provenance", "must be an object");
-  if (!root.at("versions").is_object()) root.fail("versions", "must be an object");
+  if (root.has("provenance")) (void)root.object("provenance");  // must be an object, no more
+  (void)root.object("versions");
   for (const auto& [program, version] : root.at("versions").items()) {
-    if (!version.is_string()) root.fail("versions." + program, "must be text");
+    if (!version.is_string())
+      root.fail("versions." + program,
+                fmt::format("is {}; it must be a text in quotes", shown(version)));
     fit.versions[program] = version.get<std::string>();
   }
   return fit;

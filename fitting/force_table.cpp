@@ -27,7 +27,7 @@ std::string comment_or(const CsvComments& comments, const std::string& key) {
 double positive_comment(const CsvComments& comments, const std::string& key,
                         const std::string& file) {
   const double value = csv_comment_number(comments, key, file);
-  if (!(value > 0)) throw_bad_input({file}, fmt::format("# {}: is {}; must be > 0", key, value));
+  if (!(value > 0)) throw_bad_input({file}, fmt::format("# {}: is {}; it must be > 0", key, value));
   return value;
 }
 
@@ -39,8 +39,8 @@ ForceTable read_force_table(const std::filesystem::path& path) {
   ForceTable table;
   for (const auto& key : {std::string("viscosity"), std::string("radius"), kLeadingCoefficient})
     if (csv.contradictions.contains(key))
-      throw_bad_input({file},
-                      fmt::format("# {}: stands twice, with different values; must be one", key));
+      throw_bad_input(
+          {file}, fmt::format("# {}: stands twice with different values; it must stand once", key));
   table.viscosity = positive_comment(csv.comments, "viscosity", file);
   table.radius = positive_comment(csv.comments, "radius", file);
   table.geometry = comment_or(csv.comments, "geometry");
@@ -57,28 +57,31 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     row.gap = required_field(fields, kColumns, 0, file);
     row.reference_velocity = required_field(fields, kColumns, 1, file);
     row.force = required_field(fields, kColumns, 2, file);
-    if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; must be > 0", row.gap));
-    if (row.reference_velocity == 0) throw_bad_input(here, "reference_velocity is 0; must not be");
+    if (!(row.gap > 0)) throw_bad_input(here, fmt::format("gap is {}; it must be > 0", row.gap));
+    if (row.reference_velocity == 0)
+      throw_bad_input(here, "reference_velocity is 0; it must be different from 0");
     if (!(row.force * row.reference_velocity < 0) && !table.neighbour_moves)
-      throw_bad_input(here,
-                      fmt::format("force is {} at velocity {}; a drag is opposed to the velocity",
-                                  row.force, row.reference_velocity));
+      throw_bad_input(
+          here, fmt::format("force is {} at velocity {}; a drag must be opposed to the velocity",
+                            row.force, row.reference_velocity));
     const double stokes = stokes_resistance(table.viscosity, table.radius) * row.reference_velocity;
     row.drag_factor = fields.fields[3].value_or(-row.force / stokes);
     if (!std::isfinite(row.drag_factor))
       throw_bad_input(
-          here, fmt::format("force is {}, {} times Stokes' drag; must be a finite number of times",
-                            row.force, row.drag_factor));
+          here,
+          fmt::format("force is {}, which is {} times Stokes' drag; it must be a finite multiple",
+                      row.force, row.drag_factor));
     row.relative_error_estimate = fields.fields[4].value_or(0);
     row.degrees_of_freedom = fields.fields[5].value_or(0);
     row.seconds = fields.fields[6].value_or(0);
     row.observed_order = fields.fields[7].value_or(0);
     if (row.relative_error_estimate < 0)
-      throw_bad_input(here, fmt::format("relative_error_estimate is {}; must be >= 0",
+      throw_bad_input(here, fmt::format("relative_error_estimate is {}; it must be >= 0",
                                         row.relative_error_estimate));
     table.rows.push_back(row);
   }
-  if (table.rows.empty()) throw_bad_input({file}, "has no rows");
+  if (table.rows.empty())
+    throw_bad_input({file}, "has no rows below its header line; it needs at least one");
   return table;
 }
 

@@ -6,16 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "common/error.hpp"
+#include "common/json.hpp"
 
 namespace viscontact {
-
-using Json = nlohmann::ordered_json;
 
 /// A value for a message. What holds others is named only: it may be deeper than the stack.
 inline std::string shown(const Json& value) {
@@ -23,21 +21,20 @@ inline std::string shown(const Json& value) {
 }
 
 /// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
-/// "terms[2].name is ...".
+/// "FILE:LINE: terms[2].name is ...". Every function throws Error(kBadInput) for a missing key, a
+/// value of another type and a value that is not allowed. The document must outlive the object.
 class JsonObject {
  public:
-  JsonObject(const Json& json, std::string file, std::string path)
-      : json_(json), file_(std::move(file)), path_(std::move(path)) {
-    if (!json_.is_object()) fail("", "must be an object");
-  }
+  explicit JsonObject(const JsonDocument& document) : JsonObject(document, document.root(), "") {}
 
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
-    throw_bad_input({file_}, fmt::format("{} {}", where.empty() ? "the file" : where, what));
+    throw_bad_input({document_.file(), document_.line_of(where)},
+                    fmt::format("{} {}", where.empty() ? "the file" : where, what));
   }
 
   const Json& at(const std::string& key) const {
-    if (!json_.contains(key)) fail(key, "is missing");
+    if (!json_.contains(key)) fail(key, "is missing; a fit file must have this key");
     return json_.at(key);
   }
 
@@ -45,19 +42,20 @@ class JsonObject {
 
   double finite(const std::string& key, const Json& value) const {
     if (!value.is_number() || !std::isfinite(value.get<double>()))
-      fail(key, fmt::format("is {}; must be a finite number", shown(value)));
+      fail(key, fmt::format("is {}; it must be a finite number", shown(value)));
     return value.get<double>();
   }
 
   double number_above(const std::string& key, double bound, bool bound_allowed) const {
     const double value = number(key);
     if (value < bound || (value == bound && !bound_allowed))
-      fail(key, fmt::format("is {}; must be {} {}", value, bound_allowed ? ">=" : ">", bound));
+      fail(key, fmt::format("is {}; it must be {} {}", value, bound_allowed ? ">=" : ">", bound));
     return value;
   }
 
   std::string text(const std::string& key) const {
-    if (!at(key).is_string()) fail(key, fmt::format("is {}; must be text", shown(at(key))));
+    if (!at(key).is_string())
+      fail(key, fmt::format("is {}; it must be a text in quotes", shown(at(key))));
     return at(key).get<std::string>();
   }
 
@@ -68,13 +66,13 @@ class JsonObject {
 
   std::size_t count(const std::string& key) const {
     if (!at(key).is_number_unsigned())
-      fail(key, fmt::format("is {}; must be a whole number >= 0", shown(at(key))));
+      fail(key, fmt::format("is {}; it must be a whole number >= 0", shown(at(key))));
     return at(key).get<std::size_t>();
   }
 
   bool truth(const std::string& key) const {
     if (!at(key).is_boolean())
-      fail(key, fmt::format("is {}; must be true or false", shown(at(key))));
+      fail(key, fmt::format("is {}; it must be true or false", shown(at(key))));
     return at(key).get<bool>();
   }
 
@@ -94,7 +92,7 @@ class JsonObject {
   bool has(const std::string& key) const { return json_.contains(key); }
 
   const Json& array(const std::string& key) const {
-    if (!at(key).is_array()) fail(key, "must be an array");
+    if (!at(key).is_array()) fail(key, fmt::format("is {}; it must be an array", shown(at(key))));
     return at(key);
   }
 
@@ -102,7 +100,12 @@ class JsonObject {
   JsonObject element(const std::string& key, std::size_t index) const {
     const std::string inner =
         fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
-    return {array(key).at(index), file_, inner};
+    return {document_, array(key).at(index), inner};
+  }
+
+  /// The object at a key.
+  JsonObject object(const std::string& key) const {
+    return {document_, at(key), fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key)};
   }
 
   void allow_only(std::initializer_list<std::string_view> keys) const {
@@ -112,8 +115,14 @@ class JsonObject {
   }
 
  private:
+  JsonObject(const JsonDocument& document, const Json& json, std::string path)
+      : document_(document), json_(json), path_(std::move(path)) {
+    if (!json_.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json_)));
+  }
+
+  const JsonDocument& document_;
   const Json& json_;
-  std::string file_, path_;
+  std::string path_;
 };
 
 }  // namespace viscontact

@@ -65,10 +65,10 @@ void LubricationForce::set_limits(const Fit& fit) {
     limit_ = {leading_, regular_resistance(smallest)};
   if (below_ == BelowInterval::kTheoryLimit) {
     if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
-      throw Error(
-          ExitCode::kBadInput,
-          "the fit does not say what theory's coefficient k of k/q is (leading_coefficient > "
-          "0): fit a table that says it, or use the fitted coefficient");
+      throw Error(ExitCode::kBadInput,
+                  "the fit does not say what theory's coefficient k of k/q is (its key "
+                  "leading_coefficient must be > 0); fit a table that says it, or use the fitted "
+                  "coefficient");
     limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
   }
   image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
@@ -90,13 +90,19 @@ void LubricationForce::check_gap(double gap) const {
   if (exact_ && gap >= 0 && gap < smallest)
     throw Error(ExitCode::kNotConverged,
                 "the film is thinner than the smallest number that a double can hold");
-  if (exact_) throw Error(ExitCode::kBadInput, fmt::format("gap {} is no number > 0", gap));
+  if (exact_)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("gap {} is outside [{}, {}], the gaps at which the exact drag can be "
+                            "computed",
+                            gap, smallest, largest));
   if (gap < smallest && below_ == BelowInterval::kError)
-    remedy = ", or ask for the lubrication limit below it (simulate --lubrication-limit)";
+    remedy =
+        ", or let the drag follow the lubrication limit below it (below = \"lubrication_limit\" in "
+        "the section [fit] of the case)";
   if (gap > largest)
     remedy =
-        ", or ask for Stokes' drag far above it (simulate --stokes-limit, or [fit] above = "
-        "\"stokes_limit\" in a case)";
+        ", or let the drag tend to Stokes' drag above it (above = \"stokes_limit\" in the section "
+        "[fit] of the case)";
   throw Error(
       ExitCode::kBadInput,
       fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
@@ -106,8 +112,8 @@ void LubricationForce::check_gap(double gap) const {
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
     throw Error(ExitCode::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
-                                                 "is {}; a contact model and the lubrication limit "
-                                                 "need it > 0",
+                                                 "is {}; it must be > 0 for a contact model and "
+                                                 "for the lubrication limit",
                                                  leading_));
   return leading_;
 }
@@ -184,16 +190,16 @@ double LubricationForce::impulse(double gap) const {
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
     throw Error(ExitCode::kBadInput,
-                fmt::format("the film cannot absorb an impulse of {}", impulse_wanted));
+                fmt::format("the film would have to absorb an impulse of {}; it must be finite",
+                            impulse_wanted));
   const auto [smallest, largest] = fitted_interval_;
-  const double low = std::log(smallest);
-  const double high = std::log(largest);
+  const double low = std::log(smallest / radius_);
+  const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
     // lambda > 1/eps and > 1, so Gamma/k is below ln eps on this side of eps = 1, and above ln eps and eps - 1 on that side.
     const double scaled = impulse_wanted / leading_;
-    const double at_radius = std::log(radius_);
-    if (scaled < 0) return {at_radius + std::max(scaled, low - at_radius), at_radius};
-    return {at_radius, at_radius + std::min(scaled, std::log1p(scaled))};
+    if (scaled < 0) return {std::max(scaled, low), 0.0};
+    return {0.0, std::min(scaled, std::log1p(scaled))};
   }
   if (impulse_wanted < impulse(smallest)) {
     if (exact_)
@@ -203,15 +209,16 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
       throw Error(
           ExitCode::kBadInput,
           fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
-                      "{:.6g}]; tabulate and fit further, "
-                      "or ask for the lubrication limit below it (simulate --lubrication-limit)",
+                      "{:.6g}]; tabulate and fit further, or let the drag follow the lubrication "
+                      "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
+                      "case)",
                       smallest, largest));
     // k (s - ln q1) + c (e^s - q1) = what is wanted beyond Gamma(q1): the second term moves s by less than |c| q1 / k.
     const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
     const double by_constant = constant * smallest / k;
     const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
-    const double thinnest = std::log(std::numeric_limits<double>::min());
+    const double thinnest = std::log(std::numeric_limits<double>::min()) - std::log(radius_);
     if (!(above >= thinnest))
       throw Error(ExitCode::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
@@ -222,23 +229,24 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   if (above_ == AboveInterval::kError)
     throw Error(ExitCode::kBadInput,
                 fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
-                            "tabulate and fit further, or ask for Stokes' drag far above it "
-                            "(simulate --stokes-limit)",
+                            "tabulate and fit further, or let the drag tend to Stokes' drag above "
+                            "it (above = \"stokes_limit\" in the section [fit] of the case)",
                             smallest, largest));
   // R lies between its values at q2 and at infinity.
   const double stokes = stokes_resistance(viscosity_, radius_);
-  return {high, std::log(largest + beyond / std::min(stokes, resistance(largest)))};
+  return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // In s = ln q, Gamma is close to linear near contact: Newton's method there, kept inside a
-  // bracket that shrinks.
+  // Gamma is close to a linear function of s = ln(q/r) near contact, so Newton's method is applied
+  // in s, inside a bracket that shrinks. The radius r makes s, and with it the rounding of q,
+  // independent of the unit of length.
   auto [low, high] = bracket_of_impulse(impulse_wanted);
   double s = high - (high - low) / 2;
   constexpr int kMaxSteps = 200;  // bisection alone needs about 60
   // ln and exp of an end of the interval may come back a rounding outside it.
   const auto gap_at = [this](double log_gap) {
-    return std::clamp(std::exp(log_gap), interval()[0], interval()[1]);
+    return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
   };
   for (int step = 0; step < kMaxSteps; ++step) {
     const double gap = gap_at(s);

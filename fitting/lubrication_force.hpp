@@ -77,7 +77,7 @@ class LubricationForce {
   void set_limits(const Fit& fit);
   /// Throws Error(kBadInput) if the fit has no k to go below its interval with.
   LubricationLimit limit() const;
-  /// ln q of two gaps with Gamma(q) = impulse between them.
+  /// ln(q/r) of two gaps with Gamma(q) = impulse between them.
   std::array<double, 2> bracket_of_impulse(double impulse) const;
 
   bool exact_ = false;                   // Brenner's series; the fit's members are not used then

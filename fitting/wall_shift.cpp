@@ -18,8 +18,9 @@ double smooth_gap_of(const LubricationForce& smooth, double resistance, const Fo
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
     throw Error(
         ExitCode::kBadInput,
-        fmt::format("the drag at gap {} is that of no smooth gap in [{}, {}], the fit's interval",
-                    row.gap, low, high));
+        fmt::format(
+            "no gap in the fit's interval [{1}, {2}] has the drag that the table has at gap {0}",
+            row.gap, low, high));
   while (true) {
     const double middle = std::sqrt(low * high);
     if (!(middle > low && middle < high)) return middle;
@@ -32,7 +33,9 @@ double smooth_gap_of(const LubricationForce& smooth, double resistance, const Fo
 WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth) {
   if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
     throw Error(ExitCode::kBadInput,
-                fmt::format("the table is of viscosity {} and radius {}, the fit of {} and {}",
+                fmt::format("the table is of viscosity {} and radius {} and the fit of viscosity "
+                            "{} and radius {}; both "
+                            "must be equal",
                             rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
   WallShift result;
   double least = 0;  // the shift may not leave the smooth force's interval at any row

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdlib>
 #include <sstream>
 
@@ -15,12 +16,30 @@ namespace {
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
+constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
+
+/// The time limit that the user has set; nothing if there is none.
+std::optional<std::chrono::seconds> time_limit_of_user() {
+  constexpr int kLongest = 10'000'000;  // four months
+  const char* text = std::getenv(kTimeLimit);
+  if (text == nullptr || *text == '\0') return {};
+  const std::string_view word = text;
+  int seconds = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
+  if (error != std::errc() || end != word.data() + word.size() || seconds < 1 || seconds > kLongest)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("{} is '{}'; must be a whole number of seconds from 1 to {}",
+                            kTimeLimit, word, kLongest));
+  return std::chrono::seconds(seconds);
+}
+
 }  // namespace
 
 FreeFem default_freefem() {
   FreeFem freefem;
   const char* named = std::getenv("VISCONTACT_FREEFEM");
   freefem.executable = named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
+  if (const auto limit = time_limit_of_user()) freefem.row_limit = freefem.version_limit = *limit;
   const auto program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   for (const auto* up : {".", ".."}) {
     auto folder = (program_folder / up / "share/viscontact/freefem_axi").lexically_normal();
@@ -35,7 +54,8 @@ FreeFem default_freefem() {
 }
 
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
-                          const std::vector<std::string>& arguments) {
+                          const std::vector<std::string>& arguments,
+                          std::optional<std::chrono::seconds> time_limit) {
   const auto scripts = std::filesystem::absolute(freefem.script_folder);
   // A path, not a name to look for, is one from our own working folder.
   const bool is_path = freefem.executable.find('/') != std::string::npos;
@@ -50,13 +70,20 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                   {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),
                    fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
                    "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"},
-                  {}, scripts.string());
+                  {}, scripts.string(), time_limit.value_or(freefem.row_limit));
   if (!result.started || result.exit_status == 127)
     throw Error(ExitCode::kExternalProgram,
                 fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or "
                             "set VISCONTACT_FREEFEM to it",
                             freefem.executable, result.output));
   return result;
+}
+
+std::string timed_out_in_words(std::chrono::seconds time_limit) {
+  return fmt::format(
+      "it had not ended after {} s and was stopped; too little memory can make FreeFEM hang "
+      "(ulimit -v); on a slow machine set {} to more seconds",
+      time_limit.count(), kTimeLimit);
 }
 
 std::string line_after(const std::string& output, std::string_view prefix) {
@@ -68,7 +95,11 @@ std::string line_after(const std::string& output, std::string_view prefix) {
 }
 
 std::string freefem_version(const FreeFem& freefem) {
-  const auto result = run_freefem(freefem, "version.edp", {});
+  const auto result = run_freefem(freefem, "version.edp", {}, freefem.version_limit);
+  if (result.timed_out)
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("{} does not say which version it is: {}", freefem.executable,
+                            timed_out_in_words(freefem.version_limit)));
   const std::string version = line_after(result.output, "viscontact-version");
   if (result.exit_status != 0 || version.empty())
     throw Error(ExitCode::kExternalProgram,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -45,7 +46,8 @@ class PictureReader {
 
  private:
   [[noreturn]] static void fail() {
-    throw Error(ExitCode::kExternalProgram, "what FreeFEM wrote for a picture is not whole");
+    throw Error(ExitCode::kExternalProgram,
+                "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {
     constexpr std::size_t kLargest = 100'000'000;
@@ -85,6 +87,10 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
   constexpr std::size_t kColumns = 6;
   std::vector<std::vector<double>> fields;
   picture.flow.mesh = reader.read_mesh(kColumns, fields);
+  const auto scale = solve_scale(tabulation, reference_velocity);
+  const std::array factors = {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (double& value : fields[k]) value *= factors.at(k);
   picture.flow.velocity.resize(fields[0].size());
   for (std::size_t i = 0; i < fields[0].size(); ++i)
     picture.flow.velocity[i] = {fields[0][i], fields[1][i]};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <sstream>
 
 #include "common/error.hpp"
@@ -36,6 +37,33 @@ std::string last_lines(const std::string& output) {
   return fmt::format("{}", fmt::join(lines, " | "));
 }
 
+/// The numbers of the script's line "viscontact-result".
+struct Answer {
+  double force = 0, estimate = 0, unknowns = 0, order = 0;
+};
+
+/// Throws Error(kExternalProgram) that names the row if FreeFEM failed, was killed after
+/// `time_limit`, or gave no such line.
+Answer read_answer(const ProcessResult& result, double gap, double reference_velocity,
+                   std::chrono::seconds time_limit) {
+  std::istringstream answer(line_after(result.output, "viscontact-result"));
+  std::array<std::string, 4> words;
+  for (auto& word : words) answer >> word;
+  const auto force = parse_number(words[0]);
+  const auto estimate = parse_number(words[1]);
+  const auto unknowns = parse_number(words[2]);
+  const auto order = parse_number(words[3]);
+  if (result.exit_status == 0 && force && estimate && unknowns && order)
+    return {*force, *estimate, *unknowns, *order};
+  const std::string said = line_after(result.output, "viscontact-error");
+  throw Error(ExitCode::kExternalProgram,
+              fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
+                          format_number(gap), format_number(reference_velocity), result.exit_status,
+                          result.timed_out ? timed_out_in_words(time_limit)
+                          : said.empty()   ? last_lines(result.output)
+                                           : said));
+}
+
 }  // namespace
 
 std::string container_in_words(const Tabulation& tabulation) {
@@ -63,8 +91,11 @@ bool neighbour_moves(const Tabulation& tabulation) {
 std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.leading_factor == nullptr) return std::nullopt;
-  return stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
-         geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
+  const double coefficient =
+      stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
+      geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
+  if (!std::isfinite(coefficient)) return std::nullopt;  // a table could not hold it
+  return coefficient;
 }
 
 std::string tabulation_hash(const Tabulation& tabulation) {
@@ -101,38 +132,45 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
   return arguments;
 }
 
+SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
+  constexpr double kLeast = 1e-9, kMost = 1e9;
+  const double speed = std::abs(reference_velocity);
+  const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };
+  if (is_ordinary(tabulation.viscosity) && is_ordinary(speed)) return {};
+  return {tabulation.viscosity, speed};
+}
+
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                         double reference_velocity,
                         const std::vector<std::string>& further_arguments, std::string* output) {
   const auto start = std::chrono::steady_clock::now();
-  auto arguments = row_arguments(tabulation, gap, reference_velocity);
+  const auto scale = solve_scale(tabulation, reference_velocity);
+  auto scaled = tabulation;
+  scaled.viscosity = tabulation.viscosity / scale.viscosity;
+  const double scaled_velocity = reference_velocity / scale.speed;
+  auto arguments = row_arguments(scaled, gap, scaled_velocity);
   arguments.insert(arguments.end(), further_arguments.begin(), further_arguments.end());
   const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
-
-  std::istringstream answer(line_after(result.output, "viscontact-result"));
-  std::array<std::string, 4> words;
-  for (auto& word : words) answer >> word;
-  const auto force = parse_number(words[0]);
-  const auto estimate = parse_number(words[1]);
-  const auto unknowns = parse_number(words[2]);
-  const auto order = parse_number(words[3]);
-  if (result.exit_status != 0 || !force || !estimate || !unknowns || !order) {
-    const std::string said = line_after(result.output, "viscontact-error");
-    throw Error(ExitCode::kExternalProgram,
-                fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
-                            format_number(gap), format_number(reference_velocity),
-                            result.exit_status, said.empty() ? last_lines(result.output) : said));
-  }
   if (output != nullptr) *output = result.output;
+  const auto [force, estimate, unknowns, order] =
+      read_answer(result, gap, reference_velocity, freefem.row_limit);
+
   ForceTableRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;
-  row.force = *force;
+  row.force = force * scale.viscosity * scale.speed;
+  if (!std::isnormal(row.force))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the force at gap {}, velocity {} is {} * {} * {}, which a double "
+                            "cannot hold; choose units in which viscosity and velocity are nearer "
+                            "to 1",
+                            format_number(gap), format_number(reference_velocity), force,
+                            scale.viscosity, scale.speed));
   row.drag_factor =
-      -*force / (stokes_resistance(tabulation.viscosity, tabulation.radius) * reference_velocity);
-  row.relative_error_estimate = *estimate;
-  row.degrees_of_freedom = *unknowns;
-  row.observed_order = *order;
+      -force / (stokes_resistance(scaled.viscosity, tabulation.radius) * scaled_velocity);
+  row.relative_error_estimate = estimate;
+  row.degrees_of_freedom = unknowns;
+  row.observed_order = order;
   row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return row;
 }

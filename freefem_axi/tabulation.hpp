@@ -38,7 +38,8 @@ std::string geometry_in_words(const Tabulation& tabulation);
 /// True if the geometry's parameters say that what the sphere approaches moves itself.
 bool neighbour_moves(const Tabulation& tabulation);
 
-/// Theory's coefficient k of R ~ k/q near contact [M L/T]; nothing where it is not known.
+/// Theory's coefficient k of R ~ k/q near contact [M L/T]; nothing where it is not known
+/// or beyond the range of a double.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
 /// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
@@ -48,8 +49,21 @@ std::string tabulation_hash(const Tabulation& tabulation);
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
+/// What the results of a solve are multiplied with. Stokes flow is linear in the viscosity and in
+/// the velocity, so that both may be replaced by 1 where FreeFEM's arithmetic would fail.
+struct SolveScale {
+  double viscosity = 1;  ///< [M/(L T)], > 0
+  double speed = 1;      ///< [L/T], > 0
+};
+
+/// 1 for an ordinary viscosity and velocity, whose rows are solved as they are; else the viscosity
+/// and the absolute velocity themselves. Beyond 1e-12 and 1e20 the solver's penalty, 1e30, would
+/// give wrong forces without a word.
+SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
+
 /// Solves one (q, u0) in a FreeFEM process, which is given `further_arguments` too; all that it wrote goes to `output`, if that is not
-/// null. Throws Error(kExternalProgram) with FreeFEM's last lines if it fails.
+/// null: in units of solve_scale. Throws Error(kExternalProgram) with FreeFEM's last lines if it fails
+/// or takes longer than its limit, Error(kBadInput) if the force is beyond the range of a double.
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                         double reference_velocity,
                         const std::vector<std::string>& further_arguments = {},

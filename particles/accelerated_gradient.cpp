@@ -21,7 +21,7 @@ struct Sums {
 }  // namespace
 
 template <int D>
-Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_iterations,
+Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
                             FaceFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   const std::size_t numbers = graph.bodies() * D;
@@ -38,7 +38,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
               Largest largest;
               for (std::size_t c = begin; c < end; ++c) {
                 g[c] = graph.linear_term[c] + graph.to_contact(c, bodies.data());
-                largest.value = std::max(largest.value, graph.violation(c, at[c], g[c]));
+                largest.value = std::max(largest.value, graph.residual(c, at[c], g[c]));
               }
               return largest;
             })
@@ -47,13 +47,13 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
   graph.to_bodies(x, bodies_x);
   Solved solved;
   if (count == 0) return solved;
-  solved.violation = gradient(bodies_x, g_x, x);
+  solved.residual = gradient(bodies_x, g_x, x);
   g_y = g_x;
   bodies_y = bodies_x;
   double theta = 1;
   double steepness = 1;  // L: of W, whose diagonal is 1
   constexpr double kSteeper = 1.3, kFlatter = 0.99;
-  while (solved.violation > tolerance && solved.iterations < max_iterations) {
+  while (solved.residual > 1 && solved.iterations < max_iterations) {
     Sums sums;
     for (;;) {
       sums = team.template sum_of_blocks<Sums>(count, [&](std::size_t begin, std::size_t end) {
@@ -76,7 +76,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
         break;
       steepness *= kSteeper;
     }
-    solved.violation = gradient(bodies_next, g_next, next);
+    solved.residual = gradient(bodies_next, g_next, next);
     const double theta_next = (1 + std::sqrt(1 + 4 * theta * theta)) / 2;
     const bool restart = sums.uphill > 0;
     const double beta = restart ? 0 : (theta - 1) / theta_next;
@@ -98,7 +98,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, double tolerance, int max_it
   return solved;
 }
 
-template Solved accelerated_gradient<2>(ContactGraph<2>&, double, int, FaceFactor<2>&);
-template Solved accelerated_gradient<3>(ContactGraph<3>&, double, int, FaceFactor<3>&);
+template Solved accelerated_gradient<2>(ContactGraph<2>&, int, FaceFactor<2>&);
+template Solved accelerated_gradient<3>(ContactGraph<3>&, int, FaceFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "particles/active_set_newton.hpp"
 #include "particles/projection.hpp"
 
 namespace viscontact::particles {
@@ -12,20 +13,25 @@ namespace {
 
 /// What one pass over the contacts finds at z with gradient g.
 struct Look {
-  double violation = 0;  ///< largest [L]
+  double residual = 0;  ///< largest, ContactGraph::residual
   double free_slope =
       0;  ///< phi.g of the free gradient phi, cut so that a gradient step along it stays within the bounds
   double chopped_square =
       0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
   double room = std::numeric_limits<double>::infinity();  ///< smallest z - bound
   Look& operator+=(const Look& other) {
-    violation = std::max(violation, other.violation);
+    residual = std::max(residual, other.residual);
     free_slope += other.free_slope;
     chopped_square += other.chopped_square;
     room = std::min(room, other.room);
     return *this;
   }
 };
+
+/// Redundant contacts make W singular: impulses would move without end along directions whose slope
+/// and curvature are rounding errors. So much is added to the diagonal of W, which is 1: far more than
+/// rounding errors, far less than the curvatures of a chain of 10 000 (1e-8) or any tolerance.
+constexpr double kRegularisation = 1e-14;
 
 /// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
 /// free contacts of one of the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
@@ -51,20 +57,24 @@ class Iteration {
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           Look look;
           for (std::size_t c = begin; c < end; ++c) {
-            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data());
-            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.scale[c], 1 / step_, look);
+            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data()) +
+                           kRegularisation * graph_.z[c];
+            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_, look);
           }
           return look;
         });
     restart_ = true;
   }
 
-  double violation() const { return look_.violation; }
+  double residual() const { return look_.residual; }
 
   /// From now on the preconditioner is a factor of what is free now.
-  void factorise() {
-    factor_.factorise(graph_);
+  /// Returns false if it would not pay, or not be possible.
+  bool factorise() {
+    std::vector<char> active(graph_.count());
+    for (std::size_t c = 0; c < graph_.count(); ++c) active[c] = graph_.is_free(c) ? 1 : 0;
     restart_ = true;
+    return factor_.factorise(graph_, active);
   }
 
   /// Steps since contacts changed sides.
@@ -76,7 +86,7 @@ class Iteration {
     if (restart_) start_directions();
     before_ = graph_.z;
     ++steps_between_same_;
-    // Redundant contacts have directions without curvature; of those that contradict each other the objective falls along them for ever.
+    // Where contacts contradict each other the objective falls nearly for ever.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
@@ -86,17 +96,14 @@ class Iteration {
     const double slope = precondition();
     const double beta = slope / slope_;
     slope_ = slope;
-    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) direction_[c] = swept_[c] + beta * direction_[c];
-    });
-    add_to_bodies(beta);
+    combine_directions(beta);
     return 1;
   }
 
  private:
   /// Without branches: which contacts are free is as irregular as the packing.
-  static void add(double g, double room, double scale, double per_step, Look& look) {
-    look.violation = std::max(look.violation, scale * std::abs(std::min(g, room)));
+  static void add(double g, double room, double per_allowed, double per_step, Look& look) {
+    look.residual = std::max(look.residual, per_allowed * std::abs(std::min(g, room)));
     const bool is_free = room > 0;
     const double phi = is_free ? g : 0.0;
     look.free_slope += phi * std::min(g, room * per_step);
@@ -105,7 +112,7 @@ class Iteration {
     look.room = std::min(look.room, room);
   }
 
-  /// z^T W z/2 + b^T z.
+  /// z^T W z/2 + b^T z, W regularised.
   double objective() const {
     return graph_.team().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
@@ -124,8 +131,22 @@ class Iteration {
     restart_ = false;
     steps_between_same_ = 0;
     slope_ = precondition();
-    direction_ = swept_;
-    add_to_bodies(0);
+    combine_directions(0);
+  }
+
+  /// direction = swept + beta * direction, its displacements and its curvature.
+  void combine_directions(double beta) {
+    const double square_of_all = graph_.team().template sum_of_blocks<double>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          double square = 0;
+          for (std::size_t c = begin; c < end; ++c) {
+            const double d = swept_[c] + beta * direction_[c];
+            direction_[c] = d;
+            square += d * d;
+          }
+          return square;
+        });
+    curvature_ = graph_.combine(y_, beta, y_direction_) + kRegularisation * square_of_all;
   }
 
   /// z -= length * direction, its gradient and what there is to see then; and, the contact's rows being at hand, the sweep's way forth:
@@ -133,8 +154,8 @@ class Iteration {
   /// Most of the time only the smallest room is looked for: the rest can wait a few steps.
   void move_and_half_sweep(double length) {
     constexpr int kLookEvery = 4;
-    const bool look_around = restart_ || factor_.is_there() || ++unseen_ % kLookEvery == 0;
-    const auto pass = [&](auto look_around_now) {
+    const bool look_around = restart_ || ++unseen_ % kLookEvery == 0;
+    const auto pass = [&](auto look_around_now, auto sweep) {
       return graph_.team().template sum_of_blocks<Look>(
           graph_.count(), [&](std::size_t begin, std::size_t end) {
             const double* direction = direction_.data();
@@ -145,35 +166,42 @@ class Iteration {
             double* half_swept = half_swept_.data();
             const double per_step = 1 / step_;
             Look look;
-            auto sums = graph_.block_bodies(begin);
+            auto sums = decltype(sweep)::value ? graph_.block_bodies(begin) : std::vector<double>();
             for (std::size_t c = begin; c < end; ++c) {
               const double z = zs[c] - length * direction[c];
-              const double g = gradient[c] - length * graph_.to_contact(c, y_direction);
+              const double g = gradient[c] - length * (graph_.to_contact(c, y_direction) +
+                                                       kRegularisation * direction[c]);
               zs[c] = z;
               gradient[c] = g;
               const double room = z - bound[c];
               if constexpr (decltype(look_around_now)::value)
-                add(g, room, graph_.scale[c], per_step, look);
+                add(g, room, graph_.per_allowed[c], per_step, look);
               else
                 look.room = std::min(look.room, room);
-              const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
-              half_swept[c] = t;
-              graph_.add_in_block(c, t, sums.data());
+              if constexpr (decltype(sweep)::value) {
+                const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
+                half_swept[c] = t;
+                graph_.add_in_block(c, t, sums.data());
+              }
             }
             return look;
           });
     };
-    if (look_around)
-      look_ = pass(std::true_type());
+    constexpr std::true_type kYes;
+    constexpr std::false_type kNo;
+    if (factor_.exists())
+      look_ = pass(kYes, kNo);
+    else if (look_around)
+      look_ = pass(kYes, kYes);
     else
-      look_.room = pass(std::false_type()).room;
+      look_.room = pass(kNo, kYes).room;
   }
 
   /// swept = the preconditioner times the gradient, y = B swept. Returns swept.gradient.
   double precondition() {
     const double product =
-        factor_.is_there() ? factor_.solve(graph_, gradient_, swept_) : sweep_back();
-    if (factor_.is_there() || graph_.count() > Team::kBlock) graph_.to_bodies(swept_, y_);
+        factor_.exists() ? factor_.precondition(graph_, gradient_, swept_) : sweep_back();
+    if (factor_.exists() || graph_.count() > Team::kBlock) graph_.to_bodies(swept_, y_);
     return product;
   }
 
@@ -195,9 +223,6 @@ class Iteration {
     });
   }
 
-  /// y_direction = y + beta * y_direction, and the direction's curvature.
-  void add_to_bodies(double beta) { curvature_ = graph_.combine(y_, beta, y_direction_); }
-
   /// The step of that length led out of the bounds: all of it, cut at them, if that makes the objective fall.
   int expand(double length) {
     // That of before the step: the objective is quadratic along it.
@@ -215,9 +240,14 @@ class Iteration {
     for (std::size_t c = 0; c < graph_.count(); ++c)
       graph_.z[c] = std::isfinite(feasible) ? before_[c] - feasible * direction_[c] : before_[c];
     cut();
+    return 1 + project_gradient();
+  }
+
+  /// A projected gradient step, so short that the objective falls.
+  int project_gradient() {
     const auto here = graph_.z;
     const double before = objective();
-    for (int products = 2;; ++products) {
+    for (int products = 1;; ++products) {
       graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
           if (graph_.is_free(c))
@@ -272,31 +302,55 @@ class Iteration {
 }  // namespace
 
 template <int D>
-Solved conjugate_gradients(ContactGraph<D>& graph, double tolerance, int max_iterations,
-                           FaceFactor<D>& factor) {
+Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor) {
   Iteration<D> iteration(graph, factor);
   Solved solved;
-  // Conjugate gradients that go on and on between the same contacts are slow for W's sake, which a factor mends; while contacts change sides it would
-  // soon be another's. Measured on box2d with 1000 discs, 10, 20 and 40 steps: in the fall they differ by less than runs do; at rest 20 take half of
-  // the time of 40.
-  constexpr int kPatience = 20;
-  bool fresh = true;
+  // A factor pays if many iterations between the same contacts have not converged; while contacts
+  // change sides it would soon be out of date. Once there is one, a few iterations between the same
+  // contacts tell that it is of other contacts than are active now. Measured on box2d with 1000
+  // discs: 10, 20 and 40 iterations before the first factor differ by less than runs do in the
+  // fall, and at rest 20 take half of the time of 40; 4 before another take 0.92 of the time of 20.
+  constexpr int kPatience = 30, kPatienceWithFactor = 10;
+  // Newton's method finishes in a few iterations where contacts form hardly a cycle (chains,
+  // columns). There it comes first, and unless the guess is exact: in a long chain small residuals leave large
+  // errors. In packings it may go round, so that it is tried only if all else has taken long.
+  constexpr int kLongPatience = 300, kNewtonIterations = 10;
+  constexpr std::size_t kLongChain = 6;  // shorter ones take fewer sweeps than a factor costs
+  const bool has_chains = graph.largest_island > kLongChain &&
+                          graph.count() < graph.bodies() + graph.bodies() / 8;
+  constexpr double kExact = 1e-4;
+  if (has_chains && iteration.residual() > kExact) {
+    solved = active_set_newton(graph, kNewtonIterations);
+    if (solved.residual <= 1) return solved;
+    iteration.refresh();
+  }
+  int next_newton = kLongPatience;
+  bool fresh = true, factorisable = true;
   for (;;) {
-    solved.violation = iteration.violation();
-    if (solved.violation <= tolerance || solved.iterations >= max_iterations) {
+    solved.residual = iteration.residual();
+    if (solved.residual <= 1 || solved.iterations >= max_iterations) {
       if (fresh) return solved;
-      iteration.refresh();  // believe no updated gradient
+      iteration.refresh();  // the updated gradient has rounding errors
       fresh = true;
       continue;
     }
-    if (FaceFactor<D>::is_worth(graph.count()) && iteration.steps_between_same() >= kPatience)
-      iteration.factorise();
+    if (solved.iterations >= next_newton) {
+      const auto newton = active_set_newton(graph, kNewtonIterations);
+      solved.iterations += newton.iterations;
+      iteration.refresh();
+      next_newton = std::max(kLongPatience, 2 * solved.iterations);
+      fresh = true;
+      continue;
+    }
+    const int patience = factor.exists() ? kPatienceWithFactor : kPatience;
+    if (factorisable && iteration.steps_between_same() >= patience)
+      factorisable = iteration.factorise();
     solved.iterations += iteration.step();
     fresh = false;
   }
 }
 
-template Solved conjugate_gradients<2>(ContactGraph<2>&, double, int, FaceFactor<2>&);
-template Solved conjugate_gradients<3>(ContactGraph<3>&, double, int, FaceFactor<3>&);
+template Solved conjugate_gradients<2>(ContactGraph<2>&, int, FaceFactor<2>&);
+template Solved conjugate_gradients<3>(ContactGraph<3>&, int, FaceFactor<3>&);
 
 }  // namespace viscontact::particles

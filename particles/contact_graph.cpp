@@ -10,6 +10,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
       bound(contacts.size()),
       linear_term(contacts.size()),
       scale(contacts.size()),
+      per_allowed(contacts.size()),
       rows_(contacts.size()),
       gamma_(contacts.size()),
       in_block_(contacts.size()),
@@ -29,6 +30,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
         static_cast<std::int32_t>(i), contact.second, contact.normal, 1 / root, of_first / root,
         mobilities[j] / root};
     scale[c] = root;
+    per_allowed[c] = root / contact.allowed;
     z[c] = std::max(contact.impulse, contact.gamma) * root;
     bound[c] = contact.gamma * root;
     gamma_[c] = contact.gamma;

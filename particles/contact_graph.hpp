@@ -22,6 +22,8 @@ struct Contact {
   double gap = 0;      ///< D_ij at the step's begin, of a plane at the place of its end [L]
   double gamma = 0;    ///< gamma_ij^n <= 0 [M L/T]
   double impulse = 0;  ///< h lambda_ij [M L/T] >= gamma: a guess, then the solution
+  double allowed = 0;  ///< how far it may be from its conditions when the step has converged [L], > 0
+  double tolerated = 0;  ///< overlap that is not pushed out [L], >= 0: `gap` is D plus this
 };
 
 /// physics.md (5), one step, in impulses p = h lambda. With u* = u^n + h f^n and the displacements h v = h u* + h M^-1 G^T p,
@@ -50,6 +52,8 @@ class ContactGraph {
   std::vector<double> bound;        ///< of z: sqrt(w) gamma^n
   std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
   std::vector<double> scale;        ///< sqrt(w)
+  std::vector<double> per_allowed;  ///< scale over the residual that is allowed of the contact
+  std::size_t largest_island = 0;   ///< how many bodies are connected by contacts, at most
 
   /// y = B z, D numbers a body. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
@@ -140,9 +144,10 @@ class ContactGraph {
     visit_at(row.second, row.of_second);
   }
 
-  /// How far contact c is from its conditions, as a length: |min(D + h G v, w (p - gamma^n))|, at impulse z_c with gradient g_c.
-  double violation(std::size_t c, double z_c, double gradient) const {
-    return scale[c] * std::abs(std::min(gradient, z_c - bound[c]));
+  /// How far contact c is from its conditions, |min(D + h G v, w (p - gamma^n))|, over what is
+  /// allowed of it, at impulse z_c with gradient g_c. The contact has converged where it is <= 1.
+  double residual(std::size_t c, double z_c, double gradient) const {
+    return per_allowed[c] * std::abs(std::min(gradient, z_c - bound[c]));
   }
 
   /// h lambda of the contacts, in the order in which they were given.

@@ -15,6 +15,13 @@ double gap_of(const Particles& p, const Film& film, std::span<const PlanePlace> 
 
 }  // namespace
 
+std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
+                                             const ContactNow& contact) {
+  const auto second = particles.id(static_cast<std::size_t>(contact.second));
+  if (contact.first < 0) return {second, contact.first};
+  return {particles.id(static_cast<std::size_t>(contact.first)), second};
+}
+
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
@@ -27,6 +34,13 @@ double largest_overlap(const Setting& setting, const State& state) {
   return (0 - smallest) / mean_radius(p);  // 0, not -0
 }
 
+double largest_gamma_error(const State& state) {
+  double largest = 0;
+  for (const auto* films : {&state.pairs, &state.walls})
+    for (const auto& film : *films) largest = std::max(largest, film.gamma_error);
+  return largest;
+}
+
 std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) {
   std::vector<ContactNow> contacts;
   const auto& p = state.particles;
@@ -35,7 +49,7 @@ std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) 
   for (const auto* films : {&state.pairs, &state.walls})
     for (const auto& film : *films)
       if (const double gap = gap_of(p, film, places); film.gamma < 0 || gap <= touching)
-        contacts.push_back({film.first, film.second, gap, film.gamma});
+        contacts.push_back({film.first, film.second, gap, film.gamma, film.gamma_error});
   return contacts;
 }
 

@@ -1,38 +1,44 @@
-// The preconditioner of packings: a factor of W.
+// A sparse Cholesky factor of W between the active contacts.
 #pragma once
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "particles/contact_graph.hpp"
 
 namespace viscontact::particles {
 
-/// Sparse Cholesky factor of W between the contacts that were free (z above its bound) when it was made. Packings at rest are isostatic, as many contacts as
-/// freedoms, and W is then so ill-conditioned that conjugate gradients preconditioned by sweeps take hundreds of steps; with the factor they take about as many as
-/// contacts have changed sides since.
+/// Factor of W (contact_graph.hpp) between chosen contacts, in the scaled unit of the graph. Chains
+/// and packings at rest have as many active contacts as degrees of freedom, and W is then so
+/// ill-conditioned that iterative methods take as many iterations as a chain has contacts. The
+/// factor solves for the impulses between the active contacts at once.
 template <int D>
 class FaceFactor {
  public:
-  FaceFactor();
+  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. Redundant contacts make W singular:
+  /// it then bounds the impulses that they exert on each other.
+  explicit FaceFactor(double epsilon = 1e-10);
   ~FaceFactor();
 
-  /// Whether a problem of so many contacts may be factorised. Of discs the factor has some 20 numbers a contact at 20 000 contacts; of spheres it fills:
-  /// 1000 of them that come to rest took 1.2 times as long as with sweeps.
-  static bool is_worth(std::size_t contacts);
+  /// Factorises W between the contacts c with `active[c]`. Returns false, and there is no factor, if
+  /// it would fill so much that iterations are cheaper (packings of spheres do), or if W cannot be
+  /// factorised. The order of elimination is kept for as long as the graph has the same contacts.
+  bool factorise(const ContactGraph<D>& graph, const std::vector<char>& active);
+  bool exists() const;
 
-  /// Of the contacts that are free now. Keeps what there was if W cannot be factorised.
-  void factorise(const ContactGraph<D>& graph);
-  bool is_there() const;
+  /// solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.
+  void solve(std::span<const double> gradient, std::span<double> solved) const;
 
-  /// solved = (W + epsilon)^-1 gradient between the contacts that are free now and were when it was made, with those between zero; of contacts that
-  /// were not free then, their gradient. The graph is that of factorise(), or has more contacts at its end. Symmetric and positive definite on the free contacts. Returns
+  /// The factor as a preconditioner, symmetric and positive definite on the contacts that are free
+  /// now: free contacts that were not active keep their gradient, contacts that are not free get 0. The graph is that of factorise(), or has more contacts at its end. Returns
   /// solved.gradient.
-  double solve(const ContactGraph<D>& graph, std::span<const double> gradient,
-               std::span<double> solved);
+  double precondition(const ContactGraph<D>& graph, std::span<const double> gradient,
+                      std::span<double> solved) const;
 
  private:
   struct Factor;
+  double epsilon_;
   std::unique_ptr<Factor> factor_;
 };
 

@@ -1,8 +1,11 @@
 // Where two bodies are to each other: the gap and the normal of a film.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "particles/contact_graph.hpp"
@@ -60,6 +63,93 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
     for (std::size_t d = 0; d < D; ++d) sum += contact.normal[d] * (wj[d] - wi[d]);
   }
   return sum;
+}
+
+/// As contact_of, but with the gap that a step can and should close.
+///
+/// It is 0 if the gap is no larger than the rounding errors of the positions and radii that it is
+/// computed from: those would be impulses m D/h, larger than any load if the step is short. And an
+/// overlap of up to `tolerated` [L] is not pushed out, only kept from growing. A packing that earlier
+/// steps have left with such overlaps may have no room to push them out, and where it has, that
+/// would be motion out of nothing.
+template <int D>
+Contact<D> resolved_contact_of(const Particles& p, const Film& film,
+                               std::span<const PlanePlace> places, double tolerated) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  auto contact = contact_of<D>(p, film, places);
+  const auto j = static_cast<std::size_t>(film.second);
+  double sizes = p.radii[j];
+  for (std::size_t d = 0; d < D; ++d) sizes += std::abs(p.positions[j * D + d]);
+  if (film.first >= 0) {
+    const auto i = static_cast<std::size_t>(film.first);
+    sizes += p.radii[i];
+    for (std::size_t d = 0; d < D; ++d) sizes += std::abs(p.positions[i * D + d]);
+  } else {
+    const auto& place = places[static_cast<std::size_t>(-1 - film.first)];
+    for (std::size_t d = 0; d < D; ++d) sizes += std::abs(place.point[d]);
+  }
+  if (contact.gap < 0) {
+    contact.tolerated = std::min(tolerated, -contact.gap);
+    contact.gap += contact.tolerated;
+  }
+  if (std::abs(contact.gap) <= kRounding * sizes) contact.gap = 0;
+  return contact;
+}
+
+/// How far a pair may move tangentially in a step, over the sum of its radii, for its linearised gap
+/// to stand for its gap: they differ by half the square of that, times the sum.
+inline constexpr double kLargestTurn = 0.5;
+
+/// The displacement of the second particle relative to the first.
+template <int D>
+std::array<double, D> relative_displacement(const Contact<D>& contact,
+                                            std::span<const double> displacements) {
+  std::array<double, D> w{};
+  for (std::size_t d = 0; d < D; ++d)
+    w[d] = displacements[static_cast<std::size_t>(contact.second) * D + d] -
+           displacements[static_cast<std::size_t>(contact.first) * D + d];
+  return w;
+}
+
+/// Whether particle `contact.second` turns about `contact.first` by more than kLargestTurn in the
+/// step. Never of a plane, whose linearised gap is its gap.
+template <int D>
+bool turns_too_far(const Particles& p, const Contact<D>& contact,
+                   std::span<const double> displacements) {
+  if (contact.first < 0) return false;
+  const auto w = relative_displacement(contact, displacements);
+  double square = 0, normal = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    square += w[d] * w[d];
+    normal += w[d] * contact.normal[d];
+  }
+  const double sum = p.radii[static_cast<std::size_t>(contact.first)] +
+                     p.radii[static_cast<std::size_t>(contact.second)];
+  return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
+}
+
+/// Whether two particles that move straight by `displacements` touch on their way. Of those that do
+/// not turn too far the linearised gap decides, so that this is true.
+template <int D>
+bool paths_meet(const Particles& p, const Contact<D>& contact,
+                std::span<const double> displacements) {
+  if (!turns_too_far(p, contact, displacements)) return true;
+  const auto i = static_cast<std::size_t>(contact.first),
+             j = static_cast<std::size_t>(contact.second);
+  const auto w = relative_displacement(contact, displacements);
+  double square = 0, along = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    square += w[d] * w[d];
+    along -= w[d] * (p.positions[j * D + d] - p.positions[i * D + d]);
+  }
+  const double at = std::clamp(along / square, 0.0, 1.0);
+  double nearest = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const double x = p.positions[j * D + d] - p.positions[i * D + d] + at * w[d];
+    nearest += x * x;
+  }
+  const double sum = p.radii[i] + p.radii[j];
+  return nearest < sum * sum;
 }
 
 }  // namespace viscontact::particles

@@ -5,22 +5,21 @@
 namespace viscontact::particles {
 
 template <int D>
-Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations,
-                    FaceFactor<D>& /*factor*/) {
+Solved gauss_seidel(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   std::vector<double> y(graph.bodies() * D);
   Solved solved;
-  // The bodies' y is kept up to date contact by contact; its rounding is far below any tolerance that double precision can ask for, but it is
-  // made anew before a solution is believed.
+  // The displacements y of the bodies are updated contact by contact. They are computed anew
+  // before a solution is accepted, because the updates gather rounding errors.
   const auto gradient_of = [&](std::size_t c) {
     return graph.linear_term[c] + graph.to_contact(c, y.data());
   };
   const auto look = [&] {
     graph.to_bodies(graph.z, y);
-    solved.violation = 0;
+    solved.residual = 0;
     for (std::size_t c = 0; c < count; ++c)
-      solved.violation = std::max(solved.violation, graph.violation(c, graph.z[c], gradient_of(c)));
-    return solved.violation <= tolerance;
+      solved.residual = std::max(solved.residual, graph.residual(c, graph.z[c], gradient_of(c)));
+    return solved.residual <= 1;
   };
   if (look()) return solved;
   while (solved.iterations < max_iterations) {
@@ -28,7 +27,7 @@ Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations
     const auto relax = [&](std::size_t c) {
       const double next = std::max(graph.bound[c], graph.z[c] - gradient_of(c));
       const double change = next - graph.z[c];
-      largest = std::max(largest, graph.scale[c] * std::abs(change));
+      largest = std::max(largest, graph.per_allowed[c] * std::abs(change));
       graph.z[c] = next;
       graph.add(c, change, y.data());
     };
@@ -37,13 +36,13 @@ Solved gauss_seidel(ContactGraph<D>& graph, double tolerance, int max_iterations
     else
       for (std::size_t c = count; c-- > 0;) relax(c);
     ++solved.iterations;
-    // `largest` is what the contacts' violations were as the sweep met them.
-    if ((largest <= tolerance || solved.iterations == max_iterations) && look()) break;
+    // `largest` is the largest of the contacts' residuals as the sweep met them.
+    if ((largest <= 1 || solved.iterations == max_iterations) && look()) break;
   }
   return solved;
 }
 
-template Solved gauss_seidel<2>(ContactGraph<2>&, double, int, FaceFactor<2>&);
-template Solved gauss_seidel<3>(ContactGraph<3>&, double, int, FaceFactor<3>&);
+template Solved gauss_seidel<2>(ContactGraph<2>&, int, FaceFactor<2>&);
+template Solved gauss_seidel<3>(ContactGraph<3>&, int, FaceFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "particles/vector.hpp"
@@ -15,8 +16,13 @@ struct Particles {
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
   std::vector<double> masses;      ///< [M], > 0
+  /// The name of each particle in files, >= 0, no two equal; empty: particle k is named k.
+  std::vector<std::int32_t> ids{};
 
   std::size_t count() const { return radii.size(); }
+  std::int32_t id(std::size_t k) const {
+    return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];
+  }
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };

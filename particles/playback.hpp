@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "particles/contacts_now.hpp"
@@ -21,8 +22,9 @@ struct Frame {
 /// What a page or a picture shows.
 struct Playback {
   int dimension = 2;
-  std::vector<float> radii;   ///< [L]
-  std::vector<Frame> frames;  ///< in order of time; the first at the start
+  std::vector<float> radii;         ///< [L]
+  std::vector<Frame> frames;        ///< in order of time; the first at the start
+  std::vector<std::int32_t> ids{};  ///< as in Particles
 };
 
 /// Of particle k [L].

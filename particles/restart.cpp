@@ -13,7 +13,8 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::string_view kWhat = "# viscontact: restart of particles, version 1, ";
+constexpr std::string_view kWhat = "# viscontact: restart of particles, version 2, ";
+constexpr std::string_view kVersion1 = "# viscontact: restart of particles, version 1, ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
@@ -54,7 +55,8 @@ class Writer {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  Reader(std::string_view bytes, const std::string& file, bool version_1)
+      : bytes_(bytes), file_(file), version_1_(version_1) {}
 
   template <class T>
   void operator()(T& value) {
@@ -69,9 +71,22 @@ class Reader {
     values.resize(static_cast<std::size_t>(count));
     if (count > 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
   }
+  void operator()(std::vector<Film>& films) {
+    if (!version_1_) return operator()<Film>(films);
+    // Version 1 did not record the error of gamma.
+    struct FilmOfVersion1 {
+      std::int32_t first, second;
+      double gamma, impulse;
+    };
+    std::vector<FilmOfVersion1> old;
+    operator()<FilmOfVersion1>(old);
+    films.clear();
+    for (const auto& film : old)
+      films.push_back({film.first, film.second, film.gamma, film.impulse, 0});
+  }
   bool at_end() const { return bytes_.empty(); }
   [[noreturn]] void throw_short() const {
-    throw_bad_input({file_}, "is not a whole restart file; was it cut short?");
+    throw_bad_input({file_}, "is not a whole restart file; it seems to be cut short");
   }
 
  private:
@@ -83,13 +98,14 @@ class Reader {
   }
   std::string_view bytes_;
   std::string file_;
+  bool version_1_;
 };
 
 /// Takes the line that begins with `begin` off the front of `rest` and returns what follows in it.
 std::string_view line_of(std::string_view& rest, std::string_view begin, const std::string& file) {
   const auto end = rest.find('\n');
   if (!rest.starts_with(begin) || end == std::string_view::npos)
-    throw_bad_input({file}, "is no restart file of viscontact particles (restart.bin)");
+    throw_bad_input({file}, "is not a restart file of viscontact particles (restart.bin)");
   const auto value = rest.substr(begin.size(), end - begin.size());
   rest.remove_prefix(end + 1);
   return value;
@@ -111,12 +127,13 @@ State read_restart(const std::filesystem::path& path) {
   std::string_view rest = text;
   if (rest.starts_with("# provenance"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-  if (const auto order = line_of(rest, kWhat, file); order != kOrder)
-    throw_bad_input({file}, "was written by a machine with another order of bytes (" +
-                                std::string(order.substr(0, 20)) + "; must be " +
+  const bool version_1 = rest.starts_with(kVersion1);
+  if (const auto order = line_of(rest, version_1 ? kVersion1 : kWhat, file); order != kOrder)
+    throw_bad_input({file}, "was written by a machine with another byte order (" +
+                                std::string(order.substr(0, 20)) + "; it must be " +
                                 std::string(kOrder) + ")");
   const auto hash = line_of(rest, kHash, file);
-  Reader reader(rest, file);
+  Reader reader(rest, file, version_1);
   if (hash != sha256(rest)) reader.throw_short();
   State state;
   for_fields(state, reader);
@@ -132,7 +149,7 @@ State read_restart(const std::filesystem::path& path) {
   const auto in_range = [&](const Film& film, bool wall) {
     return film.second >= 0 && static_cast<std::size_t>(film.second) < p.count() &&
            (wall ? film.first < 0 : film.first >= 0 && film.first < film.second) &&
-           film.gamma <= 0 && std::isfinite(film.impulse);
+           film.gamma <= 0 && std::isfinite(film.impulse) && film.gamma_error >= 0;
   };
   for (const auto& film : state.pairs)
     if (!in_range(film, false)) reader.throw_short();

@@ -20,6 +20,8 @@ struct Simulation::Work {
   Team team;
   std::vector<double> displacements;  // h u*, later h v
   std::vector<double> mobilities;     // h/m
+  // Of a step that is divided: the sums of the impulses of its parts, by the films' particles.
+  std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts;
 };
 
 namespace {
@@ -52,18 +54,24 @@ void find_walls(State& state, std::span<const PlanePlace> planes, double margin,
   state.walls = std::move(walls.values);
 }
 
-/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. Returns how many films hold.
-std::size_t remember(const Particles& p, const std::vector<Film*>& films, const ContactLaw& law) {
+/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within its error
+/// is spent. Returns how many films hold.
+std::size_t remember(const Particles& p, const Projected& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
   };
   std::size_t glued = 0;
-  for (auto* film : films) {
-    const double gamma = film->gamma - film->impulse;
-    film->gamma = gamma < 0
-                      ? std::max(gamma, law.lower_bound(radius(film->second), radius(film->first)))
-                      : 0.0;
-    if (film->gamma < 0) ++glued;
+  for (std::size_t f = 0; f < projected.films.size(); ++f) {
+    auto& film = *projected.films[f];
+    const double gamma = film.gamma - film.impulse;
+    const double error = film.gamma_error + projected.film_errors[f] +
+                         std::numeric_limits<double>::epsilon() *
+                             (std::abs(film.gamma) + std::abs(film.impulse));
+    const bool spent = gamma >= -error;
+    const double bound = spent ? 0 : law.lower_bound(radius(film.second), radius(film.first));
+    film.gamma = spent ? 0.0 : std::max(gamma, bound);
+    film.gamma_error = spent || film.gamma == bound ? 0 : error;
+    if (film.gamma < 0) ++glued;
   }
   return glued;
 }
@@ -78,7 +86,7 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
                               "what can be computed with; are its forces, the walls and the time "
                               "step as they should be?",
-                              k, x[d], w[d], time));
+                              p.id(k), x[d], w[d], time));
   return norm(w);
 }
 
@@ -91,10 +99,6 @@ Simulation::Simulation(Setting setting, State state, int threads)
       work_(std::make_unique<Work>(threads)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
-
-StepReport Simulation::step(double end) {
-  return state_.particles.dimension == 2 ? step_of<2>(end) : step_of<3>(end);
-}
 
 template <int D>
 void Simulation::move_freely(double h, double next) {
@@ -152,7 +156,7 @@ Projected Simulation::project(double h, double next) {
   }
   for (;;) {
     find_walls(state_, planes, margin, team);
-    auto projected = StepProjection<D>(state_, planes, displacements, work_->mobilities, team)
+    auto projected = StepProjection<D>(state_, h, planes, displacements, work_->mobilities, team)
                          .solve(setting_.solver, mean_radius_);
     double gone = 0;
     for (const auto body : projected.bodies)
@@ -166,34 +170,97 @@ Projected Simulation::project(double h, double next) {
 }
 
 template <int D>
-StepReport Simulation::step_of(double end) {
+void Simulation::accept(const Projected& projected, double h, double next, StepReport& report) {
+  report.glued = remember(state_.particles, projected, setting_.law);
+  move<D>(h);
+  state_.time = next;
+  ++report.parts;
+  report.contacts = projected.films.size();
+  report.unresolved += projected.unresolved;
+  report.iterations += projected.iterations;
+  report.residual = std::max(report.residual, projected.residual / mean_radius_);
+  report.impulse_residual = std::max(report.impulse_residual, projected.impulse_residual);
+  report.converged = report.converged && projected.converged;
+  report.largest_overlap =
+      std::max(report.largest_overlap, (0 - projected.smallest_gap) / mean_radius_);
+}
+
+template <int D>
+void Simulation::advance(double h, double next, int halvings, StepReport& report) {
+  move_freely<D>(h, next);
+  const auto projected = project<D>(h, next);
+  if (projected.unresolved > 0 && halvings < kMostHalvings) {
+    const double middle = state_.time + h / 2;
+    report.iterations += projected.iterations;
+    for_films([](Film& film) { film.impulse /= 2; });
+    advance<D>(h / 2, middle, halvings + 1, report);
+    advance<D>(h / 2, next, halvings + 1, report);
+    // As a guess for the next part, which may be longer than the last.
+    if (halvings > 0) for_films([](Film& film) { film.impulse *= 2; });
+    return;
+  }
+  if (!projected.converged && -projected.smallest_gap > mean_radius_)
+    throw_impossible(projected, next);
+  accept<D>(projected, h, next, report);
+  if (halvings > 0)
+    for_films([&](const Film& film) {
+      if (film.impulse != 0) work_->impulses_of_parts[{film.first, film.second}] += film.impulse;
+    });
+}
+
+StepReport Simulation::step(double end) {
   double h = setting_.time_step;
   const double tiny = 1e-6 * h;
-  if (!(end > state_.time + tiny)) return {.time = state_.time};
+  if (!(end > state_.time + tiny)) return {.time = state_.time, .parts = 1};
   double next = state_.grid_time + static_cast<double>(state_.steps + 1 - state_.grid_step) * h;
   const bool cut = next > end + tiny;
   if (cut) {
     next = end;
     h = end - state_.time;
   }
-  move_freely<D>(h, next);
-  const auto projected = project<D>(h, next);
-  StepReport report;
-  report.glued = remember(state_.particles, projected.films, setting_.law);
-  move<D>(h);
-  state_.time = next;
+  StepReport report{.time = next};
+  if (state_.particles.dimension == 2)
+    advance<2>(h, next, 0, report);
+  else
+    advance<3>(h, next, 0, report);
+  if (auto& parts = work_->impulses_of_parts; !parts.empty()) {
+    for_films([&](Film& film) {
+      const auto sum = parts.find({film.first, film.second});
+      film.impulse = sum == parts.end() ? 0 : sum->second;
+    });
+    parts.clear();
+  }
   ++state_.steps;
   if (cut) {
     state_.grid_time = next;
     state_.grid_step = state_.steps;
   }
-  report.time = next;
-  report.contacts = projected.films.size();
-  report.iterations = projected.iterations;
-  report.residual = projected.violation / mean_radius_;
-  report.converged = report.residual <= setting_.solver.tolerance;
-  report.largest_overlap = (0 - projected.smallest_gap) / mean_radius_;
   return report;
+}
+
+void Simulation::throw_impossible(const Projected& projected, double next) const {
+  const auto& film = projected.narrowest;
+  std::string moving;
+  const auto before = places_of(setting_.planes, state_.time);
+  const auto after = places_of(setting_.planes, next);
+  for (std::size_t w = 0; w < before.size(); ++w)
+    if (before[w].point != after[w].point || before[w].normal != after[w].normal)
+      moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
+  const auto id = [&](std::int32_t k) {
+    return state_.particles.id(static_cast<std::size_t>(k));
+  };
+  const auto pair =
+      film.first < 0 ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
+                     : fmt::format("particles {} and {}", id(film.first), id(film.second));
+  throw Error(
+      ExitCode::kNotConverged,
+      fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "
+                  "mean radii{}",
+                  next, pair, -projected.smallest_gap / mean_radius_,
+                  moving.empty() ? std::string("; is the time step too long for the forces?")
+                                 : fmt::format("; the planes that move are {}: do they leave the "
+                                               "particles too little room?",
+                                               moving)));
 }
 
 double farthest(double tolerance, double mean_radius) {

@@ -33,11 +33,16 @@ struct StepReport {
   double time = 0;           ///< at its end [T]
   std::size_t contacts = 0;  ///< in the projection
   std::size_t glued = 0;     ///< with gamma < 0 after it
-  int iterations = 0;
-  /// Largest violation of a contact's conditions over the mean radius, over all close pairs: ContactGraph::violation.
+  int iterations = 0;        ///< in all parts
+  /// Largest |min(D + h G v, w (p - gamma))| of the close pairs, over the mean radius.
   double residual = 0;
-  bool converged = true;       ///< residual <= tolerance
+  /// The same divided by w, over the impulses at work on the contact's particles.
+  double impulse_residual = 0;
+  bool converged = true;       ///< both residuals of each contact are within the tolerances
   double largest_overlap = 0;  ///< of linearised gaps, which no gap is below, over the mean radius
+  int parts = 0;               ///< that the step was divided into, a power of 2
+  /// Contacts that turn further than kLargestTurn (film_geometry.hpp) in the smallest part.
+  std::size_t unresolved = 0;
 };
 
 /// The lecture's problem for many particles (physics.md, section 5; Maury 2006, "A time-stepping scheme for inelastic collisions";
@@ -56,9 +61,16 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than that is left. Throws Error(kNotConverged) if a
-  /// position or a displacement is beyond what can be computed with; the state is then that of before the step.
+  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than
+  /// that is left. A step in which particles that touch turn about each other by more than
+  /// kLargestTurn is halved, up to kMostHalvings times. Throws Error(kNotConverged), the state being
+  /// that of before the step or of a part of it, if a position or a displacement is beyond what can
+  /// be computed with, or if the projection has not converged and leaves an overlap of more than the
+  /// mean radius, as it does where walls close on particles.
   StepReport step(double end);
+
+  /// A particle that flies by another is seen to pass from 100 radii a step.
+  static constexpr int kMostHalvings = 8;
 
   const State& state() const { return state_; }
   const Setting& setting() const { return setting_; }
@@ -66,7 +78,15 @@ class Simulation {
  private:
   struct Work;
   template <int D>
-  StepReport step_of(double end);
+  void advance(double h, double next, int halvings, StepReport& report);
+  template <int D>
+  void accept(const Projected& projected, double h, double next, StepReport& report);
+  template <class Visit>
+  void for_films(const Visit& visit) {
+    for (auto* films : {&state_.pairs, &state_.walls})
+      for (auto& film : *films) visit(film);
+  }
+  [[noreturn]] void throw_impossible(const Projected& projected, double next) const;
   template <int D>
   void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
   template <int D>

@@ -14,6 +14,9 @@ struct Film {
   std::int32_t second = 0;  ///< particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
   double impulse = 0;       ///< h lambda of the last step [M L/T]: where the next projection starts
+  /// The residuals and rounding errors of the impulses that gamma is the sum of, added up [M L/T]:
+  /// what the solver may have made gamma wrong by. 0 at the bounds of gamma, which are known.
+  double gamma_error = 0;
   bool operator==(const Film&) const = default;
 };
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "particles/film_geometry.hpp"
+#include "particles/films_of_particles.hpp"
 #include "particles/projection.hpp"
 #include "particles/state.hpp"
 #include "particles/team.hpp"
@@ -15,21 +17,32 @@ namespace viscontact::particles {
 /// What the projection of a step found.
 struct Projected {
   int iterations = 0;
-  double violation = 0;              ///< largest of a contact's conditions, over all films [L]
-  double smallest_gap = 0;           ///< linearised [L], at most 0
+  bool converged = true;
+  double residual = 0;          ///< largest of a contact's conditions, over all films [L]
+  double impulse_residual = 0;  ///< the same as an impulse, over the impulses at work there
+  double smallest_gap = 0;      ///< linearised [L], at most 0
+  Film narrowest;               ///< the film of smallest_gap
+  /// Pairs that exert an impulse while they move tangentially by more than kLargestTurn.
+  std::size_t unresolved = 0;
   std::vector<Film*> films;          ///< in the projection; their impulses are its solution
+  std::vector<double> film_errors;   ///< residual of each film's impulse [M L/T]
   std::vector<std::int32_t> bodies;  ///< whose displacements it changed
 };
 
-/// Chooses the films that hold (gamma < 0), that had an impulse in the last step, or whose gap the free displacements h u* would close, and solves
-/// contact_graph.hpp's problem on them and their particles; where that closes further gaps, on those too, until none is below -tolerance. First roughly:
-/// which others are closed is then known before much is spent.
+/// Chooses the films that hold (gamma < 0), that had an impulse in the last step, or whose gap the
+/// free displacements h u* would close, and solves contact_graph.hpp's problem on them and their
+/// particles. Where that closes further gaps, those are chosen too, until none is left. A first
+/// rough solution shows most of the others that are closed, before much work is spent.
+///
+/// The step has converged when each contact's natural residual |min(D + h G v, w (p - gamma))| is
+/// at most `tolerance` mean radii, and, divided by w, at most `impulse_tolerance` of the impulses
+/// at work on its particles (physics.md, section 5).
 template <int D>
 class StepProjection {
  public:
   /// The references outlive the object; `displacements` are h u* on entry, h v after solve().
-  StepProjection(State& state, std::span<const PlanePlace> planes, std::span<double> displacements,
-                 std::span<const double> mobilities, Team& team);
+  StepProjection(State& state, double h, std::span<const PlanePlace> planes,
+                 std::span<double> displacements, std::span<const double> mobilities, Team& team);
   Projected solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -37,25 +50,56 @@ class StepProjection {
     return f < state_.pairs.size() ? state_.pairs[f] : state_.walls[f - state_.pairs.size()];
   }
   std::size_t films() const { return state_.pairs.size() + state_.walls.size(); }
+  Contact<D> contact(std::size_t f);
+  bool closes(std::size_t f);
+  std::int32_t island(std::int32_t body);
+  void join(std::int32_t island, std::int32_t other);
   void choose(const std::vector<std::size_t>& films);
-  Solved solve(const SolverSettings& settings, double goal,
-               int iterations);  // on the chosen, into displacements
+
+  /// What residuals of a contact are measured by.
+  struct Scale {
+    double w = 0;         ///< h (1/m_i + 1/m_j) [T/M]
+    double impulse = 0;   ///< at work in the contact [M L/T]
+    double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
+    /// The residual that is allowed: `length` [L], and `fraction` of the impulses at work, which
+    /// cannot be less than rounding errors.
+    double allowed(double length, double fraction) const {
+      return std::min(length, std::max(fraction * impulse * w, rounding));
+    }
+  };
+  std::vector<std::size_t> with_those_behind(const std::vector<std::size_t>& films, int round);
+  void find_contact_impulses();
+  double at_work_on(std::int32_t particle) const;
+  Scale scale_of(const Contact<D>& here);
+  void allow(double length, double fraction);
+  Solved solve_chosen(const SolverSettings& settings, int iterations);
   std::vector<std::size_t> closed_by_free_motion();
-  std::vector<std::size_t> closed(double tolerance, Projected& result);
+  std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
+                                   Projected& result);
 
   State& state_;
+  double h_;
   std::span<const PlanePlace> planes_;
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   Team& team_;
-  // What takes part; bodies are numbered as they come.
+  double tolerated_ = 0;  // overlap that is not pushed out [L]
+  // What takes part. Bodies are numbered in the order in which contacts name them.
   std::vector<std::size_t> chosen_;
   std::vector<char> is_chosen_;       // of all films
-  std::vector<Contact<D>> contacts_;  // between numbered bodies
+  std::vector<Contact<D>> geometry_;  // between particles, impulses those of the guess
+  std::vector<Contact<D>> contacts_;  // the same between numbered bodies
   std::vector<std::int32_t> bodies_;
   std::vector<std::int32_t> number_;  // of all particles; -1: does not take part
   std::vector<double> free_, body_mobilities_;
-  FaceFactor<D> factor_;  // of the solves so far
+  std::vector<std::int32_t> island_of_;   // of bodies: a body closer to the one that stands for all
+  std::vector<std::size_t> island_sizes_;  // bodies, at the body that stands for all
+  std::size_t largest_island_ = 1;
+  std::vector<double> contact_impulses_;  // largest on each body [M L/T]
+  // The largest sqrt(w) p of each island, at the body that stands for it.
+  std::vector<double> island_impulses_;
+  FaceFactor<D> factor_;                  // of the solves so far
+  std::optional<FilmsOfParticles> films_of_particles_;
 };
 
 extern template class StepProjection<2>;

@@ -42,7 +42,7 @@ std::string write_vtp(const Particles& particles, std::span<const ContactNow> co
     const auto x = particles.position(k), u = particles.velocity(k);
     points.insert(points.end(), x.begin(), x.end());
     velocities.insert(velocities.end(), u.begin(), u.end());
-    ids.push_back(static_cast<std::int32_t>(k));
+    ids.push_back(particles.id(k));
   }
   // VTK numbers vertices before lines.
   for (const bool wall : {true, false})
@@ -57,8 +57,9 @@ std::string write_vtp(const Particles& particles, std::span<const ContactNow> co
       }
       gaps.push_back(contact.gap);
       gammas.push_back(contact.gamma);
-      firsts.push_back(wall ? contact.second : contact.first);
-      seconds.push_back(wall ? contact.first : contact.second);
+      const auto [first, second] = ids_of(particles, contact);
+      firsts.push_back(first);
+      seconds.push_back(second);
     }
   Appended data;
   std::string text = "<?xml version=\"1.0\"?>\n";

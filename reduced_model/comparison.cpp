@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/json.hpp"
 
 namespace viscontact {
 namespace {
@@ -49,7 +49,8 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   const double to = std::min(trajectory.rows.back().time, reference.rows.back().time);
   if (from > to)
     throw Error(ExitCode::kBadInput,
-                fmt::format("trajectories {} and {} have no time in common ([{}, {}] and [{}, {}])",
+                fmt::format("trajectories {} and {} have no time in common (they are from {} to {} "
+                            "and from {} to {})",
                             trajectory.model, reference.model, trajectory.rows.front().time,
                             trajectory.rows.back().time, reference.rows.front().time,
                             reference.rows.back().time));
@@ -109,8 +110,9 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   std::set<std::string> seen;
   for (const auto& trajectory : trajectories) {
     if (!seen.insert(trajectory.model).second)
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("two trajectories are named '{}'; rename one", trajectory.model));
+      throw Error(
+          ExitCode::kBadInput,
+          fmt::format("two trajectories have the name '{}'; rename one of them", trajectory.model));
     ModelComparison result;
     result.model = trajectory.model;
     const auto lowest = std::ranges::min_element(trajectory.rows, {}, &TrajectoryRow::gap);
@@ -128,7 +130,6 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
 }
 
 std::string write_comparison(const Comparison& comparison) {
-  using Json = nlohmann::ordered_json;
   Json json;
   json["reference_model"] = comparison.reference_model;
   json["models"] = Json::object();
@@ -149,12 +150,16 @@ std::string write_comparison(const Comparison& comparison) {
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
   }
+  json["failed_models"] = Json::object();
+  for (const auto& failed : comparison.failed_models)
+    json["failed_models"][failed.model] = failed.reason;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Comparison read_comparison(const std::filesystem::path& path) {
+  const auto document = JsonDocument::parse(read_file(path), path.string());
   try {
-    const auto json = nlohmann::ordered_json::parse(read_file(path));
+    const auto& json = document.root();
     Comparison comparison;
     comparison.reference_model = json.at("reference_model").get<std::string>();
     for (const auto& [name, entry] : json.at("models").items()) {
@@ -178,10 +183,15 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.seconds = entry.at("seconds").get<double>();
       comparison.models.push_back(model);
     }
+    if (json.contains("failed_models"))  // not in the files of Viscontact 0.1.0
+      for (const auto& [name, reason] : json.at("failed_models").items())
+        comparison.failed_models.push_back({name, reason.get<std::string>()});
     return comparison;
-  } catch (const nlohmann::json::exception&) {
-    throw_bad_input({path.string()},
-                    "is not a comparison file; write one with 'viscontact compare'");
+  } catch (const Json::exception& error) {
+    throw_bad_input(
+        {path.string()},
+        fmt::format("is not a comparison file ({}); write one with 'viscontact compare'",
+                    cause_in_words(error)));
   }
 }
 

@@ -28,9 +28,16 @@ struct ModelComparison {
   double seconds = 0;
 };
 
+/// A model that was to be run and failed.
+struct ModelWithoutTrajectory {
+  std::string model;
+  std::string reason;
+};
+
 struct Comparison {
   std::string reference_model;
-  std::vector<ModelComparison> models;  ///< in the order of the trajectories
+  std::vector<ModelComparison> models;                  ///< in the order of the trajectories
+  std::vector<ModelWithoutTrajectory> failed_models{};  ///< left to the caller to fill in
 };
 
 /// Compares each trajectory with the one of `reference_model`, over the times that both cover, each

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "common/interrupt.hpp"
 #include "reduced_model/contact_step.hpp"
 
 namespace viscontact {
@@ -116,8 +115,7 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   for (int n = 0; n < steps; ++n) {
     const double next = step_time(n + 1, steps, end, h);
     if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
-    constexpr int kStepsBetweenLooks = 4096;
-    if (n % kStepsBetweenLooks == 0) throw_if_interrupted();
+    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
     const double push = setting.step * force.mean(t, next);
     const ContactStep step = contact_step(state, push, setting, drag);
     add(t, next, setting, state, push, force.value(next), step);
@@ -144,7 +142,12 @@ ContactModel contact_with_leading_term(const Motion& motion, const LubricationFo
   ContactModel model;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
                                    : std::min(0.0, k * std::log(solid_gap / r));
-  model.film_thickness = [k, r](double gamma) { return r * std::exp(gamma / k); };
+  model.film_thickness = [k, solid_gap, q0 = motion.initial_gap,
+                          gamma_min = model.gamma_min](double gamma) {
+    return gamma <= gamma_min ? solid_gap : std::max(solid_gap, q0 * std::exp(gamma / k));
+  };
+  model.film_law = "initial_gap * exp(gamma/k)";
+  if (solid_gap > 0) model.film_law += ", at least the roughness heights together";
   return model;
 }
 

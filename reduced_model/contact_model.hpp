@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "fitting/lubrication_force.hpp"
 #include "reduced_model/motion.hpp"
@@ -23,11 +24,13 @@ struct ContactModel {
       0;  ///< solid contact [M L/T], <= 0; -infinity: none; 0: no film, plain inelastic contact
   std::optional<ResolvedDrag> drag;                    ///< none: only f_ext acts at a distance
   std::function<double(double gamma)> film_thickness;  ///< the gap that gamma stands for [L]
+  std::string film_law{};  ///< that function as a formula, for the heads of files
 };
 
-/// Contact at q = 0 of which the film remembers k ln q: gamma = k ln(film/r), gamma_min = k ln((r1
-/// + r2)/r). The resolved drag is left to the caller. Throws Error(kBadInput) if the fit has
-/// no positive k.
+/// Contact at q = 0 of which the film remembers k ln q. The sphere starts with gamma = 0 at the gap
+/// q0, so by the first integral k ln q = k ln q0 + gamma the film is q0 exp(gamma/k) thick, but never
+/// thinner than r1 + r2; at gamma_min = k ln((r1 + r2)/r), where the solids touch, it is r1 + r2.
+/// The resolved drag is left to the caller. Throws Error(kBadInput) if the fit has no positive k.
 ContactModel contact_with_leading_term(const Motion& motion, const LubricationForce& force);
 
 /// Steps of contact_step.hpp from the motion's start to its end. A row's lubrication and solid forces are means over the step before it, film

@@ -1,13 +1,15 @@
 #include "reduced_model/fit_uncertainty.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "common/error.hpp"
 #include "common/file.hpp"
+#include "common/json.hpp"
 
 namespace viscontact {
 namespace {
@@ -30,7 +32,8 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
 /// The two ends of the 95 % in the middle; sorts.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
-    throw Error(ExitCode::kNotConverged, "no draw of the fit's coefficients gives a positive drag");
+    throw Error(ExitCode::kNotConverged,
+                "no random draw of the fit's coefficients gives a positive drag");
   std::ranges::sort(values);
   const auto at = [&](double share) {
     return values[static_cast<std::size_t>(
@@ -112,8 +115,6 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json write_gap(const UncertainGap& gap) {
   return {{"time", gap.time},
           {"gap", gap.gap},
@@ -140,8 +141,9 @@ std::string write_uncertainty(const FitUncertainty& uncertainty) {
 }
 
 FitUncertainty read_uncertainty(const std::filesystem::path& path) {
+  const auto document = JsonDocument::parse(read_file(path), path.string());
   try {
-    const auto json = Json::parse(read_file(path));
+    const auto& json = document.root();
     FitUncertainty uncertainty;
     uncertainty.draws = json.at("draws");
     uncertainty.refused = json.at("refused_draws");
@@ -149,9 +151,11 @@ FitUncertainty read_uncertainty(const std::filesystem::path& path) {
     uncertainty.smallest = read_gap(json.at("minimal_gap"));
     for (const auto& gap : json.at("gaps")) uncertainty.gaps.push_back(read_gap(gap));
     return uncertainty;
-  } catch (const Json::exception&) {
-    throw_bad_input({path.string()},
-                    "is not an uncertainty file; write one with 'viscontact simulate'");
+  } catch (const Json::exception& error) {
+    throw_bad_input(
+        {path.string()},
+        fmt::format("is not an uncertainty file ({}); write one with 'viscontact simulate'",
+                    cause_in_words(error)));
   }
 }
 

@@ -8,7 +8,6 @@
 
 #include "common/bisection.hpp"
 #include "common/error.hpp"
-#include "common/interrupt.hpp"
 #include "reduced_model/cvode.hpp"
 
 namespace viscontact {
@@ -88,26 +87,31 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
     return momentum_at_start + motion.external_force.impulse(t);
   };
   const auto slope = [&](double t, double q) { return (momentum(t) - force.impulse(q)) / (m * q); };
+  // The state is s = ln(q/r), not ln q: its size enters CVODE's first step and the tolerance below,
+  // which must not depend on the unit of length.
+  const double r = force.radius();
+  const auto gap_of = [r](double s) { return r * std::exp(s); };
+  const auto state_of = [r](double q) { return std::log(q / r); };
   double begin = 0;  // of the present step, or where CVODE restarts
   system.derivative = [&](double t, std::span<const double> y, std::span<double> derivative) {
-    const double q = std::exp(y[0]);
+    const double q = gap_of(y[0]);
     // A first step is judged by the slope at its beginning, which must not be rounding.
     derivative[0] = t == begin ? velocity.at(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [&](double t, std::span<const double> y, std::span<double> jacobian) {
-    const double q = std::exp(y[0]);
+    const double q = gap_of(y[0]);
     jacobian[0] = -force.resistance(q) / m - slope(t, q);
   };
   // s is a logarithm: its absolute error is the relative error of the gap. Where the film damps errors the tolerance bounds them; in flight they last, and a landing, where ln q
   // runs fast, makes errors of time large.
   system.tolerance = [&](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-    const double q = std::exp(y[0]);
+    const double q = gap_of(y[0]);
     const double damping = force.resistance(q) / m + slope(t, q);
     const double share = damping * motion.end_time > kManyDampings ? 1 : kFlightShare;
     allowed[0] = share * tolerance + kRounding * std::abs(y[0]);
   };
-  const std::array start = {std::log(motion.initial_gap)};
+  const std::array start = {state_of(motion.initial_gap)};
   Cvode cvode(system, start);
 
   Trajectory trajectory;
@@ -126,7 +130,7 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   // After a jump a film that damps faster than t has digits follows at once.
   const auto first_step = [&](double t) {
     const double step = kTimeResolution * t;
-    return m < step * force.resistance(std::exp(cvode.state()[0])) ? step : 0;
+    return m < step * force.resistance(gap_of(cvode.state()[0])) ? step : 0;
   };
   auto next_row = times.begin() + 1;
   double given_up_at = -1;
@@ -135,7 +139,7 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
   for (const double stop : stops) {
     cvode.restart(from, stop, first_step(from));
     while (begin < stop) {
-      throw_if_interrupted();
+      check_in(motion, begin);
       try {
         cvode.step();
       } catch (const Error&) {
@@ -143,17 +147,17 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
         // to begin afresh, from the balance.
         if (begin <= given_up_at) throw;
         given_up_at = begin;
-        const Instant now = velocity.at(begin, std::exp(cvode.state()[0]), begin);
+        const Instant now = velocity.at(begin, gap_of(cvode.state()[0]), begin);
         if (first_step(begin) > 0)
           cvode.set_state(
-              std::array{std::log(force.gap_of_impulse(momentum(begin) - m * now.velocity))});
+              std::array{state_of(force.gap_of_impulse(momentum(begin) - m * now.velocity))});
         cvode.restart(begin, stop, first_step(begin));
         continue;
       }
       const double end = cvode.time();
       // The force has jumped at the stop already; the velocity has not.
       const auto instant_of = [&](double t, double s) {
-        return velocity.at(t, std::exp(s), t == stop ? std::nextafter(stop, from) : t);
+        return velocity.at(t, gap_of(s), t == stop ? std::nextafter(stop, from) : t);
       };
       // ln q in powers of t - end; worth the making where many rows lie in the step.
       constexpr std::ptrdiff_t kManyRows = 8;
@@ -190,7 +194,7 @@ Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force
       if (begin < stop && -now.velocity * kTimeResolution * end > q) {
         const double film = force.gap_of_impulse(momentum(end));
         if (film < q && m < kTimeResolution * end * force.resistance(film)) {
-          cvode.set_state(std::array{std::log(film)});
+          cvode.set_state(std::array{state_of(film)});
           cvode.restart(end, stop, kTimeResolution * end);
         }
       }

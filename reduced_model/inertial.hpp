@@ -7,11 +7,13 @@
 
 namespace viscontact {
 
-/// Problem (M), m d^2q/dt^2 = -R(q) dq/dt + f_ext(t), by way of its first integral (I), which is exact and leaves one equation of first order, in s = ln q:
+/// Problem (M), m d^2q/dt^2 = -R(q) dq/dt + f_ext(t), by way of its first integral (I), which is exact and leaves one equation of first order, in s = ln(q/r):
 ///
 ///     m u + Gamma(q) = P(t) := m v0 + Gamma(q0) + int_0^t f_ext,
-///     ds/dt = (P(t) - Gamma(q))/(m q),    q = e^s.
+///     ds/dt = (P(t) - Gamma(q))/(m q),    q = r e^s.
 ///
+/// The radius r in s makes the error weights of CVODE, and so its steps, independent of the unit of
+/// length.
 /// It is stiff (the film damps at the rate R/m), but no error can push q below 0, an error of s dies out in the film instead of adding up, and P is continuous where f_ext jumps. As
 /// (I) holds by construction it is no check of this model; those are exact states (data/reference/limit_case_states.csv) and an integration of (M) in extended precision.
 ///
@@ -21,7 +23,7 @@ namespace viscontact {
 /// A fall so fast that the film of thickness Gamma^{-1}(P) takes all of its momentum within 1e-12 of t, which no step can resolve, ends in that film at once.
 ///
 /// CVODE stops where f_ext or its slope jumps, and restarts. Rows: every motion.reference_time_step, those times, and the instants where
-/// u = 0 (extrema of q). A tenth of motion.inertial_relative_tolerance bounds the error of ln q in each step, which leaves room for their sum; where the film does not
+/// u = 0 (extrema of q). A tenth of motion.inertial_relative_tolerance bounds the error of s in each step, which leaves room for their sum; where the film does not
 /// damp errors (in flight) it is 3e-4 of that, as a landing multiplies them.
 /// Throws Error(kNotConverged) if CVODE gives up, Error(kBadInput) when the motion leaves the fit's interval.
 Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force);

@@ -26,25 +26,34 @@ namespace {
 
 constexpr bool kByDefault = true;
 constexpr bool kOnRequest = false;
+constexpr bool kInertia = true;
 constexpr bool kNoInertia = false;
+constexpr auto kNoContact = nullptr;
 
 constexpr std::array kModels = {
     Model{"reference", "no inertia, explicit Euler (the lecture's)", simulate_reference, nullptr,
-          kByDefault, kNoInertia},
+          kByDefault, kNoInertia, "fluid.viscosity sphere.radius reference.time_step"},
     Model{"reference_exact", "no inertia, first integral", simulate_reference_exact, nullptr,
-          kByDefault, kNoInertia},
-    Model{"inertial", "with inertia, CVODE", simulate_inertial},
-    Model{"viscous_contact", "viscous contact", simulate_viscous_contact, viscous_contact},
+          kByDefault, kNoInertia, "fluid.viscosity sphere.radius reference.time_step"},
+    Model{"inertial", "with inertia, CVODE", simulate_inertial, kNoContact, kByDefault, kInertia,
+          "fluid.viscosity sphere.radius reference.time_step inertial.relative_tolerance"},
+    Model{"viscous_contact", "viscous contact", simulate_viscous_contact, viscous_contact,
+          kByDefault, kInertia,
+          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness"},
     Model{"viscous_contact_regular_drag", "viscous contact and regular drag",
-          simulate_viscous_contact_regular_drag, viscous_contact_regular_drag},
+          simulate_viscous_contact_regular_drag, viscous_contact_regular_drag, kByDefault, kInertia,
+          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness"},
     Model{"viscous_contact_threshold", "whole drag down to a threshold gap, viscous contact there",
-          simulate_viscous_contact_threshold, viscous_contact_threshold},
+          simulate_viscous_contact_threshold, viscous_contact_threshold, kByDefault, kInertia,
+          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness "
+          "viscous_contact.threshold_gap"},
     Model{"viscous_contact_exact", "viscous contact from event to event, no time step",
-          simulate_viscous_contact_exact, viscous_contact, kOnRequest},
+          simulate_viscous_contact_exact, viscous_contact, kOnRequest, kInertia,
+          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness"},
     Model{"inelastic_contact", "plain inelastic contact", simulate_inelastic_contact,
-          inelastic_contact, kOnRequest},
+          inelastic_contact, kOnRequest, kInertia, "viscous_contact.time_step"},
     Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
-          kOnRequest},
+          kOnRequest, kInertia, "fluid.viscosity sphere.radius viscous_contact.time_step"},
 };
 
 /// The books of a model whose film is all of the drag: its impulse between two rows is what the force does not explain, its work that times their mean velocity.
@@ -69,8 +78,9 @@ Books books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion
 /// Throws Error(kNotConverged) if a number of the trajectory is none.
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
-    throw Error(ExitCode::kNotConverged,
-                fmt::format("the motion leaves the range of a double at time {:.6g}", time));
+    throw Error(
+        ExitCode::kNotConverged,
+        fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
   };
   const auto is_number = [](const Maybe& value) { return !value || std::isfinite(*value); };
   for (const auto& row : trajectory.rows)
@@ -94,6 +104,12 @@ std::vector<Model> default_models() {
   return models;
 }
 
+std::vector<Model> models_on_request() {
+  std::vector<Model> models;
+  std::ranges::remove_copy_if(kModels, std::back_inserter(models), &Model::by_default);
+  return models;
+}
+
 ModelChoice find_model(std::string_view name) {
   ModelChoice choice{std::string(name)};
   const auto take = [&](std::string_view suffix) {
@@ -109,6 +125,21 @@ ModelChoice find_model(std::string_view name) {
   if (found != nullptr && choice.smooth && found->contact == nullptr) found = nullptr;
   choice.model = found != nullptr ? found : &require_named(kModels, choice.name, "model");
   return choice;
+}
+
+bool depends_on(const ModelChoice& choice, std::string_view key) {
+  key = key.substr(0, key.find('['));
+  if (key == "sphere.mass" || key == "motion.initial_velocity") return choice.model->inertia;
+  if (key.starts_with("motion.")) return true;
+  if (choice.smooth && key == "viscous_contact.roughness") return false;
+  std::string_view rest = choice.model->settings;
+  if (rest.empty()) return true;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == key) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
 }
 
 Motion motion_of(const ModelChoice& choice, const Motion& motion) {

@@ -19,6 +19,9 @@ struct Model {
       nullptr;             ///< of a contact model: what gamma stands for
   bool by_default = true;  ///< runs where a case names no models
   bool inertia = true;     ///< the mass matters
+  /// The keys, apart from those of [motion], of a case on which the model depends, separated by
+  /// blanks; empty: not stated, it may depend on every key. `sphere.mass` follows from `inertia`.
+  std::string_view settings = {};
 };
 
 /// Every model there is.
@@ -26,6 +29,9 @@ std::span<const Model> all_models();
 
 /// Those that run where a case names none.
 std::vector<Model> default_models();
+
+/// The others, which run where they are named.
+std::vector<Model> models_on_request();
 
 /// What may end the name of a model that is to run with the exact drag (fitting/plane_drag.hpp) in place of the fitted one: inertial_brenner.
 inline constexpr std::string_view kExactDragSuffix = "_brenner";
@@ -43,6 +49,10 @@ struct ModelChoice {
 
 /// The model of that name, which may have suffixes. Throws Error(kBadInput) that lists the names there are.
 ModelChoice find_model(std::string_view name);
+
+/// False if a number of the case at this key, such as "viscous_contact.roughness[0]", cannot change
+/// anything that the model computes.
+bool depends_on(const ModelChoice& choice, std::string_view key);
 
 /// The drag that it runs with: `force`, or the exact one of the same viscosity and radius.
 LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force);

@@ -7,8 +7,14 @@
 #include <iterator>
 
 #include "common/error.hpp"
+#include "common/interrupt.hpp"
 
 namespace viscontact {
+
+void check_in(const Motion& motion, double time) {
+  throw_if_interrupted();
+  if (motion.progress) motion.progress(time);
+}
 
 int step_count(double end, double step) {
   constexpr double kMostSteps = 1e8;  // a trajectory of that many rows is 5 GB
@@ -16,8 +22,8 @@ int step_count(double end, double step) {
   if (!(steps <= kMostSteps))
     throw Error(
         ExitCode::kBadInput,
-        fmt::format("time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed", step,
-                    steps, end, kMostSteps));
+        fmt::format("the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed",
+                    step, steps, end, kMostSteps));
   return std::max(1, static_cast<int>(steps));
 }
 

@@ -17,6 +17,7 @@ Trajectory simulate_reference(const Motion& motion, const LubricationForce& forc
   double q = motion.initial_gap;
   for (int n = 0; n <= steps; ++n) {
     const double t = step_time(n, steps, end, h);
+    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
     const double next = n < steps ? step_time(n + 1, steps, end, h) : t + h;
     const double f = motion.external_force.mean(t, next);
     const double u = f / force.resistance(q);

@@ -20,7 +20,7 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // whole numbers up to there are doubles
   const double steps = csv_comment_number(comments, "steps", file);
   if (!(steps >= 0 && steps <= kMost))
-    throw_bad_input({file}, fmt::format("# steps: is {}; must be from 0 to {}", steps, kMost));
+    throw_bad_input({file}, fmt::format("# steps: is {}; it must be from 0 to {}", steps, kMost));
   return static_cast<long>(steps);
 }
 
@@ -67,13 +67,14 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     if (fields.fields[5]) row.gamma = *fields.fields[5];
     if (fields.fields[6]) row.solid_force = *fields.fields[6];
     const FilePosition here{file, fields.line};
-    if (row.gap < 0) throw_bad_input(here, fmt::format("gap is {}; must be >= 0", row.gap));
+    if (row.gap < 0) throw_bad_input(here, fmt::format("gap is {}; it must be >= 0", row.gap));
     if (!trajectory.rows.empty() && !(row.time > trajectory.rows.back().time))
-      throw_bad_input(here, fmt::format("time is {} after {}; must increase", row.time,
-                                        trajectory.rows.back().time));
+      throw_bad_input(here, fmt::format("time is {} after {}; it must increase from row to row",
+                                        row.time, trajectory.rows.back().time));
     trajectory.rows.push_back(row);
   }
-  if (trajectory.rows.empty()) throw_bad_input({file}, "has no rows");
+  if (trajectory.rows.empty())
+    throw_bad_input({file}, "has no rows below its header line; it needs at least one");
   return trajectory;
 }
 

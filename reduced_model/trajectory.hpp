@@ -25,7 +25,7 @@ struct TrajectoryRow {
 };
 
 /// Raised when the numbers of a model change: trajectories of another revision are made again.
-inline constexpr int kModelsRevision = 2;
+inline constexpr int kModelsRevision = 3;
 
 /// Rows in strictly increasing time, at least one, and what is known of how they were made.
 struct Trajectory {

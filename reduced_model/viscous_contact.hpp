@@ -15,7 +15,7 @@ namespace viscontact {
 /// No force but f_ext acts at a distance. The scheme is that of contact_step.hpp with free velocity
 /// u^n + h f^n / m, f^n the mean of f_ext over the step, h = motion.contact_time_step. Solid
 /// contact at the roughness heights: gamma >= gamma_min = k ln((r1 + r2)/r) (Vinogradova & Yakubov
-/// 2006). The film that the model does not resolve is r exp(gamma/k) thick.
+/// 2006). The film that the model does not resolve is q0 exp(gamma/k) thick, q0 the initial gap.
 /// Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const LubricationForce& force);
 

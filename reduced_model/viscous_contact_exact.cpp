@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/bisection.hpp"
-#include "common/interrupt.hpp"
 
 namespace viscontact {
 namespace {
@@ -141,7 +140,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion, const Lubricatio
     const double mean = f.mean(now, stop);
     const double sign = mean > 0 ? 1 : mean < 0 ? -1 : 0;
     while (now < stop) {
-      throw_if_interrupted();
+      check_in(motion, now);
       const EventDriven before = sphere;
       const double event = sphere.advance(stop, sign);
       lowest_gamma = std::min(lowest_gamma, sphere.gamma(event));

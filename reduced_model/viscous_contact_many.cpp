@@ -131,9 +131,10 @@ Advance advance_with(InstructionSet set) {
 void check_lengths(const ManySpheres& spheres) {
   const auto check = [&](const char* name, const std::vector<double>& values) {
     if (values.size() != spheres.mass.size())
-      throw Error(ExitCode::kBadInput,
-                  fmt::format("{} of {} spheres, but mass of {}; lengths must be equal", name,
-                              values.size(), spheres.mass.size()));
+      throw Error(
+          ExitCode::kBadInput,
+          fmt::format("{} is given for {} spheres and mass for {}; both must be given for all",
+                      name, values.size(), spheres.mass.size()));
   };
   check("initial_gap", spheres.initial_gap);
   check("initial_velocity", spheres.initial_velocity);
@@ -146,7 +147,7 @@ void check_values(const ManySpheres& spheres) {
                         const char* what_is) {
     const auto bad = std::ranges::find_if_not(values, allowed);
     if (bad != values.end())
-      throw Error(ExitCode::kBadInput, fmt::format("{}[{}] is {}; must be {}", name,
+      throw Error(ExitCode::kBadInput, fmt::format("{}[{}] is {}; it must be {}", name,
                                                    bad - values.begin(), *bad, what_is));
   };
   const auto finite = [](double x) { return std::isfinite(x); };
@@ -163,16 +164,16 @@ void check(const ManySpheresRun& run) {
   const auto check_time = [](const char* name, double value) {
     if (!(value > 0 && std::isfinite(value)))
       throw Error(ExitCode::kBadInput,
-                  fmt::format("{} is {}; must be > 0 and finite", name, value));
+                  fmt::format("{} is {}; it must be > 0 and finite", name, value));
   };
   check_time("end_time", run.end_time);
   check_time("time_step", run.time_step);
   if (run.threads < 1)
-    throw Error(ExitCode::kBadInput, fmt::format("threads is {}; must be >= 1", run.threads));
+    throw Error(ExitCode::kBadInput, fmt::format("threads is {}; it must be >= 1", run.threads));
   if (run.instruction_set &&
       std::ranges::count(runnable_instruction_sets(), *run.instruction_set) == 0)
     throw Error(ExitCode::kBadInput,
-                fmt::format("instruction set {}: this processor has not got it",
+                fmt::format("this processor does not have the instruction set {}",
                             name_of(*run.instruction_set)));
 }
 

@@ -14,12 +14,13 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   if (!(motion.initial_gap > q_c))
     throw Error(
         ExitCode::kBadInput,
-        fmt::format("viscous_contact.threshold_gap is {}; must be less than motion.initial_gap, {}",
-                    q_c, motion.initial_gap));
+        fmt::format(
+            "viscous_contact.threshold_gap is {}; it must be less than motion.initial_gap, {}", q_c,
+            motion.initial_gap));
   const double impulse_at_contact = force.impulse(q_c);
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(solid_gap < q_c))
-    throw Error(ExitCode::kBadInput, fmt::format("viscous_contact.threshold_gap is {}; must be "
+    throw Error(ExitCode::kBadInput, fmt::format("viscous_contact.threshold_gap is {}; it must be "
                                                  "greater than the roughness heights together, {}",
                                                  q_c, solid_gap));
 
@@ -32,6 +33,7 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   model.film_thickness = [&force, impulse_at_contact](double gamma) {
     return force.gap_of_impulse(impulse_at_contact + gamma);
   };
+  model.film_law = "Gamma^-1(Gamma(threshold_gap) + gamma)";
   return model;
 }
 

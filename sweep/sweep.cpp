@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <condition_variable>
+#include <initializer_list>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -66,7 +67,38 @@ void refuse_doubles(const Names& names, std::string_view kind) {
   std::set<std::string> seen;
   for (const auto& name : names)
     if (!seen.insert(name).second)
-      throw Error(ExitCode::kWrongUsage, fmt::format("{} {} is there twice", kind, name));
+      throw Error(ExitCode::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
+}
+
+/// Refuses a key of a case that changes no row: one that a sweep does not read, or on which none of
+/// the models depends. A key that is not known is left to the reader of the case.
+void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
+  const std::string section = key.substr(0, key.find('.'));
+  const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, section) != names.end();
+  };
+  if (is_one_of({"tabulation", "fit", "published", "sweep"}))
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("{} cannot be varied, because a sweep tabulates and fits nothing: it "
+                            "varies keys of [fluid], [sphere], [motion], [reference], [inertial] "
+                            "and [viscous_contact]",
+                            key));
+  constexpr std::array kKeys = {"fluid.viscosity",
+                                "sphere.radius",
+                                "sphere.mass",
+                                "motion.initial_velocity",
+                                "reference.time_step",
+                                "inertial.relative_tolerance",
+                                "viscous_contact.time_step",
+                                "viscous_contact.roughness",
+                                "viscous_contact.threshold_gap"};
+  if (std::ranges::find(kKeys, key.substr(0, key.find('['))) == kKeys.end()) return;
+  if (std::ranges::none_of(models,
+                           [&](const auto& model) { return depends_on(find_model(model), key); }))
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("{} cannot be varied, because none of the models that are run depends "
+                            "on it ({}); leave it out, or add a model that does to --models",
+                            key, fmt::join(models, ", ")));
 }
 
 }  // namespace
@@ -116,20 +148,24 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan) {
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
   if (plan_.variations.empty())
-    throw Error(ExitCode::kWrongUsage, "nothing to vary; give --vary KEY=FROM:TO:COUNT");
+    throw Error(ExitCode::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan_.fit.basis.empty())
-    throw Error(ExitCode::kWrongUsage,
-                "the case has no fit to run with ([fit] file or exact); give one with --fit");
+    throw Error(
+        ExitCode::kWrongUsage,
+        "the case names no drag to run with (file or exact in its section [fit]); give a fit "
+        "with --fit");
   if (plan_.reference.empty()) plan_.reference = default_reference(plan_.models);
   std::vector<std::string> keys;
   for (const auto& variation : plan_.variations) keys.push_back(variation.key);
   refuse_doubles(keys, "the key");
   refuse_doubles(plan_.models, "the model");
   for (const auto& model : plan_.models) (void)find_model(model);
+  for (const auto& key : keys) refuse_useless(key, plan_.models);
   if (std::ranges::find(plan_.models, plan_.reference) == plan_.models.end())
-    throw Error(ExitCode::kWrongUsage,
-                fmt::format("the reference model '{}' is none of the models: {}", plan_.reference,
-                            fmt::join(plan_.models, ", ")));
+    throw Error(
+        ExitCode::kWrongUsage,
+        fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
+                    plan_.reference, fmt::join(plan_.models, ", ")));
   for (const std::uint64_t index : {std::uint64_t{0}, sweep_size(plan_) - 1})
     (void)required_motion(case_at(index));
 }
@@ -144,10 +180,11 @@ Case Sweep::case_at(std::uint64_t index) const {
   try {
     Case c = case_.with(numbers);
     if (plan_.fit.basis != kExactPlane && c.radius != plan_.fit.radius)
-      throw_bad_input({plan_.case_path.string()},
-                      fmt::format("sphere.radius is {}, the fit's {}: a fit is of one radius; vary "
-                                  "it with the exact drag",
-                                  c.radius, plan_.fit.radius));
+      throw_bad_input(
+          {plan_.case_path.string()},
+          fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is of one "
+                      "radius, so that the radius can be varied with the exact drag only",
+                      c.radius, plan_.fit.radius));
     return c;
   } catch (const Error& error) {
     std::string values;

@@ -46,7 +46,8 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan);
 class Sweep {
  public:
   /// Reads the case. Throws Error(kBadInput) if the first or the last point of the plan is no case, has another radius than the fit, or the
-  /// case has no [motion]; Error(kWrongUsage) if there is nothing to vary or no fit, the reference is none of the models, or a key or model is there twice.
+  /// case has no [motion]; Error(kWrongUsage) if there is nothing to vary or no fit, the reference is none of the models, a key or model is there twice, or a key
+  /// changes no row, because a sweep does not read it or none of the models depends on it.
   explicit Sweep(SweepPlan plan);
 
   const SweepPlan& plan() const { return plan_; }

@@ -143,6 +143,31 @@ std::uint64_t write_sweep(
   return size - kept->rows;
 }
 
+SweepOutcome read_outcome(const SweepPlan& plan, const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw_bad_input({path.string()}, "cannot be read");
+  SweepOutcome outcome;
+  bool header_is_read = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with('#')) continue;
+    if (!header_is_read) {
+      header_is_read = true;
+      continue;
+    }
+    ++outcome.points;
+    const auto last_comma = line.rfind(',');
+    const std::string failure = line.substr(last_comma + 1);
+    if (failure.empty()) continue;
+    if (outcome.first_failure.empty()) outcome.first_failure = failure;
+    std::size_t end_of_keys = 0;  // the comma behind the fields of the varied keys
+    for (std::size_t key = 0; key < plan.variations.size(); ++key)
+      end_of_keys = line.find(',', end_of_keys + (key > 0 ? 1 : 0));
+    const bool has_result = line.find_first_not_of(',', end_of_keys) < last_comma;
+    ++(has_result ? outcome.with_some_results : outcome.without_result);
+  }
+  return outcome;
+}
+
 std::uint64_t finished_rows(const Sweep& sweep, const fs::path& path, const std::string& version) {
   const std::string header = header_of(sweep.plan(), version);
   fs::path part = check_output_file(path);

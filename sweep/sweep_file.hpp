@@ -20,6 +20,19 @@ std::uint64_t write_sweep(
     const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress);
 
+/// How the points of a finished sweep ended.
+struct SweepOutcome {
+  std::uint64_t points = 0;
+  std::uint64_t without_result = 0;  ///< points at which every model failed
+  std::uint64_t with_some_results =
+      0;                      ///< points at which some models failed and others gave a result
+  std::string first_failure;  ///< column `failure` of the first of all these points; may be empty
+};
+
+/// Reads from the finished file of a sweep with this plan how its points ended. Throws
+/// Error(kBadInput) if the file cannot be read.
+SweepOutcome read_outcome(const SweepPlan& plan, const std::filesystem::path& path);
+
 /// The rows of that sweep that are finished in PATH or PATH.part.
 std::uint64_t finished_rows(const Sweep& sweep, const std::filesystem::path& path,
                             const std::string& version);

@@ -16,7 +16,7 @@ constexpr double kMostPoints = 1e12;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
   throw Error(ExitCode::kWrongUsage,
-              fmt::format("--vary {}: {}; must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
+              fmt::format("--vary {}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
                           "KEY=VALUE,VALUE,...",
                           text, what));
 }
@@ -66,12 +66,12 @@ double Variation::at(double share) const {
 Variation parse_variation(std::string_view text) {
   Variation variation;
   const auto equals = text.find('=');
-  if (equals == std::string_view::npos || equals == 0) refuse(text, "there is no KEY=");
+  if (equals == std::string_view::npos || equals == 0) refuse(text, "KEY= is missing");
   variation.key = text.substr(0, equals);
   if (variation.key == "motion.mass") variation.key = "sphere.mass";
   const auto number = [&](std::string_view part) {
     const auto value = parse_number(part);
-    if (!value) refuse(text, fmt::format("'{}' is no finite number", part));
+    if (!value) refuse(text, fmt::format("'{}' is not a finite number", part));
     return *value;
   };
   const auto range = split(text.substr(equals + 1), ':');
@@ -82,12 +82,12 @@ Variation parse_variation(std::string_view text) {
   }
   variation.logarithmic = range.size() == 4;
   if (range.size() != 3 && !(range.size() == 4 && range[2] == "log"))
-    refuse(text, "the range is not understood");
+    refuse(text, "this is not a range");
   variation.first = number(range[0]);
   variation.last = number(range[1]);
   const double count = number(range.back());
   if (!(count >= 1 && count <= kMostValues && count == std::floor(count)))
-    refuse(text, fmt::format("COUNT is {}, must be a whole number from 1 to 1e9", range.back()));
+    refuse(text, fmt::format("COUNT is {} and not a whole number from 1 to 1e9", range.back()));
   variation.count = static_cast<std::uint64_t>(count);
   if (variation.logarithmic && (variation.first == 0 || variation.last == 0 ||
                                 std::signbit(variation.first) != std::signbit(variation.last)))

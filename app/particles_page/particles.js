@@ -21,6 +21,8 @@
   const motion = JSON.parse(text('motion'));
   const dim = motion.dimension, flat = dim === 2;
   const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
+  // The names of the particles in the files; without this block, particle k of the simulation is named k.
+  const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
   const written = motion.bytes === 2 ? new Uint16Array(bytes('positions')) : new Float32Array(bytes('positions'));
   const planeNumbers = new Float32Array(bytes('planes'));
   const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets')), contactBytes = new Uint8Array(bytes('contacts'));
@@ -450,7 +452,7 @@
     for (let i = 0; i < lines.count; ++i)
       if (pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered) ++contacts;
     const place = [...positions.subarray(hovered * dim, hovered * dim + dim)].map(number).join(', ');
-    readout.textContent = `particle ${hovered * motion.every}: radius ${number(radii[hovered])}, at (${place}), ` +
+    readout.textContent = `particle ${ids ? ids[hovered] : hovered * motion.every}: radius ${number(radii[hovered])}, at (${place}), ` +
         `${contacts} contact${contacts === 1 ? '' : 's'}`;
   }
 

@@ -59,6 +59,8 @@ void fill(const std::filesystem::path& folder) {
   put("half.json", first_half(fit));
   put("null.json", replaced(fit, "\"radius\": 1.0", "\"radius\": null"));
   put("other_radius.json", replaced(fit, "\"radius\": 1.0", "\"radius\": 2.0"));
+  put("twice.json", replaced(fit, "\"radius\"", "\"radius\": 2.0, \"radius\""));
+  put("comma.json", replaced(fit, "\"radius\": 1.0", "\"radius\": 1,0"));
   put("unknown_key.json", replaced(fit, "\"radius\"", "\"radios\": 1.0, \"radius\""));
   std::filesystem::create_directories(folder / "run" / "trajectories");
   put("run/trajectories/inertial.csv", "time,gap,velocity\n0,1,0\n1,1,0\n");
@@ -114,8 +116,6 @@ const Cases kFit = {
     {"TruncatedTable", {"fit", "@half.csv", "-o", "@f.json"}, "half.csv"},
     {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:37: reference_velocity"},
     {"NoForceInTable", {"fit", "@no_force.csv", "-o", "@f.json"}, "'force'"},
-    {"UnknownBasis", {"fit", "@table.csv", "-o", "@f.json", "--basis", "cubic"}, "'cubic'"},
-    {"UnknownWeights", {"fit", "@table.csv", "-o", "@f.json", "--weights", "heavy"}, "heavy"},
     {"OutputBelowAFile", {"fit", "@table.csv", "-o", "@empty/f.json"}, "empty"},
     {"OutputIsAFolder", {"fit", "@table.csv", "-o", "@folder"}, "folder: cannot be written"},
     {"OutputIsItsInput",
@@ -132,9 +132,6 @@ const Cases kSimulate = {
     {"UnknownModelInCase",
      {"simulate", "@unknown_model.toml", "--fit", "@fit.json", "-o", "@out"},
      "'magic'"},
-    {"UnknownModel",
-     {"simulate", "@case.toml", "--fit", "@fit.json", "-o", "@out", "--models", "inertial,magic"},
-     "'magic'"},
     {"MissingFit",
      {"simulate", "@case.toml", "--fit", "@no.json", "-o", "@out"},
      "no.json: cannot be read"},
@@ -146,6 +143,12 @@ const Cases kSimulate = {
      "empty:1: is not valid JSON"},
     {"TruncatedFit", {"simulate", "@case.toml", "--fit", "@half.json", "-o", "@out"}, "half.json"},
     {"NullInFit", {"simulate", "@case.toml", "--fit", "@null.json", "-o", "@out"}, "radius"},
+    {"KeyTwiceInFit",
+     {"simulate", "@case.toml", "--fit", "@twice.json", "-o", "@out"},
+     "twice.json:6: radius stands twice"},
+    {"DecimalCommaInFit",
+     {"simulate", "@case.toml", "--fit", "@comma.json", "-o", "@out"},
+     "comma.json:6: is not valid JSON at column 15 (syntax error"},
     {"UnknownKeyInFit",
      {"simulate", "@case.toml", "--fit", "@unknown_key.json", "-o", "@out"},
      "radios"},

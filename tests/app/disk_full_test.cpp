@@ -11,7 +11,9 @@
 namespace viscontact {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // In units of 512 bytes: enough for the messages on standard error, which is a file too, and for three rows of a journal, not for
 // any output of a stage.
@@ -26,7 +28,8 @@ class DiskFull : public ::testing::Test {
 };
 
 TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
-  put_text(path("fit.json"), R"({"gap_interval": "of an older fit"})");
+  put_text(path("fit.json"),
+           R"({"provenance": {"command":[]}, "gap_interval": "of an older fit"})");
   const auto before = files_below(scratch_.path());
   const auto result =
       run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
@@ -44,6 +47,25 @@ TEST_F(DiskFull, ParticlesFailCleanlyIfNotEvenTheFirstFrameFits) {
   expect_refusal(result, ExitCode::kBadInput,
                  HasSubstr("particles_00000.vtp: cannot be written (File too large)"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));  // nothing was put there
+}
+
+TEST_F(DiskFull, FolderThatCannotBeWrittenIsSaidWithoutAPromiseOfKeptRows) {
+  // Nobody, not even root, can make a file in /sys.
+  const TemporaryFolder elsewhere;
+  const FakeFreeFem fake(elsewhere.path());
+  put_text(path("case.toml"), gentle_case_text());
+  const std::string exact =
+      replaced(replaced(gentle_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
+               "weights = \"relative\"", "");
+  put_text(path("exact.toml"), exact);
+  const std::vector<std::vector<std::string>> commands = {
+      {"tabulate", path("case.toml"), "-o", "/sys/table.csv"},
+      {"sweep", path("exact.toml"), "-o", "/sys/rows.csv", "--vary", "fluid.viscosity=1,2"}};
+  for (const auto& command : commands)
+    expect_refusal(
+        run_viscontact(command, {"VISCONTACT_FREEFEM=" + fake.executable()}), ExitCode::kBadInput,
+        AllOf(HasSubstr("cannot be written ("), Not(HasSubstr("kept")), Not(HasSubstr("goes on"))));
+  EXPECT_TRUE(fake.answered().empty());
 }
 
 TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -86,24 +87,74 @@ TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
   EXPECT_TRUE(std::filesystem::exists(path("table.csv")));
 }
 
-TEST_F(ExternalPrograms, MissingGnuplotLeavesNoReport) {
-  const std::string run = simulated_folder();
-  const TemporaryFolder empty;
-  const auto before = files_below(run);
-  const auto result = run_viscontact({"report", run}, {"PATH=" + empty.path().string()});
-  expect_refusal(result, ExitCode::kExternalProgram,
-                 AllOf(HasSubstr("gnuplot"), HasSubstr("apt-get install gnuplot-nox")));
-  EXPECT_EQ(files_below(run), before);
+// Without the limit each of these would take an hour.
+TEST_F(ExternalPrograms, FreeFemThatDoesNotSayItsVersionIsStopped) {
+  put_text(path("freefem"), "#!/bin/sh\nexec sleep 3600\n");
+  make_executable(path("freefem"));
+  put_text(path("case.toml"), gentle_case_text());
+  const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + path("freefem"),
+                                                "VISCONTACT_FREEFEM_TIME_LIMIT=1"};
+  const auto said =
+      AllOf(HasSubstr("does not say which version it is"), HasSubstr("not ended after 1 s"));
+  expect_refusal(
+      run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")}, environment),
+      ExitCode::kExternalProgram, said);
+  const auto doctor = run_viscontact({"doctor"}, environment);
+  EXPECT_EQ(doctor.exit_status, static_cast<int>(ExitCode::kExternalProgram));
+  EXPECT_THAT(doctor.output, said);
 }
 
-TEST_F(ExternalPrograms, FailingGnuplotIsAnErrorWithWhatItSaid) {
+TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
+  const FakeFreeFem fake(scratch_.path(), "[ $gap = 1.5 ] && exec sleep 3600\n");
+  put_text(path("case.toml"), gentle_case_text());
+  // The other rows, which answer at once, have time even on a busy machine.
+  const auto result = run_viscontact(
+      {"tabulate", path("case.toml"), "-o", path("table.csv")},
+      {"VISCONTACT_FREEFEM=" + fake.executable(), "VISCONTACT_FREEFEM_TIME_LIMIT=10"});
+  expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("1 of 6 rows failed"));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 10 s"),
+                                   HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
+  EXPECT_TRUE(std::filesystem::exists(path("table.csv.rows")));
+}
+
+TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {
+  // Under this limit FreeFEM 4.11 of Debian 12 says its version and hangs in the first row.
+  put_text(path("case.toml"), replaced(gentle_case_text(), "count = 6", "count = 2"));
+  const auto result =
+      run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM_TIME_LIMIT=10"}, "ulimit -v 200000;");
+  EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("gap 0.05"));
+}
+
+TEST_F(ExternalPrograms, TimeLimitThatIsNoNumberOfSecondsIsWrongUsage) {
+  put_text(path("case.toml"), gentle_case_text());
+  for (const auto* limit : {"0", "-1", "soon", "1.5", "1e3", "99999999999"})
+    expect_refusal(run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
+                                  {std::string("VISCONTACT_FREEFEM_TIME_LIMIT=") + limit}),
+                   ExitCode::kWrongUsage, HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"));
+}
+
+TEST_F(ExternalPrograms, MissingGnuplotLeavesAReportWithoutStillPictures) {
   const std::string run = simulated_folder();
-  const auto before = files_below(run);
+  const TemporaryFolder empty;
+  const auto result = run_viscontact({"report", run}, {"PATH=" + empty.path().string()});
+  expect_done(result);
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("warning: gnuplot cannot be run"),
+                                   HasSubstr("apt-get install gnuplot-nox")));
+  EXPECT_THAT(read_file(run + "/report.html"), HasSubstr("no still pictures"));
+  EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
+}
+
+TEST_F(ExternalPrograms, FailingGnuplotIsAnErrorWithWhatItSaidAndTheReportIsWritten) {
+  const std::string run = simulated_folder();
   const auto result = run_viscontact(
       {"report", run}, {"PATH=" + folder_with_gnuplot("echo 'no svg terminal'; exit 1\n")});
   expect_refusal(result, ExitCode::kExternalProgram,
-                 AllOf(HasSubstr("gnuplot failed"), HasSubstr("no svg terminal")));
-  EXPECT_EQ(files_below(run), before);
+                 AllOf(HasSubstr("gnuplot failed"), HasSubstr("no svg terminal"),
+                       HasSubstr("the report is written, without still pictures")));
+  EXPECT_TRUE(std::filesystem::exists(run + "/report.html"));
+  EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
 }
 
 TEST_F(ExternalPrograms, GnuplotThatDiesBeforeItHasReadItsInputIsAnError) {
@@ -113,7 +164,25 @@ TEST_F(ExternalPrograms, GnuplotThatDiesBeforeItHasReadItsInputIsAnError) {
       "[ -e \"$0.called\" ] && exit 1\n: > \"$0.called\"\necho '<svg></svg>'\n");
   const auto result = run_viscontact({"report", run}, {"PATH=" + bin});
   expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("gnuplot failed"));
-  EXPECT_FALSE(std::filesystem::exists(run + "/report.html"));
+  EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
+}
+
+TEST_F(ExternalPrograms, MissingGnuplotLosesNoNumbers) {
+  put_text(path("table.csv"), exact_table_text());
+  const TemporaryFolder empty;
+  const std::vector<std::string> environment = {"PATH=" + empty.path().string()};
+  const auto bases = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis",
+                                     "asymptotic", "--compare-bases"},
+                                    environment);
+  EXPECT_EQ(bases.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << bases.errors;
+  EXPECT_THAT(bases.output, HasSubstr("asymptotic_extended"));
+  EXPECT_TRUE(std::filesystem::exists(path("fit.json")));
+  const auto shift = run_viscontact({"shift", path("table.csv"), "--fit", path("fit.json"), "-o",
+                                     path("shift.csv"), "--plot", path("shift.svg")},
+                                    environment);
+  EXPECT_EQ(shift.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << shift.errors;
+  EXPECT_THAT(shift.output, HasSubstr("shift "));
+  EXPECT_TRUE(std::filesystem::exists(path("shift.csv")));
 }
 
 }  // namespace

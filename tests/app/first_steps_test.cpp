@@ -57,7 +57,7 @@ TEST_F(FirstSteps, WhatInitCommentsOutIsRightToo) {
     put_text(path("one.toml"), replaced(text, at->str(), "\n" + (*at)[1].str()));
     EXPECT_NO_THROW(read_case(path("one.toml"))) << at->str();
   }
-  EXPECT_EQ(count, 5);  // geometry, loss, below, above, models
+  EXPECT_EQ(count, 6);  // geometry, loss, below, above, rows, models
 }
 
 TEST_F(FirstSteps, InitReplacesNothing) {

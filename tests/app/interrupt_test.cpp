@@ -1,4 +1,4 @@
-// Ctrl-C during a tabulation.
+// Ctrl-C, or the loss of the terminal, during a tabulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -48,13 +48,15 @@ fi
   EXPECT_EQ(::kill(slow_row, 0), -1);  // signal 0: does the process exist?
   EXPECT_EQ(errno, ESRCH);
 
-  expect_done(run_viscontact(arguments, environment));
+  const auto resumed = run_viscontact(arguments, environment);
+  expect_done(resumed);
+  EXPECT_THAT(resumed.errors, HasSubstr("tabulate: 6 rows (2 of them from before) on 1 processes"));
   EXPECT_THAT(read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM"),
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM", "HUP"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace

@@ -193,6 +193,11 @@ TEST(ParticlesPage, OneParticleInOneFrameStands) {
   EXPECT_EQ(found["played"], 0);
   EXPECT_EQ(found["ticks"], 0);
   EXPECT_EQ(found["readout"], "particle 0: radius 0.5, at (3, 4), 0 contacts");
+  // A particle that has an id is named by it.
+  auto named = one_particle();
+  named.ids = {1207};
+  EXPECT_EQ(read_page(particles_page(named, "One"), 1200)["readout"],
+            "particle 1207: radius 0.5, at (3, 4), 0 contacts");
 }
 
 TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {

@@ -173,15 +173,18 @@ TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
   EXPECT_EQ(files_below(out()), before);
 }
 
-TEST_F(ParticlesCommand, InterruptedItKeepsWhatItHasAndARestartGoesOn) {
-  // Long enough that the interrupt comes in the middle of it: a hundred million steps are minutes.
+class InterruptedParticles : public ParticlesCommand,
+                             public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(InterruptedParticles, KeepWhatTheyHaveAndARestartGoesOn) {
+  // Long enough that the signal comes in the middle of it: a hundred million steps are minutes.
   const auto endless =
       put_case(replaced(replaced(replaced(kCase, "time_step = 0.05", "time_step = 1e-7"),
-                                 "every = 0.5", "every = 10.0"),
+                                 "every = 0.5", "every = 1e-5"),
                         "tolerance = 1e-6", "tolerance = 1e-3"),
                "long.toml");
   const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
-                                     "(sleep 1; kill -INT $$) &");
+                                     "(sleep 1; kill -" + GetParam() + " $$) &");
   EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kInterrupted)) << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("goes on"));
   const auto state = particles::read_restart(out() / "restart.bin");
@@ -189,9 +192,21 @@ TEST_F(ParticlesCommand, InterruptedItKeepsWhatItHasAndARestartGoesOn) {
   EXPECT_LT(state.time, 10);
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_EQ(record["to_time"], state.time);
-  EXPECT_THAT(read_file(out() / "particles.pvd"), HasSubstr("particles_00000.vtp"));
+  // Every frame that is on disk is in the list of frames, too.
+  const std::string list = read_file(out() / "particles.pvd");
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(out())) {
+    if (entry.path().extension() != ".vtp") continue;
+    ++frames;
+    EXPECT_THAT(list, HasSubstr(entry.path().filename().string()));
+  }
+  EXPECT_GT(frames, 1);
   expect_done(run(put_case(kCase), out("rest"), {"--restart", (out() / "restart.bin").string()}));
 }
+
+// HUP is what the loss of the terminal or of the connection sends.
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptedParticles, ::testing::Values("INT", "HUP"),
+                         [](const auto& test) { return test.param; });
 
 TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   expect_done(run(put_case(kCase), out()));
@@ -306,35 +321,40 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::ValuesIn(std::vector<BadParticles>{
         {"NanInTheFile", "3,1,", "nan,1,", "discs.csv:2: x is not a finite number"},
         {"InfinityInTheFile", "3,1,", "3,inf,", "discs.csv:2: y is not a finite number"},
-        {"ZeroMassInTheFile", "0.5,0.25", "0.5,0", "discs.csv:3: mass is 0; must be > 0"},
+        {"ZeroMassInTheFile", "0.5,0.25", "0.5,0", "discs.csv:3: mass is 0; it must be > 0"},
         {"NegativeRadiusInTheFile", "0.5,0.25", "-0.5,0.25", "discs.csv:3: radius is -0.5"},
         {"HugePosition", "3,1,", "3e200,1,", "discs.csv:2: x is 3e+200"},
         {"NoColumn", "radius,mass", "radius,weight", "column 'mass' is missing"},
         {"ThirdDimension", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
-         "x,y,z,vx,vy,vz,radius,mass\n3,1,0,0,0,0,1,1", "discs.csv:2: has a third dimension"},
+         "x,y,z,vx,vy,vz,radius,mass\n3,1,0,0,0,0,1,1",
+         "discs.csv:2: has a value in a column of the third dimension"},
         {"Overlap", "6.5,4,0", "3.5,2,0", "overlap by"},
         {"Twice", "6.5,4,0", "3,1,0", "discs.csv:3: particle 0"},
         {"BehindThePlane", "6.5,4,0", "6.5,-4,0", "plane 1"},
         {"InThePlane", "6.5,4,0", "6.5,0.4,0", "discs.csv:3: particle 1"},
-        {"OtherDimension", "dimension = 2", "dimension = 3", "has 2 numbers; space.dimension is 3"},
+        {"OtherDimension", "dimension = 2", "dimension = 3",
+         "contains 2 numbers; it must contain 3"},
         {"NoDimension", "dimension = 2", "dimension = 4", "from 2 to 3"},
-        {"NoNormal", "normal = [0.0, 1.0]", "normal = [0.0, 0.0]", "must point into the free side"},
+        {"NoNormal", "normal = [0.0, 1.0]", "normal = [0.0, 0.0]",
+         "it must be a vector that points into the free side"},
         {"LongStep", "time_step = 0.05", "time_step = 50", "must be at most end_time"},
         {"ManySteps", "time_step = 0.05", "time_step = 1e-12", "at most 1e+09 are allowed"},
         {"PositiveGamma", "gamma_min = -2.0", "gamma_min = 2.0", "must be a number <= 0"},
         {"BothLaws", "gamma_min = -2.0", "gamma_min = -2.0\nviscosity = 1.0\nroughness = 0.1",
-         "must not be there beside gamma_min"},
-        {"ViscosityAlone", "gamma_min = -2.0", "viscosity = 1.0", "of viscosity and roughness"},
-        {"ForceEndsEarly", "until = 10.0", "until = 9.0", "ends at 9; must reach"},
-        {"ForceBackwards", "until = 10.0", "until = 4.0", "must be after the piece before"},
-        {"ForceOfThreeNumbers", "value = [0.7, -0.7]", "value = [0.7, -0.7, 0]", "has 3 numbers"},
+         "must be left out where gamma_min is given"},
+        {"ViscosityAlone", "gamma_min = -2.0", "viscosity = 1.0",
+         "roughness is missing; a case with a viscosity needs both"},
+        {"ForceEndsEarly", "until = 10.0", "until = 9.0", "ends at 9; it must reach"},
+        {"ForceBackwards", "until = 10.0", "until = 4.0", "where the piece before ends"},
+        {"ForceOfThreeNumbers", "value = [0.7, -0.7]", "value = [0.7, -0.7, 0]",
+         "contains 3 numbers; it must contain 2"},
         {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
         {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "between 1e-12 and 0.1"},
         {"Method", "tolerance = 1e-6", "method = \"magic\"", "must be one of"},
         {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
         {"MisspeltVelocity", "x,y,vx,vy,", "x,y,Vx,Vy,", "has a column 'Vx'"},
         {"HalfAVelocity", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
-         "x,y,vx,radius,mass\n3,1,0,1,1", "some columns of velocities"},
+         "x,y,vx,radius,mass\n3,1,0,1,1", "has some of the columns vx, vy, vz"},
         {"TooSmallForTheTolerance", "0.5,0.25", "1e-6,0.25", "too small for solver.tolerance"},
         {"TooFar", "6.5,4,0", "6.5,4e12,0", "too far from the origin"},
         {"DenormalMass", "0.5,0.25", "0.5,1e-310", "at least 1e-100"},
@@ -342,15 +362,21 @@ INSTANTIATE_TEST_SUITE_P(
          "force = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]",
          "force = { until = 10.0, value = [0.0, 0.0] }", "a list of pieces"},
         {"PivotOfNothing", "normal = [0.0, 1.0]", "normal = [0.0, 1.0]\npivot = [0.0, 0.0]",
-         "is for a plane with an angular_velocity"},
+         "must be left out, because this plane has no angular_velocity"},
         {"UnknownKey", "every = 0.5", "evry = 0.5", "every"},
         {"NoFile", "file = \"discs.csv\"", "file = \"discs\"", "discs"},
         {"ForceOnNobody", "[output]", "[[force]]\nparticles = [3]\nvalue = [0.0, 0.0]\n[output]",
-         "the particles' numbers are 0 to 2"},
+         "the particles are numbered from 0 to 2"},
         {"ForceTwice", "[output]", "[[force]]\nparticles = [2]\nvalue = [0.0, 0.0]\n[output]",
-         "has a force already"},
+         "a second time; each particle must have one force"},
     }),
     [](const auto& test) { return test.param.name; });
+
+TEST_F(ParticlesCommand, BlankLinesAtTheEndOfTheFileAreNoParticles) {
+  folder_.file("discs.csv", std::string(kDiscs) + "\n,,,,,\n\n");
+  expect_done(run(put_case(kCase), out()));
+  EXPECT_EQ(particles::read_particles(out() / "final_particles.csv", 2).particles.count(), 3U);
+}
 
 TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {
   expect_done(run(put_case(replaced(replaced(kCase, "every = 0.5", "every = 1e-9"),

@@ -124,10 +124,40 @@ TEST_F(Provenance, StandsInEveryExportAndLeavesItWhole) {
            {"csv", "test -s "}}) {
     const auto file = path("a --b */ & <i>.txt");  // what a comment or an element must survive
     expect_done(run({"export", path("fit.json"), "--to", target, "-o", file}));
-    EXPECT_EQ(provenance_of(file).at("command").back(), file) << target;
+    EXPECT_EQ(provenance_of(file).at("command").back(), fs::path(file).filename().string())
+        << target;
     EXPECT_EQ(std::system((checker + "'" + file + "' >/dev/null").c_str()), 0) << target;
     fs::remove(file);
   }
+}
+
+TEST_F(Provenance, OfAnExportNamesItsSourceAndNoFolderOfTheMachine) {
+  fit();
+  const auto folder = scratch_.path().string();
+  fs::create_directory(path("include"));
+  for (const std::string target : {"c-header", "fortran", "python", "json", "csv"})
+    for (const bool absolute : {false, true}) {
+      SCOPED_TRACE(target + (absolute ? ", absolute paths" : ""));
+      const auto word = [&](const std::string& name) { return absolute ? path(name) : name; };
+      expect_done(run_viscontact(
+          {"export", word("fit.json"), "--to", target, "--output=" + word("include/film.txt")}, {},
+          "cd '" + folder + "'; "));
+      const auto text = read_file(path("include/film.txt"));
+      EXPECT_THAT(text,
+                  AllOf(HasSubstr("Exported from the fit in fit.json."), Not(HasSubstr(folder)),
+                        Not(HasSubstr(fs::path(VISCONTACT_EXECUTABLE).parent_path().string()))));
+      const auto json = provenance_of(path("include/film.txt"));
+      EXPECT_EQ(json.at("command"), Json({"viscontact", "export", "fit.json", "--to", target,
+                                          "--output=include/film.txt"}));
+      EXPECT_EQ(json.at("folder"), "");
+      EXPECT_EQ(json.at("inputs").at(0).at("file"), "fit.json");
+      EXPECT_EQ(json.at("output"), "include/film.txt");
+      // It can be made again all the same, where it lies.
+      expect_done(run({"rerun", path("include/film.txt"), "-o", path("again.txt")}));
+      EXPECT_EQ(rest_of(path("again.txt")), rest_of(path("include/film.txt")));
+      fs::remove(path("include/film.txt"));
+      fs::remove(path("again.txt"));
+    }
 }
 
 TEST_F(Provenance, PictureStaysWellFormedXml) {
@@ -293,7 +323,8 @@ TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
         R"(["viscontact"])",
         R"(["viscontact","tabulate","case.toml","-o","t.csv","--launcher","slurm"])",
         R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
-    expect_refusal(forged(command), ExitCode::kBadInput, HasSubstr("makes no file"));
+    expect_refusal(forged(command), ExitCode::kBadInput,
+                   HasSubstr("holds a command that 'rerun' does not run"));
 }
 
 TEST_F(Rerun, FindsItInAJsonFileThatWasWrittenOutAgain) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 
 #include "common/file.hpp"
 #include "common/locked_folder.hpp"
@@ -117,7 +118,8 @@ TEST_F(Run, NeverReplacesATableThatItDidNotWrite) {
   fs::create_directories(folder());
   put_text(table, "# viscosity: 3\n# radius: 1\ngap,reference_velocity,force\n0.1,-1,900\n");
   const auto before = read_file(table);
-  expect_refusal(run(), ExitCode::kBadInput, HasSubstr("is there and is no table of ours"));
+  expect_refusal(run(), ExitCode::kBadInput,
+                 HasSubstr("is there and is no table that Viscontact wrote"));
   EXPECT_EQ(read_file(table), before);
 }
 
@@ -196,8 +198,15 @@ TEST_F(Run, MissingFileIsMadeAgain) {
   EXPECT_EQ(fake_.answered().size(), 6U);
 }
 
+/// A push that all models but the two without drag near contact cannot follow in the table; those two are left out.
+std::string case_that_no_model_can_follow() {
+  return replaced(replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"),
+                  "end_time = 4.0",
+                  "end_time = 4.0\nmodels = [\"reference\", \"reference_exact\", \"inertial\"]");
+}
+
 TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
-  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"));
+  put_text(case_file(), case_that_no_model_can_follow());
   expect_refusal(run(), ExitCode::kBadInput, HasSubstr("0.05"));
   EXPECT_TRUE(fs::exists(folder() / "table.csv"));
   EXPECT_TRUE(fs::exists(folder() / "fit.json"));
@@ -209,7 +218,7 @@ TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
   expect_done(run());
   const auto before = files_below(folder());
   const auto made = write_times(folder());
-  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"));
+  put_text(case_file(), case_that_no_model_can_follow());
   expect_refusal(run(), ExitCode::kBadInput, HasSubstr(case_file().string() + ": model reference"));
   EXPECT_EQ(files_below(folder()), before);
   EXPECT_EQ(write_times(folder()), made);
@@ -234,7 +243,7 @@ TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) 
   };
   const auto text = gentle_case_text();
   refused(replaced(text, "count = 6", "count = 4"),
-          "tabulation.gaps are 4; basis lecture needs at least 5");
+          "tabulation.gaps has 4 gap(s); the basis lecture needs at least 5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 2.0"),
           "motion.initial_gap is 2, above the largest gap of tabulation.gaps, 1.5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),
@@ -283,8 +292,8 @@ TEST_F(Run, TrajectoriesMadeWithAnotherDragOutsideTheFitAreMadeAgain) {
 
 TEST_F(Run, NeverReplacesWhatItDidNotWrite) {
   fs::create_directories(folder() / "trajectories");
-  for (const auto* name :
-       {"fit.json", "comparison.json", "report.html", "trajectories/inertial.csv"}) {
+  for (const auto* name : {"fit.json", "comparison.json", "report.html", "uncertainty.json",
+                           "failed_models.json", "trajectories/inertial.csv"}) {
     put_text(folder() / name, "my notes\n");
     expect_refusal(run(), ExitCode::kBadInput,
                    AllOf(HasSubstr(name), HasSubstr("remove it first")));
@@ -294,7 +303,92 @@ TEST_F(Run, NeverReplacesWhatItDidNotWrite) {
   EXPECT_TRUE(fake_.answered().empty());
 }
 
-TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {
+/// The case with the exact drag of a plane in place of a fit.
+std::string exact_case_text() {
+  return replaced(replaced(gentle_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
+                  "weights = \"relative\"", "");
+}
+
+TEST_F(Run, TableOfACaseThatNowHasTheExactDragIsKeptButNotShownAsItsOwn) {
+  expect_done(run());
+  const std::string table = read_file(folder() / "table.csv");
+  EXPECT_THAT(read_file(folder() / "report.html"), HasSubstr("href=\"table.csv\""));
+  put_text(case_file(), exact_case_text());
+  expect_done(run());
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("table.csv")));
+  EXPECT_FALSE(fs::exists(folder() / "plots/fit.svg"));
+  EXPECT_FALSE(fs::exists(folder() / "uncertainty.json"));
+  expect_done(run_viscontact({"report", folder().string()}));
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("table.csv")));
+  // Its rows took minutes to compute: it is there for the day when the case is changed back.
+  EXPECT_EQ(read_file(folder() / "table.csv"), table);
+  put_text(case_file(), gentle_case_text());
+  expect_done(run());
+  EXPECT_EQ(fake_.answered().size(), 6U);
+  EXPECT_THAT(read_file(folder() / "report.html"), HasSubstr("href=\"table.csv\""));
+}
+
+TEST_F(Run, TableOfACaseThatNowNamesAFitFileIsNotShownAsItsOwn) {
+  expect_done(run());
+  // The same formula from the same table: then the table is the fit's own.
+  const auto fit = (scratch_.path() / "my_fit.json").string();
+  fs::copy_file(folder() / "fit.json", fit);
+  const auto with_file = [&](const std::string& text) {
+    return replaced(replaced(text, "basis = \"lecture\"", "file = \"my_fit.json\""),
+                    "weights = \"relative\"", "");
+  };
+  put_text(case_file(), with_file(gentle_case_text()));
+  expect_done(run());
+  EXPECT_THAT(read_file(folder() / "report.html"), HasSubstr("href=\"table.csv\""));
+  // A fit of another table.
+  put_text(fit, std::regex_replace(read_file(fit), std::regex("\"table_sha256\": \"[0-9a-f]*\""),
+                                   "\"table_sha256\": \"" + std::string(64, '0') + "\""));
+  expect_done(run());
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("href=\"table.csv\"")));
+}
+
+TEST_F(Run, ForeignTableThatIsNotNeededDoesNoHarm) {
+  const auto table = folder() / "table.csv";
+  fs::create_directories(folder());
+  put_text(table, "my,own\ntable,here\n");
+  put_text(case_file(), exact_case_text());
+  expect_done(run());
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_EQ(read_file(table), "my,own\ntable,here\n");
+}
+
+TEST_F(Run, WithoutGnuplotEndsWithAReportAndTheNextRunDrawsThePictures) {
+  const TemporaryFolder programs;  // all that a fake FreeFEM needs, and no gnuplot
+  for (const auto* program : {"awk", "sh"})
+    fs::create_symlink(std::string("/usr/bin/") + program, programs.path() / program);
+  const auto without = [&] {
+    return run_viscontact(
+        {"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
+        {"VISCONTACT_FREEFEM=" + fake_.executable(), "PATH=" + programs.path().string()});
+  };
+  for (int n = 0; n < 2; ++n) {
+    const auto result = without();
+    expect_done(result);
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("report: warning: gnuplot cannot be run"),
+                                     HasSubstr("apt-get install gnuplot-nox"),
+                                     HasSubstr("written, without still pictures")));
+    EXPECT_TRUE(fs::exists(folder() / "report.html"));
+    EXPECT_FALSE(fs::exists(folder() / "plots"));
+  }
+  const auto page = read_file(folder() / "report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<figure data-plot=\"gap\">"), HasSubstr("no still pictures"),
+                          Not(HasSubstr("plots/gap.svg"))));
+  expect_done(run());
+  EXPECT_TRUE(fs::exists(folder() / "plots/gap.svg"));
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("no still pictures")));
+  EXPECT_THAT(run().errors, HasSubstr("report: up to date"));
+  // Pictures of an earlier report do not stay beside one that has none.
+  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -10.0"));
+  expect_done(without());
+  EXPECT_FALSE(fs::exists(folder() / "plots/gap.svg"));
+}
+
+TEST_F(Run, FailingGnuplotLeavesAReportWithoutPicturesAndTheNextRunMakesThem) {
   const TemporaryFolder programs;
   put_text(programs.path() / "gnuplot", "#!/bin/sh\nexit 1\n");
   make_executable(programs.path() / "gnuplot");
@@ -304,11 +398,13 @@ TEST_F(Run, FailingReportKeepsTheResultsAndTheNextRunMakesIt) {
                       "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
   expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("gnuplot"));
   EXPECT_TRUE(fs::exists(folder() / "comparison.json"));
-  EXPECT_FALSE(fs::exists(folder() / "report.html"));
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_FALSE(fs::exists(folder() / "plots"));
   const auto again = run();
   expect_done(again);
   EXPECT_THAT(again.errors, HasSubstr("trajectories are up to date"));
   EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_TRUE(fs::exists(folder() / "plots/gap.svg"));
 }
 
 }  // namespace

@@ -92,6 +92,10 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
   EXPECT_EQ(read_file(path("rows.csv")), rows);
   EXPECT_EQ(rest_of(path("picture.svg")), svg);
+  // Blank lines that an editor left at the end are no rows, here either.
+  put_text(path("rows.csv"), rows + "\n\n");
+  expect_done(sweep(kVanishing, {"--plot", path("picture.svg")}));
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
@@ -123,6 +127,42 @@ TEST_F(SweepCommand, CommandLineOverridesTheCase) {
   EXPECT_THAT(read_file(path("rows.csv")), HasSubstr("# reference: viscous_contact\n"));
 }
 
+TEST_F(SweepCommand, InWhichEveryPointFailedEndsWithAnErrorThatSaysWhy) {
+  put_text(path("short.json"),
+           replaced(read_file(data("fits/leading_term.json")), "\"gap_interval\": [1e-307, 1e+300]",
+                    "\"gap_interval\": [1e-3, 0.5]"));
+  const std::vector<std::string> options = {"--vary",   "fluid.viscosity=0.5,1", "--models",
+                                            "inertial", "--reference",           "inertial",
+                                            "--fit",    path("short.json")};
+  // The same again when the file is up to date.
+  for (const std::string said : {"2 rows in", "is up to date"}) {
+    const auto result = sweep(kVanishing, options);
+    EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kNotConverged));
+    EXPECT_THAT(result.errors,
+                AllOf(HasSubstr(said), HasSubstr("every model failed at 2 points"),
+                      HasSubstr("rows.csv: every model failed at every point"),
+                      HasSubstr("gap 1 is outside the fitted interval"),
+                      HasSubstr("above = \"stokes_limit\""), Not(HasSubstr("--stokes-limit")),
+                      Not(HasSubstr("--lubrication-limit"))));
+  }
+  EXPECT_EQ(lines().size(), 3U);  // the rows are there, each with its reason
+}
+
+TEST_F(SweepCommand, SaysAtHowManyPointsModelsFailed) {
+  // exp(-4/mu) is the thinnest film: at mu = 1 it is 0.018, at mu = 0.5 3.4e-4.
+  put_text(path("short.json"),
+           replaced(read_file(data("fits/leading_term.json")), "\"gap_interval\": [1e-307, 1e+300]",
+                    "\"gap_interval\": [1e-3, 100]"));
+  const auto result = sweep(kVanishing, {"--vary", "fluid.viscosity=1,-1,0.5,1", "--models",
+                                         "inertial,viscous_contact_exact", "--reference",
+                                         "inertial", "--fit", path("short.json")});
+  expect_done(result);
+  EXPECT_THAT(result.errors,
+              AllOf(HasSubstr("4 rows in"), HasSubstr("every model failed at 1 point;"),
+                    HasSubstr("some models failed at 1 point ("), HasSubstr("'failure'")));
+  EXPECT_THAT(sweep(kVanishing, kTwoRows, "good.csv").errors, Not(HasSubstr("failed")));
+}
+
 TEST_F(SweepCommand, TakesRandomSamplesOfASeed) {
   const auto with_seed = [&](const std::string& seed, const std::string& output) {
     expect_done(sweep(kVanishing,
@@ -143,7 +183,7 @@ TEST_F(SweepCommand, TakesAFitFromTheCommandLine) {
   expect_done(sweep(kVanishing, kTwoRows, "own.csv"));
   const auto fitless =
       study("vanishing_viscosity.toml", "[fit]\nfile = \"../fits/leading_term.json\"", "");
-  expect_refused(fitless, kTwoRows, ExitCode::kWrongUsage, HasSubstr("give one with --fit"));
+  expect_refused(fitless, kTwoRows, ExitCode::kWrongUsage, HasSubstr("give a fit with --fit"));
   expect_done(sweep(fitless, arguments));
   EXPECT_EQ(lines(), lines("own.csv"));
 }
@@ -155,13 +195,15 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   expect_refused(data("cases/limit.toml"), {"--fit", data("fits/leading_term.json")},
                  ExitCode::kWrongUsage, HasSubstr("give --vary"));
   wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not reach 0");
-  wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is no finite number");
-  wrong({"--vary", "fluid.viscosity"}, "no KEY=");
-  wrong({"--vary", "motion.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is there twice");
-  wrong({"--reference", "viscous_contact"}, "'viscous_contact' is none of the models");
-  wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial is there twice");
-  wrong({"--plot", path("picture.svg"), "--column", "inertial.gap"},
-        "no column 'inertial.gap' to plot; there are: fluid.viscosity, viscous_contact_exact");
+  wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
+  wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
+  wrong({"--models", "inertia", "--reference", "inertia"}, "--models: no model is named 'inertia'");
+  wrong({"--vary", "motion.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is given twice");
+  wrong({"--reference", "viscous_contact"}, "'viscous_contact' is not one of the models");
+  wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial is given twice");
+  wrong(
+      {"--plot", path("picture.svg"), "--column", "inertial.gap"},
+      "no column 'inertial.gap' to plot; the columns are: fluid.viscosity, viscous_contact_exact");
   wrong({"--plot", path("picture.svg"), "--column", "inertial.film_ratio/sphere.mass"},
         "no column 'sphere.mass'");
   wrong({"--plot", path("picture.svg"), "--x", "sphere.mass"}, "'sphere.mass' cannot be an axis");
@@ -177,12 +219,38 @@ TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
                    AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr(words)));
   };
   bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
-  bad({"--vary", "title=1,2"}, "title is no number");
-  bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; must be a number > 0");
-  bad({"--vary", "sphere.radius=1,2"}, "the fit's 0.23032943298089034");
-  expect_refused(kVanishing, {"--models", "inertia", "--reference", "inertia"}, ExitCode::kBadInput,
-                 HasSubstr("inertia"));
+  bad({"--vary", "title=1,2"}, "title is not a number");
+  bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
+  bad({"--vary", "sphere.radius=1,2"}, "the fit's radius is 0.23032943298089034");
   expect_refused(path("no_such.toml"), {}, ExitCode::kBadInput, HasSubstr("no_such.toml"));
+}
+
+TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
+  const auto refused = [&](const std::string& key, const std::string& models,
+                           const std::string& words) {
+    expect_refused(kVanishing,
+                   {"--vary", key + "=1e-3,1e-2", "--models", models, "--reference",
+                    models.substr(0, models.find(','))},
+                   ExitCode::kWrongUsage,
+                   AllOf(HasSubstr(key + " cannot be varied"), HasSubstr(words)));
+  };
+  for (const std::string key :
+       {"tabulation.relative_accuracy", "fit.fix", "published.minimal_gap", "sweep.samples"})
+    refused(key, "inertial", "tabulates and fits nothing");
+  const std::string none = "none of the models that are run depends on it (";
+  refused("viscous_contact.threshold_gap", "inertial,viscous_contact",
+          none + "inertial, viscous_contact)");
+  refused("viscous_contact.roughness[1]", "inertial,viscous_contact_smooth", none);
+  refused("viscous_contact.time_step", "inertial", none);
+  refused("inertial.relative_tolerance", "viscous_contact", none);
+  refused("reference.time_step", "viscous_contact", none);
+  refused("fluid.viscosity", "inelastic_contact", none);
+  refused("sphere.mass", "reference_exact", none);
+  refused("motion.initial_velocity", "reference_exact", none);
+  // With a model that does depend on the key the others are run beside it.
+  expect_done(sweep(kVanishing,
+                    {"--vary", "viscous_contact.roughness[0]=1e-3,1e-2", "--models",
+                     "viscous_contact_smooth,viscous_contact", "--reference", "viscous_contact"}));
 }
 
 TEST_F(SweepCommand, SamplesOfACaseAreAWholeNumber) {
@@ -223,7 +291,7 @@ TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
-  put_text(path("rows.csv"), "# viscontact: sweep\nother\n");
+  put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
   expect_done(sweep(kVanishing, arguments));
   EXPECT_EQ(lines().size(), 3U);
 }

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "reduced_model/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/common/temporary_folder.hpp"
 
@@ -48,7 +49,27 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{
             "ArgumentTooMany", {"fit", "table.csv", "other.csv", "-o", "fit.json"}, "other.csv"},
         WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
-        WrongUsage{"MissingFit", {"simulate", "case.toml", "-o", "out"}, "--fit"},
+        WrongUsage{"UnknownBasis",
+                   {"fit", "table.csv", "-o", "f.json", "--basis", "cubic"},
+                   "--basis: no basis is named 'cubic'; there are: lecture"},
+        WrongUsage{"UnknownTerm",
+                   {"fit", "table.csv", "-o", "f.json", "--terms", "1/q, q^9"},
+                   "--terms: no term is named 'q^9'; there are: 1/q"},
+        WrongUsage{"UnknownWeights",
+                   {"fit", "table.csv", "-o", "f.json", "--weights", "heavy"},
+                   "--weights: the weights are 'heavy'; they must be relative or absolute"},
+        WrongUsage{"UnknownLoss",
+                   {"fit", "table.csv", "-o", "f.json", "--loss", "l1"},
+                   "--loss: no loss is named 'l1'; there are: none, huber"},
+        WrongUsage{"UnknownExportTarget",
+                   {"export", "fit.json", "--to", "matlab"},
+                   "--to: no export target is named 'matlab'; there are: c-header"},
+        WrongUsage{"UnknownModelToSimulate",
+                   {"simulate", "case.toml", "-o", "out", "--models", "inertial,magic"},
+                   "--models: no model is named 'magic'; there are: reference"},
+        WrongUsage{"UnknownModelToSweep",
+                   {"sweep", "case.toml", "-o", "rows.csv", "--models", "magic"},
+                   "--models: no model is named 'magic'"},
         WrongUsage{"MissingCase", {"run", "-o", "out"}, "CASE"},
         WrongUsage{"MissingFolder", {"report"}, "DIR"},
         WrongUsage{"OptionWithoutValue", {"compare", "out", "--reference"}, "--reference"},
@@ -82,11 +103,11 @@ INSTANTIATE_TEST_SUITE_P(
                    "--fix is '1/q=x'"},
         WrongUsage{"PictureOfOneFit",
                    {"fit", "table.csv", "-o", "f.json", "--plot", "p.svg"},
-                   "--plot is for --compare-bases"},
+                   "--plot needs --compare-bases"},
         WrongUsage{"FitAndPictureInOneFile",
                    {"fit", "table.csv", "-o", "f.json", "--compare-bases", "--plot", "f.json"},
                    "would be written twice"},
-        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "no name"},
+        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "an empty name"},
         WrongUsage{"UnknownLauncher",
                    {"tabulate", "case.toml", "-o", "table.csv", "--launcher", "pbs"},
                    "--launcher"},
@@ -130,6 +151,21 @@ INSTANTIATE_TEST_SUITE_P(
         Help{"compare", {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
         Help{"report", {"DIR"}}, Help{"doctor", {}}),
     [](const auto& test) { return test.param.command; });
+
+TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {
+  // Its lines are broken in the middle of a list.
+  std::string words;
+  for (const char c : run_viscontact({"simulate", "--help"}).output)
+    if (c != '\n' && (c != ' ' || !words.ends_with(' '))) words += c;
+  const auto by_default = words.find("else reference");
+  const auto on_request = words.find("on request: ");
+  ASSERT_NE(by_default, std::string::npos) << words;
+  ASSERT_NE(on_request, std::string::npos) << words;
+  for (const auto& model : all_models())
+    EXPECT_NE(words.find(model.name, model.by_default ? by_default : on_request), std::string::npos)
+        << model.name;
+  EXPECT_GT(words.find("inelastic_contact"), on_request);
+}
 
 TEST(ProgramHelp, NamesEveryCommand) {
   const auto result = run_viscontact({"--help"});

@@ -43,29 +43,37 @@ TEST(Container, MayBeUnbounded) {
 TEST(Container, IsUnboundedByThatWordAlone) {
   for (const auto* value : {"\"Unbounded\"", "\"unbound\"", "\"none\"", "\"\""})
     expect_refused(with_value(kContainer, value), kContainer.path,
-                   "must be \"unbounded\" or a table with radius and height");
+                   "must be \"unbounded\" or a table { radius = ..., height = ... }");
 }
 
 TEST(Container, MustBeWiderThanTheSphere) {
   expect_refused(with_value(kContainer, "{ radius = 1.0, height = 80.0 }"),
                  "tabulation.container.radius",
-                 "is 1; must be greater than that of sphere and neighbour, 1");
+                 "is 1; it must be greater than 1, the radius of sphere and neighbour");
 }
 
 TEST(Container, MustBeHigherThanTheSphereOverItsLargestGap) {
   expect_refused(with_value(kContainer, "{ radius = 40.0, height = 4.0 }"),
                  "tabulation.container.height",
-                 "is 4; must be greater than 4, what the largest gap");
+                 "is 4; it must be greater than 4, what the largest gap");
+}
+
+TEST(Container, IsAtMostSoLargeThatFreeFemCanMeshIt) {
+  expect_refused(with_value(kContainer, "{ radius = 1e6, height = 80.0 }"),
+                 "tabulation.container.radius", "is 1000000; must be at most 200000 sphere radii");
+  expect_refused(with_value(kContainer, "{ radius = 40.0, height = 200001.0 }"),
+                 "tabulation.container.height", "is 200001; must be at most 200000 sphere radii");
+  EXPECT_NO_THROW(read_text(with_value(kContainer, "{ radius = 2e5, height = 2e5 }").text));
 }
 
 TEST(Container, MustHoldASecondSphereAndItsMirrorImage) {
   const std::string pair = "{ kind = \"sphere\", radius = 3.0 }";
   expect_refused(with_geometry_and_container(pair, "container = { radius = 3.0, height = 80.0 }"),
                  "tabulation.container.radius",
-                 "is 3; must be greater than that of sphere and neighbour, 3");
+                 "is 3; it must be greater than 3, the radius of sphere and neighbour");
   // The largest gap is 2.
   expect_refused(with_geometry_and_container(pair, "container = { radius = 40.0, height = 14.0 }"),
-                 "tabulation.container.height", "is 14; must be greater than 14");
+                 "tabulation.container.height", "is 14; it must be greater than 14");
   EXPECT_NO_THROW(read_text(
       with_geometry_and_container(pair, "container = { radius = 3.1, height = 14.1 }").text));
 }
@@ -78,7 +86,7 @@ TEST(Container, IsMissedByEveryGeometryButTheCavity) {
     SCOPED_TRACE(geometry);
     auto edited = with_geometry_and_container(geometry, "");
     edited.line -= 3;  // that of the header
-    expect_refused(edited, kContainer.path, "is missing; must be");
+    expect_refused(edited, kContainer.path, "is missing; it must be");
   }
 }
 
@@ -119,7 +127,7 @@ TEST(Geometry, MayBeACavityWithoutAContainer) {
 TEST(Cavity, IsItsOwnContainer) {
   for (const std::string container : {kContainerLine, "container = \"unbounded\""})
     expect_refused(with_geometry_and_container("{ kind = \"cavity\", radius = 5.0 }", container),
-                   kContainer.path, "must not be there: a cavity is its own container");
+                   kContainer.path, "must be left out, because a cavity is its own container");
 }
 
 /// In the lecture's case the gaps stand four lines above the geometry.
@@ -131,7 +139,7 @@ EditedCase with_cavity(const std::string& radius) {
 
 TEST(Cavity, HasNoGapBeyondConcentric) {
   expect_refused(with_cavity("2.9"), "tabulation.gaps",
-                 "goes up to 2; in this cavity a gap is at most 1.9");
+                 "goes up to 2; in this cavity a gap must be at most 1.9");
 }
 
 TEST(Cavity, MayHaveTheConcentricGapUpToRounding) {
@@ -174,31 +182,32 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refused{"NoKind", "{ radius = 2.0 }", "tabulation.geometry.kind", "is missing"},
         Refused{"SphereWithoutRadius", "{ kind = \"sphere\" }", "tabulation.geometry.radius",
-                "is missing; must be a number > 0"},
+                "is missing; it must be a number > 0"},
         Refused{"SphereOfNoSize", "{ kind = \"sphere\", radius = 0 }", "tabulation.geometry.radius",
-                "is 0; must be a number > 0"},
+                "is 0; it must be a number > 0"},
         Refused{"SphereOfInfiniteSize", "{ kind = \"sphere\", radius = inf }",
-                "tabulation.geometry.radius", "is inf; must be a number > 0"},
-        Refused{"VelocityRatioThatIsNone",
-                "{ kind = \"sphere\", radius = 1, velocity_ratio = nan }",
-                "tabulation.geometry.velocity_ratio", "is nan; must be a number that is finite"},
+                "tabulation.geometry.radius", "is inf; it must be a number > 0"},
+        Refused{
+            "VelocityRatioThatIsNone", "{ kind = \"sphere\", radius = 1, velocity_ratio = nan }",
+            "tabulation.geometry.velocity_ratio", "is nan; it must be a number of finite value"},
         Refused{"CavityWithoutRadius", "{ kind = \"cavity\" }", "tabulation.geometry.radius",
-                "is missing; must be a number > 0"},
+                "is missing; it must be a number > 0"},
         Refused{"NegativeCavity", "{ kind = \"cavity\", radius = -5 }",
-                "tabulation.geometry.radius", "is -5; must be a number > 0"},
+                "tabulation.geometry.radius", "is -5; it must be a number > 0"},
         Refused{"RipplesWithoutAmplitude", "{ kind = \"rough_plane\", wavelength = 0.05 }",
-                "tabulation.geometry.amplitude", "is missing; must be a number > 0"},
+                "tabulation.geometry.amplitude", "is missing; it must be a number > 0"},
         Refused{"RipplesWithoutWavelength", "{ kind = \"rough_plane\", amplitude = 0.05 }",
-                "tabulation.geometry.wavelength", "is missing; must be a number > 0"},
+                "tabulation.geometry.wavelength", "is missing; it must be a number > 0"},
         Refused{"FlatRipples", "{ kind = \"rough_plane\", amplitude = 0, wavelength = 0.05 }",
-                "tabulation.geometry.amplitude", "is 0; must be a number > 0"},
+                "tabulation.geometry.amplitude", "is 0; it must be a number > 0"},
         Refused{"RipplesAsText", "{ kind = \"rough_plane\", amplitude = \"0.1\", wavelength = 1 }",
                 "tabulation.geometry.amplitude", "must be a number > 0"},
         Refused{"PlaneWithARadius", "{ kind = \"plane\", radius = 2 }",
-                "tabulation.geometry.radius", "is not a key that is known here; there are: kind"},
+                "tabulation.geometry.radius",
+                "is not a key that is known here; the known keys are: kind"},
         Refused{"CavityThatMoves", "{ kind = \"cavity\", radius = 5, velocity_ratio = 1 }",
                 "tabulation.geometry.velocity_ratio",
-                "is not a key that is known here; there are: kind, radius"}),
+                "is not a key that is known here; the known keys are: kind, radius"}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

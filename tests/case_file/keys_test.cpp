@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "tests/case_file/edited_case.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -89,8 +91,13 @@ std::vector<KeyRules> all_keys() {
       {{"fit.basis", "[fit]", "basis", "\"lecture\""},
        Kind::kText,
        {"\"Lecture\"", "\"\"", "\"cubic\""},
-       ""},
-      {{"fit.weights", "[fit]", "weights", "\"relative\""}, Kind::kText, {"\"none\"", "\"\""}, ""},
+       "",
+       false},
+      {{"fit.weights", "[fit]", "weights", "\"relative\""},
+       Kind::kText,
+       {"\"none\"", "\"\""},
+       "",
+       false},
       {{"motion.initial_gap", "[motion]", "initial_gap", "1.0"},
        Kind::kNumber,
        not_positive,
@@ -121,23 +128,28 @@ std::vector<KeyRules> all_keys() {
       {{"reference.time_step", "[reference]", "time_step", "1e-3"},
        Kind::kNumber,
        not_positive,
-       kPositiveWords},
+       kPositiveWords,
+       false},
       {{"inertial.relative_tolerance", "[inertial]", "relative_tolerance", "1e-9"},
        Kind::kNumber,
        {"0", "-1e-9", "1e-14", "0.1"},
-       "between"},
+       "between",
+       false},
       {{"viscous_contact.time_step", "[viscous_contact]", "time_step", "1e-3"},
        Kind::kNumber,
        not_positive,
-       kPositiveWords},
+       kPositiveWords,
+       false},
       {{"viscous_contact.roughness", "[viscous_contact]", "roughness", "[0.0, 0.0]"},
        Kind::kNumbers,
        {"[-1e-3, 0]", "[0, -1e-3]", "[]", "[0.1]", "[0, 0, 0]", "[0.5, 0.5]", "[2, 0]"},
-       ""},
+       "",
+       false},
       {{"viscous_contact.threshold_gap", "[viscous_contact]", "threshold_gap", "0.1"},
        Kind::kNumber,
        not_positive,
-       kPositiveWords},
+       kPositiveWords,
+       false},
       {{"published.minimal_gap", "[published]", "minimal_gap", "3e-3"},
        Kind::kNumber,
        not_positive,
@@ -177,7 +189,7 @@ TEST_P(CaseKey, IsMissedByNameWithTheLineOfItsTable) {
   const auto& rules = GetParam();
   const auto edited = without_key(rules.key);
   if (rules.required) {
-    expect_refused(edited, rules.key.path, "is missing; must be");
+    expect_refused(edited, rules.key.path, "is missing; it must be");
   } else {
     EXPECT_NO_THROW(read_text(edited.text));
   }
@@ -231,7 +243,7 @@ TEST_P(UnknownKey, IsRefusedByNameWithItsLine) {
   const auto& stranger = GetParam();
   auto edited = with_text(stranger.before, std::string(stranger.before) + stranger.text);
   edited.line += stranger.lines_below;
-  expect_refused(edited, stranger.path, "is not a key that is known here; there are:");
+  expect_refused(edited, stranger.path, "is not a key that is known here; the known keys are:");
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -256,11 +268,21 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return "Table_" + table_name(parameter.param.path); });
 
 TEST(CaseSections, AreMissedByName) {
-  for (const std::string name : {"fluid", "sphere", "reference", "inertial", "viscous_contact"}) {
+  for (const std::string name : {"fluid", "sphere"}) {
     // Under another name its keys are nobody's; what is missed comes first.
-    const auto edited = with_text("[" + name + "]", "[other]");
-    expect_refused({edited.text, 1}, name, "is missing; must be a table");
+    const TemporaryFolder folder;
+    const auto file = folder.file("case.toml", with_text("[" + name + "]", "[other]").text);
+    EXPECT_EQ(bad_input([&] { read_case(file); }),
+              file.string() + ": section [" + name + "] is missing");
   }
+}
+
+TEST(CaseCounts, SayThatADecimalPointIsNotAllowed) {
+  const LectureKey count = {"tabulation.gaps.count", "[tabulation]", "count", "40"};
+  expect_refused(with_value(count, "40.0"), count.path,
+                 "is 40.0; it must be a whole number from 2 to 100000, without a decimal point");
+  expect_refused(with_value(count, "2.5"), count.path,
+                 "is 2.5; it must be a whole number from 2 to 100000");
 }
 
 }  // namespace

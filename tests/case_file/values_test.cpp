@@ -54,7 +54,8 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
 TEST(FitSection, RefusesWhatItDoesNotKnow) {
   const std::string weights = "weights = \"relative\"\n";
   expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms", "q^9");
-  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis", "beside terms");
+  expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis",
+                 "left out where terms gives");
   expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss", "huber");
   expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix", "theory");
   expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix", "number");
@@ -118,13 +119,13 @@ TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
 TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   const std::string entry = std::string(kForce.path) + "[0]";
   expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"),
-                 entry + ".value", "must not be there beside polynomial");
+                 entry + ".value", "must be left out where polynomial");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
                  entry + ".angular_frequency", "> 0");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
                  entry + ".until", "not a key");
   expect_refused(with_value(kForce, "[ { until = 4, polynomial = [] } ]"), entry + ".polynomial",
-                 "list of numbers");
+                 "list of at least one number");
 }
 
 TEST(TimeScale, DrawsOutForceEndAndSteps) {
@@ -175,7 +176,8 @@ TEST(Roughness, MayBeAnythingBelowTheRadius) {
 }
 
 TEST(Roughness, SaysWhatItsTwoNumbersAre) {
-  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path, "the sphere's and the plane's");
+  expect_refused(with_value(kRoughness, "[0.1]"), kRoughness.path,
+                 "on the sphere and on the plane");
 }
 
 TEST(FitOfACase, MayBeAFileBesideTheCase) {
@@ -194,11 +196,11 @@ TEST(FitOfACase, MayBeAFileElsewhere) {
 
 TEST(FitOfACase, IsEitherAFileOrABasis) {
   expect_refused(with_text(kFitKeys, "basis = \"lecture\"\nfile = \"a.json\"\n"), "fit.basis",
-                 "there are: above, below, file");
+                 "the known keys are: above, below, file");
 }
 
 TEST(FitOfACase, HasAFileThatIsText) {
-  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be text");
+  expect_refused(with_text(kFitKeys, "file = 3\n"), "fit.file", "must be a text in quotes");
 }
 
 TEST(FitOfACase, ListsTheBasesThereAre) {
@@ -236,6 +238,33 @@ TEST(CaseParts, AreAskedForByTheCommandsThatNeedThem) {
   expect_missing("tabulation", [](const Case& c) { required_tabulation(c); });
   expect_missing("fit", [](const Case& c) { required_fit(c); });
   expect_missing("motion", [](const Case& c) { required_motion(c); });
+}
+
+TEST(CaseParts, NumericalSettingsHaveDefaults) {
+  std::string text = lecture_text();
+  text = text.substr(0, text.find("[reference]"));
+  const Case c = read_text(text);
+  ASSERT_TRUE(c.motion);
+  // docs/interfaces.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial gap.
+  EXPECT_EQ(c.motion->reference_time_step, 1e-3);
+  EXPECT_EQ(c.motion->contact_time_step, 1e-3);
+  EXPECT_EQ(c.motion->inertial_relative_tolerance, 1e-9);
+  EXPECT_THAT(c.motion->roughness, ElementsAre(0, 0));
+  EXPECT_EQ(c.motion->threshold_gap, 0.1);
+  // One key of a section leaves the others at their defaults.
+  const Case thin = read_text(text + "[viscous_contact]\ntime_step = 2e-3\n");
+  EXPECT_EQ(thin.motion->contact_time_step, 2e-3);
+  EXPECT_EQ(thin.motion->reference_time_step, 1e-3);
+  EXPECT_EQ(thin.motion->threshold_gap, 0.1);
+  // A sphere that starts near the plane starts above its threshold, too.
+  const auto near = text.replace(text.find("initial_gap = 1.0"), 17, "initial_gap = 0.02");
+  EXPECT_EQ(read_text(near).motion->threshold_gap, 0.002);
+}
+
+TEST(CaseParts, FitIsTheLecturesByDefault) {
+  const Case c = read_text(with_text("basis = \"lecture\"", "").text);
+  EXPECT_EQ(c.fit->settings.basis.name, "lecture");
+  EXPECT_EQ(c.fit->settings.weights, Weights::kRelative);
 }
 
 TEST(CaseParts, MayAllBeLeftOutButTheFluidAndTheSphere) {

@@ -82,6 +82,22 @@ TEST_F(Csv, TakesALastLineWithoutItsEndWhereNoCountIsPromised) {
   EXPECT_EQ(read("time,gap\n1,2\n3,4").rows.size(), 2U);
 }
 
+TEST_F(Csv, TakesBlankLinesAtTheEndForNoRows) {
+  // As editors leave them, and as spreadsheets do for cells that were cleared.
+  for (const std::string end :
+       {"\n", "\n\n\n", "\r\n\r\n", "  \n\t\n", " ", ",\n,\n", "\n \t,\r\n"}) {
+    const auto csv = read("# rows: 2\ntime,gap\n1,2\n3,4\n" + end);
+    ASSERT_EQ(csv.rows.size(), 2U) << end;
+    EXPECT_EQ(csv.rows[1].line, 4);
+  }
+  // An empty field at the end of the last row is no blank line.
+  EXPECT_THAT(read("time,gap,gamma\n1,2,\n\n").rows[0].fields, ElementsAre(1.0, 2.0, std::nullopt));
+}
+
+TEST_F(Csv, RefusesABlankLineBetweenRows) {
+  EXPECT_EQ(refusal("time,gap\n1,2\n\n3,4\n\n"), ":3: has fewer fields than the header line");
+}
+
 TEST_F(Csv, DropsBlanksAroundFields) {
   const auto csv = read(" time , gap\n 1\t, 2 \n");
   ASSERT_EQ(csv.rows.size(), 1U);
@@ -92,7 +108,8 @@ TEST_F(Csv, RefusesAMissingColumn) {
   EXPECT_EQ(refusal("time,gamma\n1,2\n"),
             ": column 'gap' is missing from the header line, 'time,gamma'");
   EXPECT_EQ(refusal("\"time\",\"gap\"\n1,2\n"),
-            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; names must stand "
+            ": column 'time' is missing from the header line, '\"time\",\"gap\"'; the names of "
+            "columns must stand "
             "without quotes");
 }
 
@@ -109,7 +126,7 @@ TEST_F(Csv, KnowsTheCommentsThatContradictEachOther) {
 }
 
 TEST_F(Csv, RefusesAColumnThatIsTwiceThere) {
-  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' is twice in the header line");
+  EXPECT_EQ(refusal("time,gap,time\n1,2,3\n"), ": column 'time' stands twice in the header line");
 }
 
 TEST_F(Csv, RefusesAnEmptyFile) {
@@ -128,7 +145,7 @@ TEST_F(Csv, RefusesALongRow) {
 TEST_F(Csv, RefusesALineBeyondAllReason) {
   const std::size_t limit = std::size_t{1} << 24;  // of the library
   EXPECT_THAT(refusal("time,gap\n1," + std::string(limit, '1') + "\n").substr(0, 100),
-              HasSubstr("is too long for a line of a CSV file"));
+              HasSubstr("this line is too long for a CSV file"));
 }
 
 TEST_F(Csv, CutsALongFieldInItsMessage) {
@@ -172,7 +189,7 @@ TEST_F(Csv, RefusesABinaryFile) {
 TEST_F(Csv, NamesTheEmptyFieldThatMustBeThere) {
   const auto csv = read("time,gap\n1,\n");
   EXPECT_EQ(bad_input([&] { required_field(csv.rows[0], kNames, 1, "f.csv"); }),
-            "f.csv:2: gap is empty; must be a number");
+            "f.csv:2: gap is empty; it must be a number");
   EXPECT_EQ(required_field(csv.rows[0], kNames, 0, "f.csv"), 1.0);
 }
 
@@ -180,7 +197,7 @@ TEST(CsvComment, IsReadAsANumberOrNamedInTheError) {
   const CsvComments comments = {{"viscosity", "3.5"}, {"radius", "wide"}};
   EXPECT_EQ(csv_comment_number(comments, "viscosity", "f.csv"), 3.5);
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "radius", "f.csv"); }),
-            "f.csv: # radius: is not a finite number ('wide')");
+            "f.csv: the line '# radius: wide' must give a finite number");
   EXPECT_EQ(bad_input([&] { csv_comment_number(comments, "mass", "f.csv"); }),
             "f.csv: the line '# mass: NUMBER' is missing");
 }

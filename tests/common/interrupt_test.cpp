@@ -38,8 +38,19 @@ void exit_with_what_a_signal_gives(int signal) {
 }
 
 TEST(Interrupt, TurnsASignalIntoTheErrorWithItsExitCode) {
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     EXPECT_EXIT(exit_with_what_a_signal_gives(signal), ::testing::ExitedWithCode(130), "");
+}
+
+void exit_after_a_hangup_under_nohup() {
+  ::signal(SIGHUP, SIG_IGN);  // what nohup does
+  catch_interrupts();
+  ::raise(SIGHUP);
+  std::exit(interrupted() ? 1 : 0);
+}
+
+TEST(Interrupt, HangupThatIsIgnoredStaysIgnored) {
+  EXPECT_EXIT(exit_after_a_hangup_under_nohup(), ::testing::ExitedWithCode(0), "");
 }
 
 /// Runs a child that writes its process number and would then stay for an hour; the interrupt comes once it is there.

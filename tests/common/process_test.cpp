@@ -156,6 +156,51 @@ TEST(Process, DiesWithUsEvenIfWeAreKilled) {
   EXPECT_FALSE(is_running());
 }
 
+// What each of these does would take an hour without the limit. None asserts how long it takes.
+TEST(ProcessWithATimeLimit, IsKilledWithTheProcessesThatItHasStarted) {
+  const TemporaryFolder folder;
+  const auto pid_file = (folder.path() / "pid").string();
+  const auto result =
+      run_process({"sh", "-c", "echo before; sleep 3600 & echo $! > '" + pid_file + "'; wait"}, {},
+                  {}, {}, std::chrono::milliseconds(500));
+  EXPECT_TRUE(result.timed_out);
+  EXPECT_EQ(result.exit_status, 128 + SIGKILL);
+  EXPECT_THAT(result.output, HasSubstr("before\n"));
+  pid_t grandchild = 0;
+  ASSERT_TRUE(std::ifstream(pid_file) >> grandchild);
+  // It is gone, or a zombie that init has not waited for, within moments.
+  const auto is_running = [&] {
+    std::ifstream file("/proc/" + std::to_string(grandchild) + "/stat");
+    std::string number, name, state;
+    return file >> number >> name >> state && state != "Z";
+  };
+  for (int i = 0; i < 100 && is_running(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(is_running());
+}
+
+TEST(ProcessWithATimeLimit, IsKilledIfItHasClosedItsOutputAndStays) {
+  const auto result = run_process({"sh", "-c", "exec >&- 2>&-; exec sleep 3600"}, {}, {}, {},
+                                  std::chrono::milliseconds(500));
+  EXPECT_TRUE(result.timed_out);
+}
+
+TEST(ProcessWithATimeLimit, EndsThoughAnotherProcessHoldsItsOutput) {
+  // sh ends at once; sleep keeps the output open.
+  const auto result = run_process({"sh", "-c", "echo done; sleep 3600 &"}, {}, {}, {},
+                                  std::chrono::milliseconds(500));
+  EXPECT_TRUE(result.timed_out);
+  EXPECT_THAT(result.output, HasSubstr("done\n"));
+}
+
+TEST(ProcessWithATimeLimit, IsAsWithoutIfItEndsInTime) {
+  const auto result =
+      run_process({"sh", "-c", "cat; exit 7"}, {}, "input", {}, std::chrono::minutes(10));
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.exit_status, 7);
+  EXPECT_EQ(result.output, "input");
+}
+
 TEST(Process, LeavesNoDescriptorOpen) {
   const auto count = [] {
     std::size_t open = 0;

@@ -14,6 +14,7 @@
 namespace viscontact {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -47,7 +48,8 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
     auto settings = settings_of("lecture");
     settings.weights = weights;
     const auto d = diagnostics_of(table, settings);
-    double squares = 0, largest = 0, gap = 0;
+    double squares = 0;
+    LeftOutRow inner, end;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       ForceTable others = table;
       others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
@@ -55,16 +57,57 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
       const double residual =
           std::abs(fitted_force(fit_force_table(others, settings), row.gap) / row.force - 1);
       squares += residual * residual;
-      if (residual > largest) {
-        largest = residual;
-        gap = row.gap;
-      }
+      auto& largest = i == 0 || i + 1 == table.rows.size() ? end : inner;
+      if (residual > largest.relative_residual) largest = {row.gap, residual};
     }
     // The same numbers by another way: round-off times the conditioning, over residuals of 1e-3 and more.
-    EXPECT_NEAR(d.leave_one_out_rms.value() / std::sqrt(squares / 50), 1, 1e-8);
-    EXPECT_NEAR(d.leave_one_out_largest.value() / largest, 1, 1e-8);
-    EXPECT_EQ(d.leave_one_out_gap, gap);
+    constexpr double kRoundOff = 1e-8;
+    EXPECT_NEAR(d.leave_one_out_rms.value() / std::sqrt(squares / 50), 1, kRoundOff);
+    for (const auto& [found, expected] :
+         {std::pair{d.left_out_inner.value(), inner}, {d.left_out_end.value(), end}}) {
+      EXPECT_NEAR(found.relative_residual / expected.relative_residual, 1, kRoundOff);
+      EXPECT_EQ(found.gap, expected.gap);
+    }
+    const auto& largest = inner.relative_residual > end.relative_residual ? inner : end;
+    EXPECT_NEAR(d.leave_one_out_largest.value() / largest.relative_residual, 1, kRoundOff);
+    EXPECT_EQ(d.leave_one_out_gap, largest.gap);
   }
+}
+
+TEST(LeaveOneOut, OfAnEndRowIsAnExtrapolationAndNoWarning) {
+  // README's example: twelve gaps. The last row left out, its force is extrapolated by a cubic.
+  const auto table = exact_drag_table(log_spaced(1e-3, 2, 12), {-1}, 3, 1);
+  const auto d = diagnostics_of(table, settings_of("lecture"));
+  EXPECT_GT(d.left_out_end.value().relative_residual, 2);
+  EXPECT_EQ(d.left_out_end.value().gap, 2);
+  // The row next to it is an inner row, and is what the warning names.
+  EXPECT_EQ(d.left_out_inner.value().gap, table.rows[10].gap);
+  EXPECT_THAT(d.warnings, ElementsAre(HasSubstr("fitted without the row at gap 1.002, the formula "
+                                                "misses that row by 0.12 relative")));
+}
+
+TEST(LeaveOneOut, OfInnerRowsIsAboveTheErrorBetweenTheRows) {
+  // The drag is smooth: without a row its neighbours are twice as far apart, and the formula is
+  // further off there than the whole fit is anywhere between the rows.
+  for (const int count : {12, 20, 40}) {
+    const auto gaps = log_spaced(1e-3, 2, count);
+    const Fit fit = fit_force_table(exact_drag_table(gaps, {-1}, 3, 1), settings_of("lecture"));
+    double largest = 0;
+    for (const auto& row : exact_drag_table(log_spaced(1e-3, 2, 400), {-1}, 3, 1).rows)
+      largest = std::max(largest, std::abs(fitted_force(fit, row.gap) / row.force - 1));
+    EXPECT_LT(largest, fit.diagnostics->left_out_inner.value().relative_residual) << count;
+    // README's example: what the message said of it was 2.4.
+    if (count == 12) {
+      EXPECT_NEAR(largest, 2.8e-2, 1e-3);
+    }
+  }
+}
+
+TEST(LeaveOneOut, OfOneOfTwoRowsAtAnEndIsNoExtrapolation) {
+  const auto d =
+      diagnostics_of(exact_drag_table(fifty_gaps(), {-1, -2}, 3, 1), settings_of("lecture"));
+  EXPECT_FALSE(d.left_out_end.has_value());
+  EXPECT_EQ(d.left_out_inner.value().gap, d.leave_one_out_gap);
 }
 
 TEST(WorstResidual, IsFoundWithItsSign) {
@@ -98,6 +141,55 @@ TEST(Misfit, IsTheDatasOrTheBasiss) {
   auto table = table_with_noise(1e-4, 2e-4);
   table.rows.front().relative_error_estimate = 0;  // one without
   EXPECT_FALSE(diagnostics_of(table, settings_of("lecture")).chi_squared.has_value());
+}
+
+TEST(Misfit, ComparesEachRowWithItsOwnEstimate) {
+  // One row is 1000 times less accurate than the others: every residual is below its estimate.
+  auto table = table_with_noise(1e-4, 5e-5);
+  table.rows.back().relative_error_estimate = 5e-2;
+  const auto d = diagnostics_of(table, settings_of("lecture"));
+  EXPECT_EQ(d.misfit, Misfit::kBasis);
+  EXPECT_LT(d.largest_inlier_residual, d.largest_error_estimate);
+  std::size_t beyond = 0;
+  double worst = 0;
+  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  for (const auto& row : table.rows) {
+    const double ratio =
+        std::abs(fitted_force(fit, row.gap) / row.force - 1) / row.relative_error_estimate;
+    if (ratio > 1) ++beyond;
+    worst = std::max(worst, ratio);
+  }
+  EXPECT_EQ(d.rows_beyond_estimate, beyond);
+  EXPECT_GE(beyond, 40U);
+  EXPECT_NEAR(d.worst_to_estimate.value().ratio / worst, 1,
+              1e-9);  // residuals of 1e-4, to round-off
+  EXPECT_NE(d.worst_to_estimate.value().gap, table.rows.back().gap);
+}
+
+TEST(Misfit, IsNotTheBasissWhereNoRowIsBeyondItsOwnEstimate) {
+  const auto table = exact_drag_table(log_spaced(1e-3, 1, 10), {-1}, 3, 1);
+  auto judged = table;
+  const Fit fit = fit_force_table(table, settings_of("asymptotic_extended"));
+  ASSERT_EQ(fit.diagnostics->degrees_of_freedom, 2U);
+  // Each residual 0.99 of its estimate: chi-squared 9.8, above the quantile 9.2 of two degrees.
+  for (auto& row : judged.rows)
+    row.relative_error_estimate = std::abs(fitted_force(fit, row.gap) / row.force - 1) / 0.99;
+  const auto d = diagnostics_of(judged, settings_of("asymptotic_extended"));
+  EXPECT_GT(d.chi_squared.value(), 9.3);
+  EXPECT_EQ(d.rows_beyond_estimate, 0U);
+  EXPECT_EQ(d.misfit, Misfit::kData);
+}
+
+TEST(Misfit, IsJudgedWithoutTheOutliers) {
+  auto table = table_with_noise(1e-5, 1e-4);
+  table.rows[20].force *= 1.1;
+  auto settings = settings_of("lecture");
+  settings.loss = Loss::kCauchy;
+  const auto d = diagnostics_of(table, settings);
+  ASSERT_EQ(d.outliers.size(), 1U);
+  EXPECT_GT(d.chi_squared.value(), 1e5);  // of all rows: (0.09/1e-4)^2 and little more
+  EXPECT_EQ(d.misfit, Misfit::kData);
+  EXPECT_EQ(d.rows_beyond_estimate, 0U);
 }
 
 TEST(Misfit, JudgesByTheQuantileOfChiSquared) {

@@ -106,6 +106,28 @@ TEST(OtherProgram, HasNoFreeFemVersion) {
       ExitCode::kExternalProgram, HasSubstr("other"));
 }
 
+// Each would sleep for an hour without the limits.
+TEST(FreeFemThatHangs, IsStoppedAtTheLimitOfItsRow) {
+  const TemporaryFolder scratch;
+  const FakeFreeFem fake(scratch.path(), "exec sleep 3600\n");
+  auto freefem = fake.freefem();
+  freefem.row_limit = std::chrono::seconds(1);
+  expect_error([&] { (void)solve_row(freefem, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+               AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("not ended after 1 s"),
+                     HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
+}
+
+TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
+  const TemporaryFolder scratch;
+  put_text(scratch.path() / "sleeper", "#!/bin/sh\nexec sleep 3600\n");
+  make_executable(scratch.path() / "sleeper");
+  FreeFem freefem{(scratch.path() / "sleeper").string(), scratch.path()};
+  freefem.version_limit = std::chrono::seconds(1);
+  expect_error([&] { (void)freefem_version(freefem); }, ExitCode::kExternalProgram,
+               AllOf(HasSubstr("sleeper does not say which version it is"),
+                     HasSubstr("not ended after 1 s")));
+}
+
 TEST(LineAfter, IsTheRestOfTheFirstLineThatStartsSo) {
   EXPECT_EQ(line_after("x key 0\nkey 1 2\nkey 3\n", "key"), "1 2");
   EXPECT_EQ(line_after("keys 1\n", "key"), "");

@@ -1,4 +1,5 @@
 // The ends of what a geometry may be told, and geometries that are equal or nearly so in other words.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +7,7 @@
 
 #include "freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
+#include "tests/freefem_axi/expect_error.hpp"
 #include "tests/oracles/bispherical.hpp"
 
 namespace viscontact {
@@ -45,6 +47,34 @@ TEST(SmallestGap, ReachesTheUsualAccuracy) {
 TEST(LargestGap, ReachesTheUsualAccuracy) {
   constexpr double kGap = 10;
   expect_reached(exact_row("plane", kGap, {}, kAccuracy, plane_drag_factor(kGap)));
+}
+
+TEST(LargestContainer, ReachesTheUsualAccuracy) {
+  // The most that a case may ask for; so wide, the drag is that in a half-space.
+  for (const double gap : {1e-6, 0.5}) {
+    auto row = exact_row("plane", gap, {}, kAccuracy, plane_drag_factor(gap));
+    row.tabulation.container = Container{2e5, 2e5};
+    expect_reached(row);
+  }
+}
+
+TEST(ContainerThatIsTooLarge, IsSaidInPlaceOfAnAssertionOfFreeFem) {
+  auto row = exact_row("plane", 0.1, {}, kAccuracy, plane_drag_factor(0.1));
+  row.tabulation.container = Container{1e6, 1e6};
+  expect_error([&] { (void)solve_row(default_freefem(), row.tabulation, 0.1, -1); },
+               ExitCode::kExternalProgram,
+               ::testing::AllOf(::testing::HasSubstr("gap 0.1"),
+                                ::testing::HasSubstr("take a smaller container")));
+}
+
+TEST(ContainerThatIsTooLarge, ForTheFinerMeshesLeavesTheResultOfTheFirstOnes) {
+  // 2e-7 would take edges that FreeFEM cannot make in so large a domain.
+  constexpr double kGap = 0.3, kAsked = 2e-7;
+  auto row = exact_row("plane", kGap, {}, kAsked, plane_drag_factor(kGap));
+  row.tabulation.container = Container{2e5, 2e5};
+  const auto solved = solve(default_freefem(), row);
+  EXPECT_GT(solved.answer.relative_error_estimate, kAsked);
+  EXPECT_LE(solved.error(), solved.answer.relative_error_estimate) << solved.in_words();
 }
 
 class SecondSphere : public ::testing::TestWithParam<double> {};

@@ -109,5 +109,117 @@ TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherForce) {
   expect_given_untouched();
 }
 
+// Files that a user made, of the very kind of an output: Viscontact did not write them.
+constexpr const char* kUsersPicture =
+    "<svg xmlns=\"http://www.w3.org/2000/svg\"><title>provenance of my data</title></svg>\n";
+constexpr const char* kUsersFlow = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Unknown\"/>\n";
+constexpr const char* kUsersUncertainty = "{\"minimal_gap\": {}, \"refused_draws\": 0}\n";
+constexpr const char* kUsersTrajectory = "time,gap,velocity\n0,1,0\n4,0.5,0\n";
+
+std::string exact_case_text() {
+  return replaced(replaced(quick_case_text(), "terms = \"1/q, 1\"", "exact = \"plane\""),
+                  "weights = \"relative\"", "");
+}
+
+class UsersFile : public OwnFolder {
+ protected:
+  /// Expects that the command is refused because of that file, which stays, and that it wrote
+  /// nothing and computed no row.
+  void expect_in_the_way(const std::string& name, const std::string& text,
+                         const std::vector<std::string>& command) {
+    SCOPED_TRACE(name);
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    put_text(path(name), text);
+    const auto before = files_below(scratch_.path());
+    const auto answered = fake_.answered();
+    expect_refusal(run(command), ExitCode::kBadInput, HasSubstr(name + ": is there and is no "));
+    EXPECT_TRUE(files_below(scratch_.path()) == before) << "something was written or deleted";
+    EXPECT_EQ(fake_.answered(), answered);
+    std::filesystem::remove(path(name));
+  }
+};
+
+TEST_F(UsersFile, OfThePicturesNameIsNotReplaced) {
+  put_text(path("table.csv"), exact_table_text());
+  expect_done(run({"fit", path("table.csv"), "-o", path("fit.json")}));
+  put_text(path("exact.toml"), exact_case_text());
+  expect_in_the_way("my.svg", kUsersPicture,
+                    {"fit", path("table.csv"), "--compare-bases", "--plot", path("my.svg")});
+  expect_in_the_way("new.bases.svg", kUsersPicture,
+                    {"fit", path("table.csv"), "--compare-bases", "-o", path("new.json")});
+  expect_in_the_way("my.svg", kUsersPicture,
+                    {"shift", path("table.csv"), "--fit", path("fit.json"), "-o", path("shift.csv"),
+                     "--plot", path("my.svg")});
+  expect_in_the_way("my.svg", kUsersPicture,
+                    {"sweep", path("exact.toml"), "--vary", "fluid.viscosity=0.5,1", "-o",
+                     path("sweep.csv"), "--plot", path("my.svg")});
+  // A picture that an earlier command drew is replaced.
+  const std::vector<std::string> compare = {"fit", path("table.csv"), "--compare-bases", "--plot",
+                                            path("my.svg")};
+  expect_done(run(compare));
+  expect_done(run(compare));
+}
+
+TEST_F(UsersFile, OfAFitWrittenByHandIsNotReplaced) {
+  put_text(path("table.csv"), exact_table_text());
+  expect_in_the_way("hand.json", read_file(VISCONTACT_SOURCE_FOLDER "/data/fits/leading_term.json"),
+                    {"fit", path("table.csv"), "-o", path("hand.json")});
+}
+
+TEST_F(UsersFile, InTheFolderOfATablesPicturesIsNotReplaced) {
+  put_text(path("case.toml"), quick_case_text());
+  const std::vector<std::string> command = {"tabulate",        path("case.toml"), "-o",
+                                            path("table.csv"), "--plot",          "0.1"};
+  expect_in_the_way("table.plots/gap_0.1.vtu", kUsersFlow, command);
+  for (const auto* picture : {"mesh", "flow", "film"})
+    expect_in_the_way(std::string("table.plots/gap_0.1_") + picture + ".svg", kUsersPicture,
+                      command);
+}
+
+TEST_F(UsersFile, InARunsFolderIsNeitherReplacedNorDeleted) {
+  put_text(path("case.toml"), quick_case_text());
+  put_text(path("exact.toml"), exact_case_text());
+  for (const auto* name : {"case.toml", "exact.toml"}) {
+    const std::vector<std::string> command = {"run", path(name), "-o", path("out")};
+    expect_in_the_way("out/uncertainty.json", kUsersUncertainty, command);
+    for (const auto* plot : {"gap", "fit", "solid_force"})
+      expect_in_the_way(std::string("out/plots/") + plot + ".svg", kUsersPicture, command);
+    expect_in_the_way("out/trajectories/inertial.csv", kUsersTrajectory, command);
+  }
+}
+
+TEST_F(UsersFile, OfAReportsNameIsNotReplacedByReport) {
+  put_text(path("exact.toml"), exact_case_text());
+  expect_done(run({"run", path("exact.toml"), "-o", path("out")}));
+  std::filesystem::remove(path("out/report.html"));
+  std::filesystem::remove_all(path("out/plots"));
+  const std::vector<std::string> report = {"report", path("out")};
+  expect_in_the_way("out/report.html", "<html><head></head>mine</html>\n", report);
+  expect_in_the_way("out/plots/gap.svg", kUsersPicture, report);
+  expect_done(run(report));
+}
+
+TEST_F(UsersFile, OfASimulationsNameIsNotReplaced) {
+  put_text(path("case.toml"), quick_case_text());
+  put_text(path("table.csv"), exact_table_text());
+  expect_done(run({"fit", path("table.csv"), "-o", path("fit.json")}));
+  const std::vector<std::string> simulate = {
+      "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("out")};
+  expect_in_the_way("out/uncertainty.json", kUsersUncertainty, simulate);
+  expect_in_the_way("out/trajectories/inertial.csv", kUsersTrajectory, simulate);
+}
+
+TEST_F(UsersFile, OfACasesNameBesideTrajectoriesOfTheUsersOwnIsNotReplaced) {
+  // A folder of measured trajectories is not the folder of an earlier run.
+  put_text(path("exact.toml"), exact_case_text());
+  std::filesystem::create_directories(path("out/trajectories"));
+  put_text(path("out/trajectories/measured.csv"), kUsersTrajectory);
+  put_text(path("out/case.toml"), "title = \"mine\"\n");
+  const auto before = files_below(path("out"));
+  expect_refusal(run({"run", path("exact.toml"), "-o", path("out")}), ExitCode::kBadInput,
+                 HasSubstr("case.toml: is there and is another case"));
+  EXPECT_TRUE(files_below(path("out")) == before);
+}
+
 }  // namespace
 }  // namespace viscontact

@@ -72,10 +72,12 @@ TEST_P(Conservation, ActionIsReactionAndFilmsBookTheImpulses) {
   auto c = collapse(GetParam(), 4);
   Simulation simulation(c.setting, c.state, 1);
   const double h = c.setting.time_step;
-  int held = 0, released = 0;
+  int held = 0, released = 0, whole = 0;
   for (int n = 0; n < 150; ++n) {
     const auto before = simulation.state();
-    simulation.step(100);
+    // The parts of a divided step have normals of their own, which are not seen from here.
+    if (simulation.step(100).parts > 1) continue;
+    ++whole;
     const auto& after = simulation.state();
     const auto& p = after.particles;
     std::map<std::pair<int, int>, double> gammas;
@@ -110,6 +112,7 @@ TEST_P(Conservation, ActionIsReactionAndFilmsBookTheImpulses) {
     for (const auto& [pair, gamma] : gammas) EXPECT_EQ(gamma, 0) << pair.first << pair.second;
     if (HasFailure()) return;
   }
+  EXPECT_GT(whole, 100);
   EXPECT_GT(held, 1000);
   EXPECT_GT(released, 0);
 }

@@ -197,7 +197,7 @@ TEST_F(ForceFile, IsRefusedWithItsLine) {
               HasSubstr(":5: time 1 is there more than twice"));
   EXPECT_THAT(refusal("time,force\n0,1\n1,nan\n"), HasSubstr(":3: force is not a finite number"));
   EXPECT_THAT(refusal("time,push\n0,1\n"), HasSubstr("'force' is missing"));
-  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"), HasSubstr("ends at time 0.5; must reach 1"));
+  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"), HasSubstr("ends at time 0.5; it must reach 1"));
   EXPECT_THAT(refusal("time,force\n"), HasSubstr("must reach 1"));
 }
 

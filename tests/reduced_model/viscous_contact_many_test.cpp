@@ -320,7 +320,7 @@ TEST(ManySpheres, RefuseVectorsOfOtherLengths) {
                               &ManySpheres::gamma_min, &ManySpheres::force_scale}) {
     auto spheres = random_spheres(5, 4);
     (spheres.*member).pop_back();
-    expect_refused(spheres, {1, 0.1, 1}, "of 4 spheres, but mass of 5");
+    expect_refused(spheres, {1, 0.1, 1}, "is given for 4 spheres and mass for 5");
   }
 }
 
@@ -332,15 +332,15 @@ TEST(ManySpheres, RefuseValuesOutOfRange) {
     (spheres.*member)[3] = value;
     expect_refused(spheres, {1, 0.1, 1}, message);
   };
-  refused(&ManySpheres::mass, 0, "mass[3] is 0; must be > 0");
+  refused(&ManySpheres::mass, 0, "mass[3] is 0; it must be > 0");
   refused(&ManySpheres::mass, kNaN, "mass[3] is nan");
   refused(&ManySpheres::mass, kInfinity, "mass[3] is inf");
-  refused(&ManySpheres::initial_gap, 0, "initial_gap[3] is 0; must be > 0");
+  refused(&ManySpheres::initial_gap, 0, "initial_gap[3] is 0; it must be > 0");
   refused(&ManySpheres::initial_gap, kInfinity, "initial_gap[3] is inf");
-  refused(&ManySpheres::initial_velocity, kNaN, "initial_velocity[3] is nan; must be finite");
-  refused(&ManySpheres::gamma_min, 0.5, "gamma_min[3] is 0.5; must be <= 0");
+  refused(&ManySpheres::initial_velocity, kNaN, "initial_velocity[3] is nan; it must be finite");
+  refused(&ManySpheres::gamma_min, 0.5, "gamma_min[3] is 0.5; it must be <= 0");
   refused(&ManySpheres::gamma_min, kNaN, "gamma_min[3] is nan");
-  refused(&ManySpheres::force_scale, -kInfinity, "force_scale[3] is -inf; must be finite");
+  refused(&ManySpheres::force_scale, -kInfinity, "force_scale[3] is -inf; it must be finite");
 }
 
 TEST(ManySpheres, RefuseARunOutOfRange) {
@@ -348,7 +348,7 @@ TEST(ManySpheres, RefuseARunOutOfRange) {
   expect_refused(spheres, {0, 0.1, 1}, "end_time is 0");
   expect_refused(spheres, {kNaN, 0.1, 1}, "end_time is nan");
   expect_refused(spheres, {1, -0.1, 1}, "time_step is -0.1");
-  expect_refused(spheres, {1, 0.1, 0}, "threads is 0; must be >= 1");
+  expect_refused(spheres, {1, 0.1, 0}, "threads is 0; it must be >= 1");
   expect_refused(spheres, {1, 1e-9, 1}, "steps");
 }
 

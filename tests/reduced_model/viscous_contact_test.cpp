@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "reduced_model/comparison.hpp"
+#include "reduced_model/models.hpp"
+#include "reduced_model/reference_exact.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
@@ -155,6 +157,50 @@ TEST(ViscousContact, TakesItsViscosityFromTheFit) {
   EXPECT_FALSE(model.drag.has_value());
   motion.roughness = {0, 0};
   EXPECT_TRUE(std::isinf(viscous_contact(motion, force).gamma_min));
+}
+
+TEST(RecoveredFilm, IsThatOfTheFirstIntegralWhereverTheSphereStarts) {
+  // R = k/q with k = 1 and radius 1: the push takes the film from q0 to q0 exp(-4), with or without contact models.
+  const LubricationForce force(leading_term_fit(1));
+  for (const double initial_gap : {1e-9, 1e-3, 0.1, 1.0, 3.0}) {
+    Motion motion = limit_motion();
+    motion.mass = 1e-3;  // it lands in the first tenth of the push
+    motion.initial_gap = initial_gap;
+    const double expected = lowest_row(simulate_reference_exact(motion, force)).gap;
+    EXPECT_NEAR(expected / initial_gap, std::exp(-4), 1e-13);
+    for (const auto* model :
+         {"viscous_contact", "viscous_contact_regular_drag", "viscous_contact_exact"})
+      EXPECT_NEAR(
+          simulate(find_model(model), motion, force).recovered_minimal_gap.value() / expected, 1,
+          1e-11)  // the impulses of 6000 steps
+          << model << " from " << initial_gap;
+  }
+}
+
+TEST(RecoveredFilm, IsThatOfTheFirstIntegralWithARegularDragToo) {
+  // R = k/q + k: ln q + q = ln q0 + q0 - 4. In contact the model leaves the second term, q, out.
+  const LubricationForce force(shifted_fit(1));
+  for (const double initial_gap : {1e-6, 0.1, 0.5}) {
+    Motion motion = limit_motion();
+    motion.mass = 1e-3;
+    motion.initial_gap = initial_gap;
+    const double expected = lowest_row(simulate_reference_exact(motion, force)).gap;
+    const auto film =
+        simulate(find_model("viscous_contact_regular_drag"), motion, force).recovered_minimal_gap;
+    EXPECT_NEAR(std::log(film.value()), std::log(expected) + expected, 1e-11) << initial_gap;
+  }
+}
+
+TEST(RecoveredFilm, IsNeverThinnerThanTheRoughness) {
+  const LubricationForce force(leading_term_fit(1));
+  for (const double initial_gap : {1e-3, 1.0, 3.0}) {
+    Motion motion = limit_motion();
+    motion.mass = 1e-3;
+    motion.initial_gap = initial_gap;
+    motion.roughness = {0.03, 0.02};  // exp(-4) = 0.018
+    const auto film = simulate_viscous_contact(motion, force).recovered_minimal_gap;
+    EXPECT_EQ(film.value(), 0.05) << initial_gap;
+  }
 }
 
 }  // namespace

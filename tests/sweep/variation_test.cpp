@@ -100,23 +100,23 @@ TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
     const char* words;
   };
   for (const auto& [text, words] :
-       std::initializer_list<Refusal>{{"", "no KEY="},
-                                      {"fluid.viscosity", "no KEY="},
-                                      {"=1,2", "no KEY="},
-                                      {"a=", "'' is no finite number"},
-                                      {"a=1,", "'' is no finite number"},
-                                      {"a=1,,2", "'' is no finite number"},
-                                      {"a=one", "'one' is no finite number"},
-                                      {"a=1,nan", "'nan' is no finite number"},
-                                      {"a=inf:1:3", "'inf' is no finite number"},
-                                      {"a=1:1e400:3", "'1e400' is no finite number"},
-                                      {"a=1:2x:3", "'2x' is no finite number"},
-                                      {"a=1:2", "range is not understood"},
-                                      {"a=1:2:lin:3", "range is not understood"},
-                                      {"a=1:2:Log:3", "range is not understood"},
-                                      {"a=1:2:log:3:4", "range is not understood"},
-                                      {"a=1:2:log", "'log' is no finite number"},
-                                      {"a=1:2:", "'' is no finite number"},
+       std::initializer_list<Refusal>{{"", "KEY= is missing"},
+                                      {"fluid.viscosity", "KEY= is missing"},
+                                      {"=1,2", "KEY= is missing"},
+                                      {"a=", "'' is not a finite number"},
+                                      {"a=1,", "'' is not a finite number"},
+                                      {"a=1,,2", "'' is not a finite number"},
+                                      {"a=one", "'one' is not a finite number"},
+                                      {"a=1,nan", "'nan' is not a finite number"},
+                                      {"a=inf:1:3", "'inf' is not a finite number"},
+                                      {"a=1:1e400:3", "'1e400' is not a finite number"},
+                                      {"a=1:2x:3", "'2x' is not a finite number"},
+                                      {"a=1:2", "this is not a range"},
+                                      {"a=1:2:lin:3", "this is not a range"},
+                                      {"a=1:2:Log:3", "this is not a range"},
+                                      {"a=1:2:log:3:4", "this is not a range"},
+                                      {"a=1:2:log", "'log' is not a finite number"},
+                                      {"a=1:2:", "'' is not a finite number"},
                                       {"a=1:2:0", "COUNT is 0"},
                                       {"a=1:2:-3", "COUNT is -3"},
                                       {"a=1:2:2.5", "COUNT is 2.5"},
@@ -312,6 +312,14 @@ TEST(CaseTemplate, TakesAnOptionalKeyThatTheFileHasNot) {
   EXPECT_EQ(lecture.cases.with({}).motion->end_time, 4);
 }
 
+TEST(CaseTemplate, SetsKeysOfSectionsThatTheCaseLeavesOut) {
+  const std::string text = lecture_text();
+  const Template shortened(text.substr(0, text.find("[reference]")));
+  EXPECT_EQ(shortened.with("viscous_contact.time_step", 2e-3).motion->contact_time_step, 2e-3);
+  EXPECT_EQ(shortened.with("reference.time_step", 2e-3).motion->reference_time_step, 2e-3);
+  EXPECT_EQ(shortened.with("inertial.relative_tolerance", 1e-7).motion->contact_time_step, 1e-3);
+}
+
 TEST(CaseTemplate, RefusesKeysThatAreNone) {
   const Template lecture(lecture_text());
   for (const std::string key :
@@ -321,25 +329,25 @@ TEST(CaseTemplate, RefusesKeysThatAreNone) {
         "motion.external_force[0].values", "motion.external_force[-1].value",
         "motion.external_force[.value", ".viscosity", "fluid.", "[0]", ""})
     lecture.expect_refused(key, 1, "");
-  lecture.expect_refused("fluid.viscosty", 1, "there are: viscosity");
+  lecture.expect_refused("fluid.viscosty", 1, "the known keys are: viscosity");
 }
 
 TEST(CaseTemplate, RefusesWhatIsNoNumber) {
   const Template lecture(lecture_text());
   for (const std::string key : {"title", "fit.basis", "fluid", "viscous_contact.roughness",
                                 "motion.external_force", "motion.external_force[0]"})
-    lecture.expect_refused(key, 1, "is no number");
+    lecture.expect_refused(key, 1, "is not a number");
 }
 
 TEST(CaseTemplate, RefusesValuesOutOfRangeWithWhatIsAllowed) {
   const Template lecture(lecture_text());
-  lecture.expect_refused("fluid.viscosity", -1, "is -1; must be a number > 0");
+  lecture.expect_refused("fluid.viscosity", -1, "is -1; it must be a number > 0");
   lecture.expect_refused("inertial.relative_tolerance", 0.5, "between 1e-13 and 1e-2");
   lecture.expect_refused("motion.initial_velocity", std::numeric_limits<double>::infinity(), "inf");
   EXPECT_THAT(bad_input([&] { lecture.with("motion.external_force[1].until", 3.5); }),
-              HasSubstr("ends at 3.5; must reach motion.end_time, 4"));
+              HasSubstr("ends at 3.5; it must reach motion.end_time, 4"));
   EXPECT_THAT(bad_input([&] { lecture.with("viscous_contact.roughness[0]", 1); }),
-              HasSubstr("adds up to 1; must be less than the sphere's radius, 1"));
+              HasSubstr("adds up to 1; it must be less than the sphere's radius, 1"));
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+#include "app/optional_values.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "common/number.hpp"
+#include "fitting/terms.hpp"
+
+namespace viscontact {
+
+std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
+  struct Option {
+    std::string_view command, name;
+    bool (*is_value)(std::string_view word);  // whatever files there are
+  };
+  constexpr auto is_number = [](std::string_view word) {
+    return parse_number(word.substr(0, word.find(','))).has_value();
+  };
+  constexpr auto is_term = [](std::string_view word) { return word.starts_with(kLeadingTerm); };
+  constexpr auto is_limit = [](std::string_view word) {
+    return word == "fitted" || word == "theory";
+  };
+  const Option options[] = {{"fit", "--fix", is_term},
+                            {"tabulate", "--plot", is_number},
+                            {"simulate", "--lubrication-limit", is_limit}};
+  const auto is_file = [](const std::string& word) {
+    std::error_code ignored;  // of a name that no file can have
+    return word.ends_with(".csv") || word.ends_with(".toml") ||
+           std::filesystem::exists(word, ignored);
+  };
+  for (const auto& option : options) {
+    if (arguments.empty() || arguments[0] != option.command) continue;
+    const auto at = std::ranges::find(arguments, option.name);
+    if (at == arguments.end() || at + 1 == arguments.end()) continue;
+    if (option.is_value(at[1]) || !is_file(at[1])) continue;
+    // Last of the options it stands alone.
+    std::rotate(at, at + 1, std::ranges::find(arguments, "--"));
+  }
+  return arguments;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,27 @@
+#include "reduced_model/reached_gaps.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace viscontact {
+
+std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
+                                        const LubricationForce& force) {
+  try {
+    const Trajectory trajectory = simulate(choice, motion, force);
+    const auto [low, high] = std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
+    if (choice.model->contact == nullptr) return ReachedGaps{low->gap, high->gap};
+    const ContactModel contact = choice.model->contact(motion_of(choice, motion), force);
+    if (!contact.drag) return {};
+    ReachedGaps reached{{}, high->gap};
+    if (contact.contact_gap > 0)
+      reached.smallest = trajectory.recovered_minimal_gap.value_or(low->gap);
+    return reached;
+  } catch (const Error& error) {
+    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    return {};
+  }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,78 @@
+// Keys of very many parts, which overflowed the stack of toml++.
+#include "case_file/dotted_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "case_file/particles_case.hpp"
+#include "tests/case_file/edited_case.hpp"
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// "a.a.a", of that many parts joined by `dot`.
+std::string key_of(int parts, const std::string& part = "a", const std::string& dot = ".") {
+  std::string key = part;
+  for (int i = 1; i < parts; ++i) key += dot + part;
+  return key;
+}
+
+constexpr int kVeryMany = 40000;  // 80 kB; toml++ overflowed 8 MiB of stack with half of them
+
+TEST(DottedKeys, OfVeryManyPartsAreRefusedWithTheirLine) {
+  const std::string deep = key_of(kVeryMany);
+  for (const auto& text : {"\n\n" + deep + " = 1\n", "\n\n[" + deep + "]\n",
+                           "\n\n[[" + deep + "]]\n", "\n\nb = { " + deep + " = 1 }\n"}) {
+    const auto said = bad_input([&] { (void)read_text(text); });
+    EXPECT_THAT(said, HasSubstr(".toml:3: has a key of more than 16 parts joined by dots"));
+  }
+}
+
+TEST(DottedKeys, OfVeryManyPartsAreRefusedInACaseOfParticlesToo) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("case.toml", key_of(kVeryMany) + " = 1\n");
+  EXPECT_THAT(bad_input([&] { (void)read_particles_case(file); }),
+              HasSubstr("case.toml:1: has a key of more than 16 parts"));
+}
+
+TEST(DottedKeys, OfQuotedPartsWithSpacesBetweenCountToo) {
+  for (const auto* part : {"\"b c\"", "'b.c'", "\"\\\"\""}) {
+    EXPECT_NO_THROW(check_dotted_keys(key_of(16, part, " . ") + " = 1", "f"));
+    EXPECT_THAT(bad_input([&] { check_dotted_keys(key_of(17, part, " . ") + " = 1", "f"); }),
+                HasSubstr("f:1: "));
+  }
+}
+
+TEST(DottedKeys, DotsInTextCommentsAndNumbersAreNoKeys) {
+  const std::string dots = key_of(100);
+  const std::string numbers = "x = [" + key_of(1000, "0.5", ", ") + "]\n";
+  for (const auto& text :
+       {"x = \"" + dots + "\"\n", "x = '" + dots + "'\n", "x = \"\"\"\n" + dots + "\n\"\"\"\n",
+        "x = '''\n" + dots + "'\n'''\n", "x = 1  # " + dots + "\n", numbers,
+        "x = \"a \\\" " + dots + "\"\n", key_of(16) + ".\n" + dots.substr(0, 31) + "\n"})
+    EXPECT_NO_THROW(check_dotted_keys(text, "f")) << text.substr(0, 60);
+}
+
+TEST(DottedKeys, CountLinesOfLongTexts) {
+  EXPECT_THAT(bad_input([&] {
+                check_dotted_keys("x = \"\"\"\n\n\"\"\"\ny = '''\n'''\n" + key_of(17), "f");
+              }),
+              HasSubstr("f:6: "));
+}
+
+TEST(DottedKeys, OfTheLongestLengthInNestedTablesAreRead) {
+  // The deepest nesting that passes: toml++ must not overflow, whatever it then says.
+  std::string text;
+  constexpr int kTables = 200;
+  for (int i = 0; i < kTables; ++i) text += key_of(16) + " = { ";
+  text += "b = 1";
+  for (int i = 0; i < kTables; ++i) text += " }";
+  EXPECT_THAT(bad_input([&] { (void)read_text(text + "\n"); }), HasSubstr("title is missing"));
+}
+
+}  // namespace
+}  // namespace viscontact

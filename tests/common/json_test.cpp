@@ -1,0 +1,64 @@
+#include "common/json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/failure.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(JsonDocument, KnowsTheLineOfEveryValue) {
+  const auto document = JsonDocument::parse(
+      "\xEF\xBB\xBF{\n"
+      "  \"a\": [1,\n"
+      "         {\"b\": \"two\\n \\\" ] lines\"}],\n"
+      "  \"c\": {\"d\": null, \"e\":\n"
+      "       true}\n"
+      "}",
+      "f.json");
+  EXPECT_EQ(document.line_of(""), 1);
+  EXPECT_EQ(document.line_of("a"), 2);
+  EXPECT_EQ(document.line_of("a[0]"), 2);
+  EXPECT_EQ(document.line_of("a[1].b"), 3);
+  EXPECT_EQ(document.line_of("c.d"), 4);
+  EXPECT_EQ(document.line_of("c.e"), 5);
+  // What is not there would stand in what is there.
+  EXPECT_EQ(document.line_of("c.f"), 4);
+  EXPECT_EQ(document.line_of("a[7].b[2]"), 2);
+  EXPECT_EQ(document.line_of("x"), 1);
+  EXPECT_EQ(document.root().at("a").at(1).at("b"), "two\n \" ] lines");
+}
+
+TEST(JsonDocument, IsReadHoweverDeepItIs) {
+  // Deeper than the stack of a recursive reader.
+  const std::size_t depth = 1'000'000;
+  const std::string text = std::string(depth, '[') + "\n1" + std::string(depth, ']');
+  EXPECT_EQ(JsonDocument::parse(text, "f.json").line_of("[0][0]"), 1);
+}
+
+std::string refusal(const std::string& text) {
+  return bad_input([&] { JsonDocument::parse(text, "f.json"); });
+}
+
+TEST(JsonDocument, RefusesWhatIsNoJsonWithLineColumnAndCause) {
+  EXPECT_THAT(refusal("{\"a\": 1,\n \"b\" 2}"),
+              StartsWith("f.json:2: is not valid JSON at column 6 (syntax error while parsing "
+                         "object separator - unexpected number literal"));
+  EXPECT_THAT(refusal(""), StartsWith("f.json:1: is not valid JSON at column 1 ("));
+  EXPECT_THAT(refusal("[1,\n2,\n  -1e999]"), StartsWith("f.json:3: is not valid JSON at column "));
+  EXPECT_THAT(refusal("[1,\n2,\n  -1e999]"), HasSubstr("number overflow parsing '-1e999'"));
+}
+
+TEST(JsonDocument, RefusesAKeyThatStandsTwiceInItsObject) {
+  EXPECT_EQ(refusal("{\"a\": 1,\n \"b\": {\"c\": 1,\n  \"c\": 2}}"),
+            "f.json:3: b.c stands twice; a key must stand once in its object");
+  EXPECT_NO_THROW(
+      JsonDocument::parse("{\"a\": {\"a\": 1}, \"b\": [{\"a\": 1}, {\"a\": 1}]}", "f.json"));
+}
+
+}  // namespace
+}  // namespace viscontact
