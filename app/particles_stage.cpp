@@ -259,24 +259,24 @@ void judge(const ParticlesCase& c, const StepSums& record, const fs::path& folde
   if (record.unresolved > 0)
     warn(fmt::format(
         "particles: warning: {} contacts were computed although their particles move past each "
-        "other by more than a quarter of their diameters even in a {}th of the time step (steps.csv "
-        "says when); use a shorter time_step",
+        "other by more than half the sum of their radii even in a {}th of the time step "
+        "(steps.csv says when); use a shorter time_step",
         record.unresolved, 1 << Simulation::kMostHalvings));
   if (interrupted())
     say(fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
                     record.last_time));
   throw_if_interrupted();
   if (record.unconverged > 0)
-    throw Error(ExitCode::kNotConverged,
-                fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
-                            "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
-                            "solver.impulse_tolerance is {}). All results are written, and "
-                            "steps.csv says which steps; raise solver.max_iterations ({}) or the "
-                            "tolerances",
-                            c.path.string(), record.unconverged, record.steps,
-                            record.largest_residual, c.setting.solver.tolerance,
-                            record.largest_impulse_residual, c.setting.solver.impulse_tolerance,
-                            c.setting.solver.max_iterations));
+    throw Error(
+        ExitCode::kNotConverged,
+        fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                    "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                    "solver.impulse_tolerance is {}). All results are written, and "
+                    "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                    "tolerances",
+                    c.path.string(), record.unconverged, record.steps, record.largest_residual,
+                    c.setting.solver.tolerance, record.largest_impulse_residual,
+                    c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
 }
 
 /// For a run that has nothing left to do: what the call that ended it said.

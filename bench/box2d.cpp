@@ -34,10 +34,14 @@ double cpu_seconds() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::map<std::string, std::string> o = {
-      {"--count", "1000"},     {"--until", "10"},  {"--max-iterations", "10000"},
-      {"--tolerance", "1e-6"}, {"--impulse-tolerance", "1e-10"}, {"--threads", "1"}, {"--method", "conjugate_gradients"},
-      {"--print", "2.5"}};
+  std::map<std::string, std::string> o = {{"--count", "1000"},
+                                          {"--until", "10"},
+                                          {"--max-iterations", "10000"},
+                                          {"--tolerance", "1e-6"},
+                                          {"--impulse-tolerance", "1e-10"},
+                                          {"--threads", "1"},
+                                          {"--method", "conjugate_gradients"},
+                                          {"--print", "2.5"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
       fmt::print(stderr, "box2d: no option '{}', or no value\n", argv[i]);
@@ -47,7 +51,8 @@ int main(int argc, char** argv) {
   }
   const int count = std::stoi(o["--count"]);
   auto setting = box(count);
-  setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]), std::stoi(o["--max-iterations"]), o["--method"]};
+  setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
+                    std::stoi(o["--max-iterations"]), o["--method"]};
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
   Simulation simulation(setting, box_of_discs(count), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;

@@ -117,10 +117,10 @@ void read_container(const TomlSection& section, const RoomNeeded& room, Tabulati
   for (const auto& [key, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
     if (length > kLargest * tabulation.radius)
-      table.fail(key,
-                 fmt::format("is {}; it must be at most {} sphere radii, {}, or the container must be "
-                             "\"unbounded\"",
-                             length, kLargest, kLargest * tabulation.radius));
+      table.fail(key, fmt::format(
+                          "is {}; it must be at most {} sphere radii, {}, or the container must be "
+                          "\"unbounded\"",
+                          length, kLargest, kLargest * tabulation.radius));
   tabulation.container = container;
 }
 

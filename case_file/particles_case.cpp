@@ -221,8 +221,7 @@ void read_forces_by_id(const TomlSection& root, int dimension, double end_time, 
                                        id, c.particles.count() - 1)
                          : fmt::format("contains {}, which is not the id of a particle; {} "
                                        "gives the ids",
-                                       id,
-                                       c.particles_file.string()));
+                                       id, c.particles_file.string()));
       if (!c.setting.forces.emplace(place->second, function).second)
         section.fail(
             "particles",

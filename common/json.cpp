@@ -43,7 +43,13 @@ struct SyntaxCheck {
 
 void check_syntax(const std::string& text, const std::string& file) {
   SyntaxCheck check;
-  if (Json::sax_parse(text, &check)) return;
+  if (Json::sax_parse(text, &check)) {
+    // The parser takes a NUL character for the end of the text, whatever follows.
+    const auto nul = text.find('\0');
+    if (nul == std::string::npos) return;
+    check.position = nul + 1;
+    check.cause = "a NUL character";
+  }
   // The last byte that was read is the offending one.
   const auto at = std::min(check.position > 0 ? check.position - 1 : 0, text.size());
   const auto before = std::string_view(text).substr(0, at);

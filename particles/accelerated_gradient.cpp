@@ -21,8 +21,7 @@ struct Sums {
 }  // namespace
 
 template <int D>
-Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
-                            FaceFactor<D>& /*factor*/) {
+Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   const std::size_t numbers = graph.bodies() * D;
   auto& team = graph.team();

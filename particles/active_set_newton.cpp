@@ -36,7 +36,13 @@ class Newton {
     if ((changed || !factor_.exists()) && !factor_.factorise(graph_, active_)) return false;
     compute_gradient();
     factor_.solve(gradient_, correction_);
-    for (std::size_t c = 0; c < graph_.count(); ++c) graph_.z[c] -= correction_[c];
+    for (std::size_t c = 0; c < graph_.count(); ++c) {
+      graph_.z[c] -= correction_[c];
+      // A contact that touches without load is at its bound but for rounding errors.
+      const double slack = 1 / graph_.per_allowed[c];
+      if (graph_.z[c] < graph_.bound[c] && graph_.z[c] > graph_.bound[c] - slack)
+        graph_.z[c] = graph_.bound[c];
+    }
     compute_gradient();
     return true;
   }

@@ -7,8 +7,8 @@
 namespace viscontact::particles {
 
 /// The primal-dual active set method (Hintermueller, Ito & Kunisch 2003, "The primal-dual active set
-/// strategy as a semismooth Newton method"): the contacts with z - g >= bound are taken for active,
-/// g the gradient; a factor of W gives their impulses with g = 0, the others stay at their bounds;
+/// strategy as a semismooth Newton method"): the contacts with z - g >= bound, g the gradient, are
+/// taken for active, and those that miss this by no more than the residual that is allowed of them; a factor of W gives their impulses with g = 0, the others stay at their bounds;
 /// repeated until the set is the same. A chain of any length takes a few iterations.
 ///
 /// It converges fast near the solution and may cycle far from it: stops after `max_iterations`

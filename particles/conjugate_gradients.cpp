@@ -30,7 +30,9 @@ struct Look {
 
 /// Redundant contacts make W singular: impulses would move without end along directions whose slope
 /// and curvature are rounding errors. So much is added to the diagonal of W, which is 1: far more than
-/// rounding errors, far less than the curvatures of a chain of 10 000 (1e-8) or any tolerance.
+/// rounding errors, far less than the curvatures of a chain of 10 000 (1e-8) or any tolerance. Where
+/// particles are jammed in a wedge, impulses may be so large that it leaves a gap nevertheless: it is
+/// dropped if the solution takes long.
 constexpr double kRegularisation = 1e-14;
 
 /// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
@@ -53,20 +55,25 @@ class Iteration {
   /// The gradient from z itself, without the rounding of many updates.
   void refresh() {
     graph_.to_bodies(graph_.z, y_);
-    look_ = graph_.team().template sum_of_blocks<Look>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
-          Look look;
-          for (std::size_t c = begin; c < end; ++c) {
-            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data()) +
-                           kRegularisation * graph_.z[c];
-            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_, look);
-          }
-          return look;
-        });
+    look_ = graph_.team().template sum_of_blocks<Look>(graph_.count(), [&](std::size_t begin,
+                                                                           std::size_t end) {
+      Look look;
+      for (std::size_t c = begin; c < end; ++c) {
+        gradient_[c] =
+            graph_.linear_term[c] + graph_.to_contact(c, y_.data()) + regularisation_ * graph_.z[c];
+        add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_, look);
+      }
+      return look;
+    });
     restart_ = true;
   }
 
   double residual() const { return look_.residual; }
+
+  void drop_regularisation() {
+    regularisation_ = 0;
+    refresh();
+  }
 
   /// From now on the preconditioner is a factor of what is free now.
   /// Returns false if it would not pay, or not be possible.
@@ -146,7 +153,7 @@ class Iteration {
           }
           return square;
         });
-    curvature_ = graph_.combine(y_, beta, y_direction_) + kRegularisation * square_of_all;
+    curvature_ = graph_.combine(y_, beta, y_direction_) + regularisation_ * square_of_all;
   }
 
   /// z -= length * direction, its gradient and what there is to see then; and, the contact's rows being at hand, the sweep's way forth:
@@ -170,7 +177,7 @@ class Iteration {
             for (std::size_t c = begin; c < end; ++c) {
               const double z = zs[c] - length * direction[c];
               const double g = gradient[c] - length * (graph_.to_contact(c, y_direction) +
-                                                       kRegularisation * direction[c]);
+                                                       regularisation_ * direction[c]);
               zs[c] = z;
               gradient[c] = g;
               const double room = z - bound[c];
@@ -292,6 +299,7 @@ class Iteration {
   std::vector<double> y_, y_direction_;  // of bodies
   std::vector<double> gradient_, direction_, half_swept_, swept_;
   Look look_;
+  double regularisation_ = kRegularisation;
   double slope_ = 0;      // gradient.direction
   double curvature_ = 0;  // direction^T W direction
   bool restart_ = true;
@@ -316,8 +324,8 @@ Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFacto
   // errors. In packings it may go round, so that it is tried only if all else has taken long.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
   constexpr std::size_t kLongChain = 6;  // shorter ones take fewer sweeps than a factor costs
-  const bool has_chains = graph.largest_island > kLongChain &&
-                          graph.count() < graph.bodies() + graph.bodies() / 8;
+  const bool has_chains =
+      graph.largest_island > kLongChain && graph.count() < graph.bodies() + graph.bodies() / 8;
   constexpr double kExact = 1e-4;
   if (has_chains && iteration.residual() > kExact) {
     solved = active_set_newton(graph, kNewtonIterations);
@@ -337,7 +345,7 @@ Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFacto
     if (solved.iterations >= next_newton) {
       const auto newton = active_set_newton(graph, kNewtonIterations);
       solved.iterations += newton.iterations;
-      iteration.refresh();
+      iteration.drop_regularisation();
       next_newton = std::max(kLongPatience, 2 * solved.iterations);
       fresh = true;
       continue;

@@ -22,7 +22,8 @@ struct Contact {
   double gap = 0;      ///< D_ij at the step's begin, of a plane at the place of its end [L]
   double gamma = 0;    ///< gamma_ij^n <= 0 [M L/T]
   double impulse = 0;  ///< h lambda_ij [M L/T] >= gamma: a guess, then the solution
-  double allowed = 0;  ///< how far it may be from its conditions when the step has converged [L], > 0
+  double allowed =
+      0;  ///< how far it may be from its conditions when the step has converged [L], > 0
   double tolerated = 0;  ///< overlap that is not pushed out [L], >= 0: `gap` is D plus this
 };
 

@@ -23,7 +23,7 @@ class FaceFactor {
 
   /// Factorises W between the contacts c with `active[c]`. Returns false, and there is no factor, if
   /// it would fill so much that iterations are cheaper (packings of spheres do), or if W cannot be
-  /// factorised. The order of elimination is kept for as long as the graph has the same contacts.
+  /// factorised. The order of elimination is kept for as long as the graph has as many contacts.
   bool factorise(const ContactGraph<D>& graph, const std::vector<char>& active);
   bool exists() const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/error.hpp"
 #include "particles/block_results.hpp"
@@ -22,6 +23,7 @@ struct Simulation::Work {
   std::vector<double> mobilities;     // h/m
   // Of a step that is divided: the sums of the impulses of its parts, by the films' particles.
   std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts;
+  std::optional<State> before_division;  // the state before a step that is divided
 };
 
 namespace {
@@ -54,8 +56,8 @@ void find_walls(State& state, std::span<const PlanePlace> planes, double margin,
   state.walls = std::move(walls.values);
 }
 
-/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within its error
-/// is spent. Returns how many films hold.
+/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within the
+/// rounding error of this difference is spent. Returns how many films hold.
 std::size_t remember(const Particles& p, const Projected& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
@@ -64,10 +66,10 @@ std::size_t remember(const Particles& p, const Projected& projected, const Conta
   for (std::size_t f = 0; f < projected.films.size(); ++f) {
     auto& film = *projected.films[f];
     const double gamma = film.gamma - film.impulse;
-    const double error = film.gamma_error + projected.film_errors[f] +
-                         std::numeric_limits<double>::epsilon() *
-                             (std::abs(film.gamma) + std::abs(film.impulse));
-    const bool spent = gamma >= -error;
+    const double rounding =
+        std::numeric_limits<double>::epsilon() * (std::abs(film.gamma) + std::abs(film.impulse));
+    const double error = film.gamma_error + projected.film_errors[f] + rounding;
+    const bool spent = gamma >= -rounding;
     const double bound = spent ? 0 : law.lower_bound(radius(film.second), radius(film.first));
     film.gamma = spent ? 0.0 : std::max(gamma, bound);
     film.gamma_error = spent || film.gamma == bound ? 0 : error;
@@ -84,8 +86,7 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
     if (!(std::abs(x[d]) <= largest && std::abs(w[d]) <= largest))
       throw Error(ExitCode::kNotConverged,
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
-                              "what can be computed with; are its forces, the walls and the time "
-                              "step as they should be?",
+                              "what can be computed with; check its forces and the time step",
                               p.id(k), x[d], w[d], time));
   return norm(w);
 }
@@ -189,7 +190,10 @@ template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   move_freely<D>(h, next);
   const auto projected = project<D>(h, next);
-  if (projected.unresolved > 0 && halvings < kMostHalvings) {
+  if (!projected.converged && -projected.smallest_gap > mean_radius_)
+    throw_impossible(projected, next);
+  if (projected.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
+    if (halvings == 0) work_->before_division = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
     for_films([](Film& film) { film.impulse /= 2; });
@@ -199,13 +203,25 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (halvings > 0) for_films([](Film& film) { film.impulse *= 2; });
     return;
   }
-  if (!projected.converged && -projected.smallest_gap > mean_radius_)
-    throw_impossible(projected, next);
   accept<D>(projected, h, next, report);
   if (halvings > 0)
     for_films([&](const Film& film) {
       if (film.impulse != 0) work_->impulses_of_parts[{film.first, film.second}] += film.impulse;
     });
+}
+
+/// A step that fails in one of its parts leaves the state of before the step.
+template <int D>
+void Simulation::advance_whole(double h, double next, StepReport& report) {
+  try {
+    advance<D>(h, next, 0, report);
+  } catch (...) {
+    work_->impulses_of_parts.clear();
+    if (work_->before_division) state_ = std::move(*work_->before_division);
+    work_->before_division.reset();
+    throw;
+  }
+  work_->before_division.reset();
 }
 
 StepReport Simulation::step(double end) {
@@ -220,9 +236,9 @@ StepReport Simulation::step(double end) {
   }
   StepReport report{.time = next};
   if (state_.particles.dimension == 2)
-    advance<2>(h, next, 0, report);
+    advance_whole<2>(h, next, report);
   else
-    advance<3>(h, next, 0, report);
+    advance_whole<3>(h, next, report);
   if (auto& parts = work_->impulses_of_parts; !parts.empty()) {
     for_films([&](Film& film) {
       const auto sum = parts.find({film.first, film.second});
@@ -241,17 +257,20 @@ StepReport Simulation::step(double end) {
 void Simulation::throw_impossible(const Projected& projected, double next) const {
   const auto& film = projected.narrowest;
   std::string moving;
+  std::vector<char> presses(setting_.planes.size(), 0);  // on a particle in this step
+  for (const auto* wall : projected.films)
+    if (wall->first < 0 && wall->impulse > 0)
+      presses[static_cast<std::size_t>(-1 - wall->first)] = 1;
   const auto before = places_of(setting_.planes, state_.time);
   const auto after = places_of(setting_.planes, next);
   for (std::size_t w = 0; w < before.size(); ++w)
-    if (before[w].point != after[w].point || before[w].normal != after[w].normal)
+    if (presses[w] != 0 &&
+        (before[w].point != after[w].point || before[w].normal != after[w].normal))
       moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
-  const auto id = [&](std::int32_t k) {
-    return state_.particles.id(static_cast<std::size_t>(k));
-  };
-  const auto pair =
-      film.first < 0 ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
-                     : fmt::format("particles {} and {}", id(film.first), id(film.second));
+  const auto id = [&](std::int32_t k) { return state_.particles.id(static_cast<std::size_t>(k)); };
+  const auto pair = film.first < 0
+                        ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
+                        : fmt::format("particles {} and {}", id(film.first), id(film.second));
   throw Error(
       ExitCode::kNotConverged,
       fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "

@@ -63,13 +63,15 @@ class Simulation {
 
   /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than
   /// that is left. A step in which particles that touch turn about each other by more than
-  /// kLargestTurn is halved, up to kMostHalvings times. Throws Error(kNotConverged), the state being
-  /// that of before the step or of a part of it, if a position or a displacement is beyond what can
+  /// kLargestTurn is halved, up to kMostHalvings times; contacts and glued films in the report are
+  /// then those of the last part. Throws Error(kNotConverged), the state being that of before the
+  /// step, if a position or a displacement is beyond what can
   /// be computed with, or if the projection has not converged and leaves an overlap of more than the
   /// mean radius, as it does where walls close on particles.
   StepReport step(double end);
 
-  /// A particle that flies by another is seen to pass from 100 radii a step.
+  /// The smallest part of a step is a 256th: it resolves the contact of equal particles that move
+  /// past each other at up to 256 radii a step.
   static constexpr int kMostHalvings = 8;
 
   const State& state() const { return state_; }
@@ -79,6 +81,8 @@ class Simulation {
   struct Work;
   template <int D>
   void advance(double h, double next, int halvings, StepReport& report);
+  template <int D>
+  void advance_whole(double h, double next, StepReport& report);
   template <int D>
   void accept(const Projected& projected, double h, double next, StepReport& report);
   template <class Visit>

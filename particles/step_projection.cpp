@@ -83,16 +83,16 @@ bool StepProjection<D>::closes(std::size_t f) {
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
   return team_
-      .sum_of_blocks<Joined<std::size_t>>(
-          films(),
-          [&](std::size_t begin, std::size_t end) {
-            Joined<std::size_t> numbers;
-            for (std::size_t f = begin; f < end; ++f) {
-              const auto& now = film(f);
-              if (now.gamma < 0 || now.impulse != 0 || closes(f)) numbers.values.push_back(f);
-            }
-            return numbers;
-          })
+      .sum_of_blocks<Joined<std::size_t>>(films(),
+                                          [&](std::size_t begin, std::size_t end) {
+                                            Joined<std::size_t> numbers;
+                                            for (std::size_t f = begin; f < end; ++f) {
+                                              const auto& now = film(f);
+                                              if (now.gamma < 0 || now.impulse != 0 || closes(f))
+                                                numbers.values.push_back(f);
+                                            }
+                                            return numbers;
+                                          })
       .values;
 }
 
@@ -148,8 +148,8 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
 template <int D>
 double StepProjection<D>::at_work_on(std::int32_t particle) const {
   const auto k = static_cast<std::size_t>(particle);
-  const double* free = number_[k] < 0 ? &displacements_[k * D]
-                                      : &free_[static_cast<std::size_t>(number_[k]) * D];
+  const double* free =
+      number_[k] < 0 ? &displacements_[k * D] : &free_[static_cast<std::size_t>(number_[k]) * D];
   double given = 0, change = 0;
   for (std::size_t d = 0; d < D; ++d) {
     const double before = h_ * state_.particles.velocities[k * D + d];
@@ -158,7 +158,8 @@ double StepProjection<D>::at_work_on(std::int32_t particle) const {
     change += (now - before) * (now - before);
   }
   const double own = std::sqrt(std::max(given, change)) / mobilities_[k];
-  return number_[k] < 0 ? own : std::max(own, contact_impulses_[static_cast<std::size_t>(number_[k])]);
+  return number_[k] < 0 ? own
+                        : std::max(own, contact_impulses_[static_cast<std::size_t>(number_[k])]);
 }
 
 /// The largest impulse of each body's contacts, and of what would stop a contact that still closes.
@@ -245,18 +246,26 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   find_contact_impulses();
   result.converged = true;
   result.residual = result.impulse_residual = result.smallest_gap = 0;
+  result.excess = 0;
   result.unresolved = 0;
   result.film_errors.resize(contacts_.size());
   // Whether the contact has a larger residual than is allowed.
   const auto judge = [&](double residual, const Scale& scale) {
     result.residual = std::max(result.residual, residual);
-    const bool beyond =
-        residual > scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
+    const double allowed =
+        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
+    const bool beyond = residual > allowed;
     if (beyond) result.converged = false;
-    if (residual > scale.rounding)
+    result.excess = std::max(result.excess, residual / allowed);
+    if (residual > scale.rounding && scale.impulse > 0)
       result.impulse_residual =
           std::max(result.impulse_residual, residual / scale.w / scale.impulse);
     return beyond;
+  };
+  const auto note_gap = [&](std::size_t f, double gap) {
+    if (gap >= result.smallest_gap) return;
+    result.smallest_gap = gap;
+    result.narrowest = film(f);
   };
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const auto& now = contacts_[c];
@@ -266,10 +275,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const double residual = std::abs(std::min(gap, scale.w * (now.impulse - now.gamma)));
     judge(residual, scale);
     result.film_errors[c] = residual / scale.w;
-    if (gap - here.tolerated < result.smallest_gap) {
-      result.smallest_gap = gap - here.tolerated;
-      result.narrowest = film(chosen_[c]);
-    }
+    note_gap(chosen_[c], gap - here.tolerated);
     if ((now.impulse != 0 || now.gamma < 0) &&
         turns_too_far(state_.particles, here, displacements_))
       ++result.unresolved;
@@ -285,7 +291,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const auto here = contact(f);
     const double gap = gap_after(here, displacements_);
     if (judge(-gap, scale_of(here))) closed.push_back(f);
-    result.smallest_gap = std::min(result.smallest_gap, gap - here.tolerated);
+    note_gap(f, gap - here.tolerated);
   }
   return closed;
 }
@@ -301,8 +307,8 @@ std::vector<std::size_t> StepProjection<D>::with_those_behind(const std::vector<
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     double change = 0;
     for (std::size_t d = 0; d < D; ++d) {
-      const double moved = displacements_[static_cast<std::size_t>(bodies_[b]) * D + d] -
-                           free_[b * D + d];
+      const double moved =
+          displacements_[static_cast<std::size_t>(bodies_[b]) * D + d] - free_[b * D + d];
       change += moved * moved;
     }
     square = std::max(square, change);
@@ -326,6 +332,8 @@ Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_r
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
+  int waited = 0;
+  double least_excess = std::numeric_limits<double>::infinity();
   while (!chosen_.empty()) {
     allow((rough ? kRoughLength : settings.tolerance / 2) * mean_radius,
           rough ? kRoughImpulse : settings.impulse_tolerance);
@@ -333,7 +341,11 @@ Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_r
     result.iterations += solved.iterations;
     auto more = examine(settings, mean_radius, result);
     if (result.converged || result.iterations >= settings.max_iterations) break;
-    if (more.empty() && !rough && solved.iterations == 0) break;  // rounding errors are too large
+    // A solution that gets no closer in several rounds has reached its rounding errors.
+    constexpr int kPatience = 10;
+    waited = more.empty() && !rough && result.excess >= least_excess ? waited + 1 : 0;
+    if (waited == kPatience) break;
+    if (!rough) least_excess = std::min(least_excess, result.excess);
     if (more.empty()) rough = false;
     choose(with_those_behind(more, ++rounds));
   }

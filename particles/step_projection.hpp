@@ -20,6 +20,7 @@ struct Projected {
   bool converged = true;
   double residual = 0;          ///< largest of a contact's conditions, over all films [L]
   double impulse_residual = 0;  ///< the same as an impulse, over the impulses at work there
+  double excess = 0;            ///< largest residual over what is allowed of its contact
   double smallest_gap = 0;      ///< linearised [L], at most 0
   Film narrowest;               ///< the film of smallest_gap
   /// Pairs that exert an impulse while they move tangentially by more than kLargestTurn.
@@ -34,9 +35,10 @@ struct Projected {
 /// particles. Where that closes further gaps, those are chosen too, until none is left. A first
 /// rough solution shows most of the others that are closed, before much work is spent.
 ///
-/// The step has converged when each contact's natural residual |min(D + h G v, w (p - gamma))| is
-/// at most `tolerance` mean radii, and, divided by w, at most `impulse_tolerance` of the impulses
-/// at work on its particles (physics.md, section 5).
+/// The step has converged when each contact's natural residual |min(D + h G v, w (p - gamma))|, D
+/// without the overlap that is tolerated, is at most half of `tolerance` mean radii, and, divided by
+/// w, at most `impulse_tolerance` of the impulses at work on the particle of the contact on which
+/// they are smaller.
 template <int D>
 class StepProjection {
  public:
@@ -92,13 +94,13 @@ class StepProjection {
   std::vector<std::int32_t> bodies_;
   std::vector<std::int32_t> number_;  // of all particles; -1: does not take part
   std::vector<double> free_, body_mobilities_;
-  std::vector<std::int32_t> island_of_;   // of bodies: a body closer to the one that stands for all
+  std::vector<std::int32_t> island_of_;  // of bodies: a body closer to the one that stands for all
   std::vector<std::size_t> island_sizes_;  // bodies, at the body that stands for all
   std::size_t largest_island_ = 1;
   std::vector<double> contact_impulses_;  // largest on each body [M L/T]
   // The largest sqrt(w) p of each island, at the body that stands for it.
   std::vector<double> island_impulses_;
-  FaceFactor<D> factor_;                  // of the solves so far
+  FaceFactor<D> factor_;  // of the solves so far
   std::optional<FilmsOfParticles> films_of_particles_;
 };
 

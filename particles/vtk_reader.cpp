@@ -91,8 +91,8 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   };
   // A frame does not hold the errors of gamma, which no picture shows.
   for (std::size_t i = 0; i < pairs; ++i)
-    content.contacts.push_back(
-        {particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i], gammas[walls + i], 0});
+    content.contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
+                                gammas[walls + i], 0});
   for (std::size_t i = 0; i < walls; ++i) {
     if (partners[i] >= 0) reader.refuse();
     content.contacts.push_back({partners[i], particle(vertices[i]), gaps[i], gammas[i], 0});

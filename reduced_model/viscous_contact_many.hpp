@@ -26,7 +26,8 @@ struct ManyContacts {
   std::vector<double>
       minimal_gap;  ///< least of the gaps at the start and at the steps' ends [L], >= 0
   std::vector<double> minimal_gap_time;  ///< when it is first met [T]
-  std::vector<double> lowest_gamma;   ///< [M L/T], <= 0; the film is thinnest there: q0 exp(gamma/k), q0 the initial gap
+  std::vector<double>
+      lowest_gamma;  ///< [M L/T], <= 0; the film is thinnest there: q0 exp(gamma/k), q0 the initial gap
   std::vector<double> first_contact;  ///< first step's end at which the gap is 0 [T]; NaN: none
   std::vector<double> last_contact;   ///< last step's end at which the gap is 0 [T]; NaN: none
   std::vector<double> gap;            ///< at the end [L], >= 0

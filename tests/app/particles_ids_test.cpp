@@ -126,14 +126,15 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::ValuesIn(std::vector<BadId>{
         {"Twice", "7,2,1", "41,2,1",
          "discs.csv:3: id is 41, which is the id of the particle in line 2"},
-        {"Missing", "7,2,1", ",2,1", "discs.csv:3: id is empty; must be a number"},
+        {"Missing", "7,2,1", ",2,1", "discs.csv:3: id is empty; it must be a number"},
         {"Negative", "7,2,1", "-7,2,1", "discs.csv:3: id is -7; must be a whole number from 0"},
         {"Fraction", "7,2,1", "7.5,2,1", "discs.csv:3: id is 7.5; must be a whole number"},
         {"TooLarge", "7,2,1", "2147483648,2,1", "discs.csv:3: id is 2147483648; must be a whole"},
         {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "the largest one that is possible"},
         {"ForceOnNoId", "particles = [3]", "particles = [2]",
-         "case.toml:19: force[0].particles has 2, which is no particle's id"},
-        {"ForceTwice", "particles = [3]", "particles = [3, 3]", "has 3, which has a force already"},
+         "case.toml:19: force[0].particles contains 2, which is not the id of a particle"},
+        {"ForceTwice", "particles = [3]", "particles = [3, 3]",
+         "contains particle 3 a second time"},
         {"OverlapIsNamedByIds", "7,2,1", "7,1,1", "particle 41 (line 2"},
     }),
     [](const auto& test) { return test.param.name; });

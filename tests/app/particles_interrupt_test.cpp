@@ -149,9 +149,9 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
   // A stack that needs more than an iteration.
   put_case(replaced(kCase, "2.5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
   put_text(path("discs.csv"), std::string(kDiscs) + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
-  expect_refusal(run("out"), ExitCode::kNotConverged, HasSubstr("all is written"));
+  expect_refusal(run("out"), ExitCode::kNotConverged, HasSubstr("All results are written"));
   const auto again = run("out");
-  expect_refusal(again, ExitCode::kNotConverged, HasSubstr("all is written"));
+  expect_refusal(again, ExitCode::kNotConverged, HasSubstr("All results are written"));
   EXPECT_THAT(again.errors, HasSubstr("up to date"));
 }
 

@@ -104,7 +104,8 @@ TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(end.position(k)[1], end.radii[k], 1e-6);
   EXPECT_THAT(content(out() / "final_contacts.csv"), HasSubstr("0,-1,"));
   // Glued since they fell: gravity and push have given the floor all that it remembers.
-  EXPECT_THAT(content(out() / "final_contacts.csv"), ::testing::ContainsRegex("2,-1,[^,]*,-2\n"));
+  EXPECT_THAT(content(out() / "final_contacts.csv"),
+              ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*\n"));
 }
 
 /// What VTK reads, by name.
@@ -225,7 +226,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3, not 1", restart);
   refused(replaced(longer, "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n", ""),
           "at plane 1, which is not there", restart);
-  refused(longer, "no restart file", (folder_.path() / "discs.csv").string());
+  refused(longer, "is not a restart file", (folder_.path() / "discs.csv").string());
   auto bytes = read_file(restart);
   refused(longer, "cut short",
           folder_.file("half.bin", bytes.substr(0, bytes.size() - 100)).string());
@@ -240,7 +241,7 @@ TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
     text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
             "]\nradius = 1.0\nmass = 1.0\n";
   const auto result = run(put_case(text), out());
-  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("all is written"));
+  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("All results are written"));
   EXPECT_THAT(result.errors, HasSubstr("warning"));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_GT(record["unconverged_steps"], 0);
@@ -397,7 +398,7 @@ TEST_F(ParticlesCommand, AStepThatCannotBeComputedLeavesWhatWasBefore) {
 TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
   folder_.file("final_particles.csv", kDiscs);
   const auto file = put_case(replaced(kCase, "discs.csv", "final_particles.csv"));
-  expect_refusal(run(file, folder_.path()), ExitCode::kBadInput, HasSubstr("written over"));
+  expect_refusal(run(file, folder_.path()), ExitCode::kBadInput, HasSubstr("overwritten"));
   EXPECT_EQ(read_file(folder_.path() / "final_particles.csv"), kDiscs);
 }
 

@@ -169,7 +169,7 @@ TEST_F(Plot, VtkFileHasPointsTrianglesAndFields) {
 TEST_F(Plot, GapThatIsNotThereIsRefusedBeforeAnyWork) {
   const auto before = files_below(scratch_.path());
   expect_refusal(tabulate({"--plot", "1,0.02"}), ExitCode::kBadInput,
-                 AllOf(HasSubstr("0.02"), HasSubstr("nearest is 0.01")));
+                 AllOf(HasSubstr("0.02"), HasSubstr("the nearest of them is 0.01")));
   expect_refusal(tabulate({"--plot", "1,x"}), ExitCode::kWrongUsage, HasSubstr("'x'"));
   EXPECT_EQ(files_below(scratch_.path()), before);
 }

@@ -245,9 +245,9 @@ TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) 
   refused(replaced(text, "count = 6", "count = 4"),
           "tabulation.gaps has 4 gap(s); the basis lecture needs at least 5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 2.0"),
-          "motion.initial_gap is 2, above the largest gap of tabulation.gaps, 1.5");
+          "motion.initial_gap is 2, which is above the largest gap of tabulation.gaps, 1.5");
   refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),
-          "motion.initial_gap is 0.01, below the smallest gap of tabulation.gaps, 0.05");
+          "motion.initial_gap is 0.01, which is below the smallest gap of tabulation.gaps, 0.05");
   EXPECT_TRUE(fake_.answered().empty());
 }
 

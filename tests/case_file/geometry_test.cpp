@@ -60,9 +60,11 @@ TEST(Container, MustBeHigherThanTheSphereOverItsLargestGap) {
 
 TEST(Container, IsAtMostSoLargeThatFreeFemCanMeshIt) {
   expect_refused(with_value(kContainer, "{ radius = 1e6, height = 80.0 }"),
-                 "tabulation.container.radius", "is 1000000; must be at most 200000 sphere radii");
+                 "tabulation.container.radius",
+                 "is 1000000; it must be at most 200000 sphere radii");
   expect_refused(with_value(kContainer, "{ radius = 40.0, height = 200001.0 }"),
-                 "tabulation.container.height", "is 200001; must be at most 200000 sphere radii");
+                 "tabulation.container.height",
+                 "is 200001; it must be at most 200000 sphere radii");
   EXPECT_NO_THROW(read_text(with_value(kContainer, "{ radius = 2e5, height = 2e5 }").text));
 }
 

@@ -53,6 +53,12 @@ TEST(JsonDocument, RefusesWhatIsNoJsonWithLineColumnAndCause) {
   EXPECT_THAT(refusal("[1,\n2,\n  -1e999]"), HasSubstr("number overflow parsing '-1e999'"));
 }
 
+TEST(JsonDocument, RefusesANulCharacterAndWhatFollows) {
+  const std::string text("{\n}\0}}]", 8);
+  EXPECT_THAT(refusal(text),
+              StartsWith("f.json:2: is not valid JSON at column 2 (a NUL character)"));
+}
+
 TEST(JsonDocument, RefusesAKeyThatStandsTwiceInItsObject) {
   EXPECT_EQ(refusal("{\"a\": 1,\n \"b\": {\"c\": 1,\n  \"c\": 2}}"),
             "f.json:3: b.c stands twice; a key must stand once in its object");

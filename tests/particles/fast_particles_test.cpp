@@ -19,7 +19,8 @@ Setting of_step(double h) {
 TEST(FastParticles, ThatPassClearAreNotTouched) {
   // Half a radius clear, at 5 radii a step; and closer and faster.
   for (const int dimension : {2, 3})
-    for (const auto& [speed, clear] : {std::pair(5.0, 0.5), std::pair(50.0, 0.1), std::pair(1e4, 0.5)})
+    for (const auto& [speed, clear] :
+         {std::pair(5.0, 0.5), std::pair(50.0, 0.1), std::pair(1e4, 0.5)})
       for (const double from : {-20.0, -3.7, -1.0}) {
         SCOPED_TRACE(testing::Message() << dimension << ' ' << speed << ' ' << from);
         State state = no_particles(dimension);
@@ -91,7 +92,8 @@ TEST(FastParticles, BeyondTheLargestDivisionAreCounted) {
 
 TEST(ClosingWalls, EndTheRunOnceTheOverlapPassesARadius) {
   Random random(3);
-  auto state = random_cloud(2, 300, 60, [] { return 1.0; }, random);
+  auto state = random_cloud(
+      2, 300, 60, [] { return 1.0; }, random);
   Setting setting = of_step(0.05);
   for (const double side : {-1.0, 1.0}) {
     auto plane = plane_at_rest({side * 40, 0, 0}, {-side, 0, 0});

@@ -33,7 +33,8 @@ int take_steps(Simulation& simulation, int steps) {
   for (int n = 0; n < steps; ++n) {
     const auto report = simulation.step(1e300);
     EXPECT_TRUE(report.converged) << "step " << n << ", residuals " << report.residual << ", "
-                                  << report.impulse_residual << ", iterations " << report.iterations;
+                                  << report.impulse_residual << ", iterations "
+                                  << report.iterations;
     most = std::max(most, report.iterations);
   }
   return most;
@@ -80,13 +81,12 @@ TEST(ImpulseAccuracy, MicrometreStackInSiUnits) {
   setting.planes = {plane_at_rest({}, {0, 1, 0})};
   setting.time_step = 1e-5;
   for (int k = 0; k < 5; ++k) setting.forces[k] = constant({0, -kForce, 0});
-  Simulation simulation(
-      setting, chain(2, std::vector(5, kRadius), std::vector(5, kMass), 1), 1);
+  Simulation simulation(setting, chain(2, std::vector(5, kRadius), std::vector(5, kMass), 1), 1);
   take_steps(simulation, 1000);
   for (int k = 0; k < 5; ++k)
-    EXPECT_NEAR(film_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma /
-                    (-(5 - k) * kForce * 1e-2),
-                1, 1e-8)
+    EXPECT_NEAR(
+        film_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(5 - k) * kForce * 1e-2), 1,
+        1e-8)
         << k;
 }
 
@@ -138,9 +138,9 @@ TEST_P(LongChain, StandsHangsAndIsPushedInTensOfIterations) {
     Simulation hang(setting, press.state(), 1);
     EXPECT_LE(take_steps(hang, kSteps), 60);
     for (const int k : {0, 1, 10, 5000, 9999})
-      EXPECT_NEAR(film_of(hang.state(), k == 0 ? -1 : k - 1, k).gamma /
-                      (-(kCount - k) * (100 * h - t)),
-                  1, 1e-8)
+      EXPECT_NEAR(
+          film_of(hang.state(), k == 0 ? -1 : k - 1, k).gamma / (-(kCount - k) * (100 * h - t)), 1,
+          1e-8)
           << k;
   }
   {
@@ -289,8 +289,8 @@ TEST(ImpulseAccuracy, DoesNotDependOnTheUnits) {
     take_steps(simulation, 50);
     std::vector<double> gammas;
     const double unit = mass * length / time;
-    for (const auto& [first, second] : {std::pair(-1, 0), std::pair(-2, 0), std::pair(0, 1),
-                                       std::pair(1, 2)})
+    for (const auto& [first, second] :
+         {std::pair(-1, 0), std::pair(-2, 0), std::pair(0, 1), std::pair(1, 2)})
       gammas.push_back(film_of(simulation.state(), first, second).gamma / unit);
     return gammas;
   };

@@ -232,7 +232,8 @@ void expect_all_methods_agree(const Problem<D>& problem) {
       const double room = dense.diagonal()[c] * (answer.impulses[c] - dense.gamma[c]);
       largest = std::max(largest, std::abs(std::min(gradient[c], room)));
     }
-    EXPECT_NEAR(largest, answer.solved.residual * kTolerance, 1e-13 * (1 + answer.impulses.cwiseAbs().sum()));
+    EXPECT_NEAR(largest, answer.solved.residual * kTolerance,
+                1e-13 * (1 + answer.impulses.cwiseAbs().sum()));
     const double bound = bound_by_convexity(dense, answer.impulses, exact, kTolerance + kDense);
     EXPECT_LE(square_distance(dense, answer.displacements, exact_displacements), bound);
     EXPECT_NEAR(dense.objective(answer.impulses), dense.objective(exact), bound);
@@ -431,7 +432,7 @@ TEST(Projection, ThatCannotBeSaysSo) {
     const auto solved = row.discs(graph, 1000, factor);
     // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
     // 1e4 or more, of which the regularisation (1e-14) makes a gap.
-    EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-9)) << row.name;
+    EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-6)) << row.name;
     EXPECT_LE(solved.iterations, 1003) << row.name;
     for (const double z : graph.z) EXPECT_TRUE(std::isfinite(z)) << row.name;
   }

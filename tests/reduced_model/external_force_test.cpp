@@ -194,11 +194,12 @@ TEST_F(ForceFile, IsRefusedWithItsLine) {
   EXPECT_THAT(refusal("time,force\n0.5,1\n2,1\n"), HasSubstr(":2: the first time is 0.5"));
   EXPECT_THAT(refusal("time,force\n0,1\n2,1\n1,1\n"), HasSubstr(":4: time is 1 after 2"));
   EXPECT_THAT(refusal("time,force\n0,1\n1,1\n1,2\n1,3\n"),
-              HasSubstr(":5: time 1 is there more than twice"));
+              HasSubstr(":5: time 1 stands in more than two rows"));
   EXPECT_THAT(refusal("time,force\n0,1\n1,nan\n"), HasSubstr(":3: force is not a finite number"));
   EXPECT_THAT(refusal("time,push\n0,1\n"), HasSubstr("'force' is missing"));
-  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"), HasSubstr("ends at time 0.5; it must reach 1"));
-  EXPECT_THAT(refusal("time,force\n"), HasSubstr("must reach 1"));
+  EXPECT_THAT(refusal("time,force\n0,1\n0.5,1\n"),
+              HasSubstr("ends at time 0.5; it must reach motion.end_time, 1"));
+  EXPECT_THAT(refusal("time,force\n"), HasSubstr("it must reach motion.end_time, 1"));
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongFile{"NoTime", "gap,velocity\n1,0\n", 0, "'time'"},
         WrongFile{"NoGap", "time,velocity\n1,0\n", 0, "'gap'"},
         WrongFile{"NoVelocity", "time,gap\n1,0\n", 0, "'velocity'"},
-        WrongFile{"AColumnTwice", "time,gap,velocity,gap\n0,1,0,1\n", 0, "'gap' is twice"},
+        WrongFile{"AColumnTwice", "time,gap,velocity,gap\n0,1,0,1\n", 0, "'gap' stands twice"},
         WrongFile{"ANegativeGap", "time,gap,velocity\n0,1,0\n1,-1e-9,0\n", 3, "must be >= 0"},
         WrongFile{"NaN", "# a: b\n# c: d\ntime,gap,velocity\n0,1,0\n1,nan,0\n", 5,
                   "gap is not a finite number ('nan')"},
