@@ -1,5 +1,7 @@
 #include "particles/contact_graph.hpp"
 
+#include <Eigen/Core>
+
 namespace viscontact::particles {
 
 template <int D>
@@ -15,10 +17,11 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
       gamma_(contacts.size()),
       in_block_(contacts.size()),
       offsets_(mobilities.size() + 2, 0),
-      inverse_mobilities_(mobilities.size() + 1, 0.0),
+      inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
       team_(&team) {
   const auto wall = static_cast<std::int32_t>(mobilities.size());
-  for (std::size_t b = 0; b < mobilities.size(); ++b) inverse_mobilities_[b] = 1 / mobilities[b];
+  for (std::size_t b = 0; b < mobilities.size(); ++b)
+    for (std::size_t d = 0; d < D; ++d) inverse_mobilities_[b * D + d] = 1 / mobilities[b];
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
     const bool particles = contact.first >= 0;
@@ -73,6 +76,22 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     block_bodies_.push_back(rows_.size() <= Team::kBlock ? bodies()
                                                          : static_cast<std::size_t>(named));
   }
+}
+
+template <int D>
+double ContactGraph<D>::combine(std::span<const double> y, double factor,
+                                std::span<double> into) const {
+  return team_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin * D);
+    const auto size = static_cast<Eigen::Index>((end - begin) * D);
+    // Eigen adds to several sums at once, where one sum would wait for each addition.
+    const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
+    const auto per_mobility =
+        Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);
+    auto sum = Eigen::Map<Eigen::ArrayXd>(into.data() + first, size);
+    sum = from + factor * sum;
+    return (sum.square() * per_mobility).sum();
+  });
 }
 
 template class ContactGraph<2>;

@@ -55,6 +55,8 @@ class ContactGraph {
   std::vector<double> scale;        ///< sqrt(w)
   std::vector<double> per_allowed;  ///< scale over the residual that is allowed of the contact
   std::size_t largest_island = 0;   ///< how many bodies are connected by contacts, at most
+  /// Whether the solution only has to show which other contacts take part.
+  bool is_rough = false;
 
   /// y = B z, D numbers a body. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
@@ -72,28 +74,14 @@ class ContactGraph {
           y[b * D + d] = sum[d];
           square += sum[d] * sum[d];
         }
-        form += square * inverse_mobilities_[b];
+        form += square * inverse_mobilities_[b * D];
       }
       return form;
     });
   }
 
   /// into = y + factor * into, the same combination of displacements. Returns the form z^T W z of the sum.
-  double combine(std::span<const double> y, double factor, std::span<double> into) const {
-    return team_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
-      double form = 0;
-      for (std::size_t b = begin; b < end; ++b) {
-        double square = 0;
-        for (std::size_t k = b * D; k < b * D + D; ++k) {
-          const double sum = y[k] + factor * into[k];
-          into[k] = sum;
-          square += sum * sum;
-        }
-        form += square * inverse_mobilities_[b];
-      }
-      return form;
-    });
-  }
+  double combine(std::span<const double> y, double factor, std::span<double> into) const;
 
   /// (W z)_c of y = B z: what the displacements change of the gradient of contact c.
   double to_contact(std::size_t c, const double* y) const {
@@ -138,7 +126,7 @@ class ContactGraph {
         if (other == c) continue;
         double entry = 0;
         for (std::size_t d = 0; d < D; ++d) entry += row.normal[d] * share.push[d];
-        visit(other, of_body * inverse_mobilities_[b] * entry);
+        visit(other, of_body * inverse_mobilities_[b * D] * entry);
       }
     };
     visit_at(row.first, -row.of_first);
@@ -197,7 +185,8 @@ class ContactGraph {
   std::vector<std::size_t> block_bodies_;  // how many bodies each block has
   std::vector<std::int32_t> offsets_;      // of the shares of each body
   std::vector<Share> shares_;              // in order of contacts
-  std::vector<double> inverse_mobilities_;  // m/h; 0 of the body that does not move
+  // m/h of each displacement, D numbers a body; 0 of the body that does not move.
+  std::vector<double> inverse_mobilities_;
   Team* team_;
 };
 

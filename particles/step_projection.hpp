@@ -70,14 +70,19 @@ class StepProjection {
     }
   };
   std::vector<std::size_t> with_those_behind(const std::vector<std::size_t>& films, int round);
-  void find_contact_impulses();
-  double at_work_on(std::int32_t particle) const;
+  /// What a particle brings to the scales of its contacts.
+  struct ParticleScale {
+    double impulse = 0;  ///< at work on it [M L/T]
+    double moved = 0;    ///< sum of h |u_d|, the velocity before the step [L]
+  };
+  ParticleScale scale_of_particle(std::int32_t particle, const double* moves) const;
+  void find_impulses_at_work();
   Scale scale_of(const Contact<D>& here);
   void allow(double length, double fraction);
-  Solved solve_chosen(const SolverSettings& settings, int iterations);
+  Solved solve_chosen(const SolverSettings& settings, bool is_rough, int iterations);
   std::vector<std::size_t> closed_by_free_motion();
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
-                                   Projected& result);
+                                   bool is_final, Projected& result);
 
   State& state_;
   double h_;
@@ -97,7 +102,7 @@ class StepProjection {
   std::vector<std::int32_t> island_of_;  // of bodies: a body closer to the one that stands for all
   std::vector<std::size_t> island_sizes_;  // bodies, at the body that stands for all
   std::size_t largest_island_ = 1;
-  std::vector<double> contact_impulses_;  // largest on each body [M L/T]
+  std::vector<ParticleScale> body_scales_;
   // The largest sqrt(w) p of each island, at the body that stands for it.
   std::vector<double> island_impulses_;
   FaceFactor<D> factor_;  // of the solves so far

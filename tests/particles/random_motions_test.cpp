@@ -95,7 +95,7 @@ TEST(RandomMotions, ObeyTheContactLaw) {
       // No gap is below its linearised one; the rest is rounding of coordinates.
       double farthest = 0;
       for (const double x : p.positions) farthest = std::max(farthest, std::abs(x));
-      const double rounding = 1e-15 * (10 + farthest / radius);
+      const double rounding = 2e-15 * (10 + farthest / radius);
       double overlap = largest_overlap(s, state);
       for (std::int32_t a = 0; a < static_cast<std::int32_t>(p.count()); ++a)
         for (std::int32_t b = a + 1; b < static_cast<std::int32_t>(p.count()); ++b)
