@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command_options.hpp"
+#include "app/foreign_files.hpp"
 #include "app/particles_earlier_run.hpp"
 #include "app/particles_frames.hpp"
 #include "app/particles_page.hpp"
@@ -89,18 +90,6 @@ nlohmann::ordered_json record_of(const ParticlesCase& c, const StepSums& record,
   return json;
 }
 
-/// Refuses a file that is no result of ours; by its head, where each says how it was made: the rest may be a gigabyte.
-void check_is_ours(const fs::path& path) {
-  if (!fs::is_regular_file(path)) return;
-  constexpr std::size_t kHead = 65536;
-  std::string head(kHead, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (file.gcount() > 0 && head.find("provenance") == std::string::npos)
-    throw_bad_input({path.string()},
-                    "is there and is no result of ours; remove it first, or write elsewhere");
-}
-
 /// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
 void remove_earlier_run(const fs::path& folder) {
   for (const auto* name : kParticleResults) remove_file(folder / name);
@@ -110,11 +99,12 @@ void remove_earlier_run(const fs::path& folder) {
   for (const auto& frame : frames) remove_file(frame);
 }
 
-/// Refuses to write over what is no result of ours.
+/// Throws if the folder has a file with the name of a result that Viscontact did not write.
 void check_folder_is_ours(const fs::path& folder) {
-  for (const auto* name : kParticleResults) check_is_ours(folder / name);
+  const auto check = [](const fs::path& path) { refuse_other_kind(path, "", "result"); };
+  for (const auto* name : kParticleResults) check(folder / name);
   for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path())) check_is_ours(entry.path());
+    if (is_named_as_frame(entry.path())) check(entry.path());
 }
 
 /// Refuses to write over what the run is made from.

@@ -149,7 +149,8 @@ State read_restart(const std::filesystem::path& path) {
   const auto in_range = [&](const Film& film, bool wall) {
     return film.second >= 0 && static_cast<std::size_t>(film.second) < p.count() &&
            (wall ? film.first < 0 : film.first >= 0 && film.first < film.second) &&
-           film.gamma <= 0 && std::isfinite(film.impulse) && film.gamma_error >= 0;
+           film.gamma <= 0 && std::isfinite(film.gamma) && std::isfinite(film.impulse) &&
+           film.gamma_error >= 0;
   };
   for (const auto& film : state.pairs)
     if (!in_range(film, false)) reader.throw_short();

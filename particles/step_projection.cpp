@@ -176,7 +176,8 @@ void StepProjection<D>::find_impulses_at_work() {
     if (now.first >= 0) w += body_mobilities_[static_cast<std::size_t>(now.first)];
     const double gap = gap_after(geometry_[c], displacements_);
     // A film that is held pulls where its gap opens.
-    const double impulse = std::max(std::abs(now.impulse), (now.gamma < 0 ? std::abs(gap) : -gap) / w);
+    const double impulse =
+        std::max(std::abs(now.impulse), (now.gamma < 0 ? std::abs(gap) : -gap) / w);
     for (const auto body : {now.first, now.second})
       if (body >= 0) {
         auto& largest = body_scales_[static_cast<std::size_t>(body)].impulse;
@@ -346,7 +347,8 @@ Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_r
   while (!chosen_.empty()) {
     allow((is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius,
           is_rough ? kRoughImpulse : settings.impulse_tolerance);
-    const auto solved = solve_chosen(settings, is_rough, settings.max_iterations - result.iterations);
+    const auto solved =
+        solve_chosen(settings, is_rough, settings.max_iterations - result.iterations);
     result.iterations += solved.iterations;
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);

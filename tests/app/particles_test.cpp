@@ -395,6 +395,24 @@ TEST_F(ParticlesCommand, AStepThatCannotBeComputedLeavesWhatWasBefore) {
   EXPECT_DOUBLE_EQ(particles::read_restart(out() / "restart.bin").time, 5.0);
 }
 
+TEST_F(ParticlesCommand, WallsThatMeetEndTheRunAndKeepWhatWasBefore) {
+  // The ceiling comes down at 1 on discs of height 4 to 5, and stands still if the case says so.
+  const auto with_ceiling = [&](const std::string& velocity) {
+    return kCase + ("[[plane]]\npoint = [0.0, 6.0]\nnormal = [0.0, -1.0]\nvelocity = " + velocity);
+  };
+  const auto result = run(put_case(with_ceiling("[0.0, -1.0]\n")), out());
+  expect_refusal(result, ExitCode::kNotConverged, AllOf(HasSubstr("plane"), HasSubstr("overlap")));
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  const double until = record["to_time"];
+  EXPECT_GT(until, 2);
+  EXPECT_LT(until, 6);
+  const auto restart = (out() / "restart.bin").string();
+  EXPECT_DOUBLE_EQ(particles::read_restart(restart).time, until);
+  // The state that is kept is one to go on from.
+  expect_done(
+      run(put_case(with_ceiling("[0.0, 0.0]\n"), "calm.toml"), out("on"), {"--restart", restart}));
+}
+
 TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
   folder_.file("final_particles.csv", kDiscs);
   const auto file = put_case(replaced(kCase, "discs.csv", "final_particles.csv"));
