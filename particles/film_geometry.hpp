@@ -96,6 +96,24 @@ Contact<D> resolved_contact_of(const Particles& p, const Film& film,
   return contact;
 }
 
+/// Whether two particles are so far from each other that no such displacements close
+/// their linearised gap: |x_j - x_i| > r_i + r_j + |w|, |w| the length of the relative displacement
+/// or more. It takes no root and no division, and tells most pairs of a list.
+template <int D>
+bool stay_apart(const Particles& p, const Film& film, std::span<const double> displacements) {
+  const auto i = static_cast<std::size_t>(film.first), j = static_cast<std::size_t>(film.second);
+  double square = 0, moved = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const double apart = p.positions[j * D + d] - p.positions[i * D + d];
+    square += apart * apart;
+    moved += std::abs(displacements[j * D + d] - displacements[i * D + d]);
+  }
+  // Beyond the rounding errors that resolved_contact_of() takes for contact.
+  constexpr double kAbove = 1 + 1e-9;
+  const double reach = kAbove * (p.radii[i] + p.radii[j] + moved);
+  return square > reach * reach;
+}
+
 /// How far a pair may move tangentially in a step, over the sum of its radii, for its linearised gap
 /// to stand for its gap: they differ by half the square of that, times the sum.
 inline constexpr double kLargestTurn = 0.5;

@@ -64,6 +64,7 @@ Contact<D> StepProjection<D>::contact(std::size_t f) {
 /// Whether the displacements close the film's gap.
 template <int D>
 bool StepProjection<D>::closes(std::size_t f) {
+  if (film(f).first >= 0 && stay_apart<D>(state_.particles, film(f), displacements_)) return false;
   const auto here = contact_of<D>(state_.particles, film(f), planes_);
   const double gap = gap_after(here, displacements_);
   // Rounding errors matter to the few gaps that are nearly closed; these are cheaper to tell.
