@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 

@@ -1,10 +1,10 @@
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 
 namespace viscontact {
 namespace {
