@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/system/process.hpp"
 #include "tests/docs/document.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 namespace {

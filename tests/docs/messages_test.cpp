@@ -5,8 +5,8 @@
 #include <regex>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/docs/document.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

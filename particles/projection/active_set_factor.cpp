@@ -1,4 +1,4 @@
-#include "viscontact/particles/projection/face_factor.hpp"
+#include "viscontact/particles/projection/active_set_factor.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -50,7 +50,7 @@ SparseMatrix lower_triangle(const ContactGraph<D>& graph, const std::vector<char
 }  // namespace
 
 template <int D>
-struct FaceFactor<D>::Factor {
+struct ActiveSetFactor<D>::Factor {
   std::vector<char> active;  // the contacts that were factorised
   Cholesky cholesky;
   bool pays = false;
@@ -58,17 +58,17 @@ struct FaceFactor<D>::Factor {
 };
 
 template <int D>
-FaceFactor<D>::FaceFactor(double epsilon) : epsilon_(epsilon) {}
+ActiveSetFactor<D>::ActiveSetFactor(double epsilon) : epsilon_(epsilon) {}
 template <int D>
-FaceFactor<D>::~FaceFactor() = default;
+ActiveSetFactor<D>::~ActiveSetFactor() = default;
 
 template <int D>
-bool FaceFactor<D>::exists() const {
+bool ActiveSetFactor<D>::exists() const {
   return factor_ != nullptr && factor_->complete;
 }
 
 template <int D>
-bool FaceFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector<char>& active) {
+bool ActiveSetFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector<char>& active) {
   const auto w = lower_triangle(graph, active, epsilon_);
   if (factor_ == nullptr || factor_->active.size() != graph.count()) {
     factor_ = std::make_unique<Factor>();
@@ -87,7 +87,7 @@ bool FaceFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector<ch
 }
 
 template <int D>
-void FaceFactor<D>::solve(std::span<const double> gradient, std::span<double> solved) const {
+void ActiveSetFactor<D>::solve(std::span<const double> gradient, std::span<double> solved) const {
   const auto count = static_cast<Eigen::Index>(gradient.size());
   Eigen::Map<Eigen::VectorXd> values(solved.data(), count);
   for (std::size_t c = 0; c < gradient.size(); ++c)
@@ -96,8 +96,9 @@ void FaceFactor<D>::solve(std::span<const double> gradient, std::span<double> so
 }
 
 template <int D>
-double FaceFactor<D>::precondition(const ContactGraph<D>& graph, std::span<const double> gradient,
-                                   std::span<double> solved) const {
+double ActiveSetFactor<D>::precondition(const ContactGraph<D>& graph,
+                                        std::span<const double> gradient,
+                                        std::span<double> solved) const {
   const std::size_t factored = factor_->active.size();
   Eigen::Map<Eigen::VectorXd> values(solved.data(), static_cast<Eigen::Index>(factored));
   for (std::size_t c = 0; c < graph.count(); ++c) solved[c] = graph.is_free(c) ? gradient[c] : 0.0;
@@ -110,7 +111,7 @@ double FaceFactor<D>::precondition(const ContactGraph<D>& graph, std::span<const
   return product;
 }
 
-template class FaceFactor<2>;
-template class FaceFactor<3>;
+template class ActiveSetFactor<2>;
+template class ActiveSetFactor<3>;
 
 }  // namespace viscontact::particles

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/robustness/fuzz_target.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,10 +8,10 @@
 namespace viscontact {
 
 /// What std::optional<double> is for values that are never NaN, in the size of a double: rows of millions hold several.
-class Maybe {
+class OptionalDouble {
  public:
-  constexpr Maybe() = default;
-  constexpr Maybe(double value)
+  constexpr OptionalDouble() = default;
+  constexpr OptionalDouble(double value)
       : value_(value) {}  // NOLINT(google-explicit-constructor): as std::optional
 
   bool has_value() const { return !std::isnan(value_); }
@@ -23,7 +23,7 @@ class Maybe {
   double value() const { return **this; }
 
   /// Equal values, or both missing.
-  friend bool operator==(const Maybe& a, const Maybe& b) {
+  friend bool operator==(const OptionalDouble& a, const OptionalDouble& b) {
     return a.value_ == b.value_ || (!a && !b);
   }
 

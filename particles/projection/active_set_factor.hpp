@@ -14,12 +14,12 @@ namespace viscontact::particles {
 /// ill-conditioned that iterative methods take as many iterations as a chain has contacts. The
 /// factor solves for the impulses between the active contacts at once.
 template <int D>
-class FaceFactor {
+class ActiveSetFactor {
  public:
   /// `epsilon` >= 0 is added to the diagonal of W, which is 1. Redundant contacts make W singular:
   /// it then bounds the impulses that they exert on each other.
-  explicit FaceFactor(double epsilon = 1e-10);
-  ~FaceFactor();
+  explicit ActiveSetFactor(double epsilon = 1e-10);
+  ~ActiveSetFactor();
 
   /// Factorises W between the contacts c with `active[c]`. Returns false, and there is no factor, if
   /// it would fill so much that iterations are cheaper (packings of spheres do), or if W cannot be
@@ -42,7 +42,7 @@ class FaceFactor {
   std::unique_ptr<Factor> factor_;
 };
 
-extern template class FaceFactor<2>;
-extern template class FaceFactor<3>;
+extern template class ActiveSetFactor<2>;
+extern template class ActiveSetFactor<3>;
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-#include "tests/hostile/whole_outputs.hpp"
+#include "tests/robustness/whole_outputs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/app/sample_files.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -18,7 +19,6 @@
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
-#include "tests/app/sample_files.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,9 +1,9 @@
 // Any bytes as a trajectory file: read, written, read again, compared.
 #include <string>
 
+#include "tests/robustness/fuzz_target.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
-#include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {
 namespace {

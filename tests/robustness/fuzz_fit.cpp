@@ -2,10 +2,10 @@
 #include <cmath>
 #include <string>
 
+#include "tests/robustness/fuzz_target.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,5 +1,5 @@
 // Loops that threads share: every index once, sums that do not depend on the threads, errors that come back.
-#include "viscontact/common/system/team.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,17 +7,17 @@
 #include <new>
 #include <vector>
 
-namespace viscontact::particles {
+namespace viscontact {
 namespace {
 
-constexpr std::size_t kCount = 5 * Team::kBlock + 7;
+constexpr std::size_t kCount = 5 * ThreadPool::kBlock + 7;
 
-TEST(Team, DoesEveryIndexOnce) {
+TEST(ThreadPool, DoesEveryIndexOnce) {
   for (const int threads : {1, 2, 5}) {
-    Team team(threads);
+    ThreadPool pool(threads);
     std::vector<int> done(kCount, 0);
     for (int round = 1; round <= 3; ++round) {
-      team.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
+      pool.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) ++done[k];
       });
       EXPECT_THAT(done, ::testing::Each(round)) << threads;
@@ -25,10 +25,10 @@ TEST(Team, DoesEveryIndexOnce) {
   }
 }
 
-TEST(Team, AddsTheSameBitsWithAnyNumberOfThreads) {
+TEST(ThreadPool, AddsTheSameBitsWithAnyNumberOfThreads) {
   const auto sum = [](int threads) {
-    Team team(threads);
-    return team.sum_of_blocks<double>(kCount, [](std::size_t begin, std::size_t end) {
+    ThreadPool pool(threads);
+    return pool.sum_of_blocks<double>(kCount, [](std::size_t begin, std::size_t end) {
       double part = 0;
       for (std::size_t k = begin; k < end; ++k) part += 1 / static_cast<double>(k + 1);
       return part;
@@ -38,16 +38,16 @@ TEST(Team, AddsTheSameBitsWithAnyNumberOfThreads) {
   for (const int threads : {2, 3, 8}) EXPECT_EQ(sum(threads), alone) << threads;
 }
 
-TEST(Team, ThrowsWhatABlockThrewAndGoesOn) {
+TEST(ThreadPool, ThrowsWhatABlockThrewAndGoesOn) {
   for (const int threads : {1, 4}) {
-    Team team(threads);
-    EXPECT_THROW(team.for_blocks(kCount,
+    ThreadPool pool(threads);
+    EXPECT_THROW(pool.for_blocks(kCount,
                                  [](std::size_t begin, std::size_t) {
-                                   if (begin == 2 * Team::kBlock) throw std::bad_alloc();
+                                   if (begin == 2 * ThreadPool::kBlock) throw std::bad_alloc();
                                  }),
                  std::bad_alloc);
     std::vector<int> done(kCount, 0);
-    team.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
+    pool.for_blocks(kCount, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) ++done[k];
     });
     EXPECT_THAT(done, ::testing::Each(1));
@@ -55,4 +55,4 @@ TEST(Team, ThrowsWhatABlockThrewAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace viscontact::particles
+}  // namespace viscontact

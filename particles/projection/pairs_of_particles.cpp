@@ -1,8 +1,8 @@
-#include "viscontact/particles/projection/films_of_particles.hpp"
+#include "viscontact/particles/projection/pairs_of_particles.hpp"
 
 namespace viscontact::particles {
 
-FilmsOfParticles::FilmsOfParticles(const State& state)
+PairsOfParticles::PairsOfParticles(const State& state)
     : state_(&state),
       pairs_(state.pairs.size()),
       offsets_(state.particles.count() + 1, 0),

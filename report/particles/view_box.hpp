@@ -10,7 +10,7 @@
 namespace viscontact {
 
 /// From where to where along an axis [L]; of nothing, low > high.
-struct Reach {
+struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -21,13 +21,13 @@ struct Reach {
 };
 
 /// A box [L].
-struct Room {
+struct ViewBox {
   particles::Vector low{}, high{};
 };
 
 /// What a view of these frames should hold: all particles, or the central 98 % of each frame if the others have flown far away, and the planes
 /// next to them. Never flat in a direction of the playback's.
-Room room_of(const particles::Playback& playback, const std::vector<std::size_t>& frames);
+ViewBox view_box_of(const particles::Playback& playback, const std::vector<std::size_t>& frames);
 
 using Polygon = std::vector<particles::Vector>;  ///< convex, its corners in order [L]
 
@@ -36,7 +36,8 @@ Polygon clipped(const Polygon& polygon, const particles::Vector& point,
                 const particles::Vector& normal);
 
 /// What of a polygon in plane `own` is in the room and on the free side of the other planes.
-Polygon in_room(Polygon polygon, const Room& room, const std::vector<particles::PlanePlace>& planes,
-                std::size_t own, int dimension);
+Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
+                        const std::vector<particles::PlanePosition>& planes, std::size_t own,
+                        int dimension);
 
 }  // namespace viscontact

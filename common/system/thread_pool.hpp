@@ -7,17 +7,17 @@
 #include <utility>
 #include <vector>
 
-namespace viscontact::particles {
+namespace viscontact {
 
 /// Work is cut into blocks whose bounds depend on its size alone; each block is done by one thread, and what the blocks
 /// return is added in their order: the same bits for any number of threads.
-class Team {
+class ThreadPool {
  public:
   /// `threads` >= 1, the caller's included; fewer if the system gives no more. Workers sleep between loops.
-  explicit Team(int threads);
-  ~Team();
-  Team(const Team&) = delete;
-  Team& operator=(const Team&) = delete;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   /// About a tenth of a millisecond of work in the loops of a projection: below, waking a thread costs more than it brings.
   static constexpr std::size_t kBlock = 16384;
@@ -64,4 +64,4 @@ class Team {
   std::unique_ptr<Workers> workers_;  // none for one thread
 };
 
-}  // namespace viscontact::particles
+}  // namespace viscontact

@@ -1,4 +1,4 @@
-#include "viscontact/common/system/team.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>
 #include <exception>
@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
-namespace viscontact::particles {
+namespace viscontact {
 
-struct Team::Workers {
+struct ThreadPool::Workers {
   void (*call)(const void*, std::size_t) = nullptr;
   const void* job = nullptr;
   std::size_t blocks = 0;
@@ -47,7 +47,7 @@ struct Team::Workers {
   }
 };
 
-Team::Team(int threads) {
+ThreadPool::ThreadPool(int threads) {
   if (threads <= 1) return;
   workers_ = std::make_unique<Workers>();
   workers_->threads.reserve(static_cast<std::size_t>(threads));
@@ -59,7 +59,7 @@ Team::Team(int threads) {
   }
 }
 
-Team::~Team() {
+ThreadPool::~ThreadPool() {
   if (!workers_) return;
   workers_->stop = true;
   workers_->round.fetch_add(1);
@@ -67,7 +67,7 @@ Team::~Team() {
   for (auto& thread : workers_->threads) thread.join();
 }
 
-void Team::run(std::size_t blocks, void (*call)(const void*, std::size_t), const void* job) {
+void ThreadPool::run(std::size_t blocks, void (*call)(const void*, std::size_t), const void* job) {
   if (!workers_) {
     for (std::size_t block = 0; block < blocks; ++block) call(job, block);
     return;
@@ -85,4 +85,4 @@ void Team::run(std::size_t blocks, void (*call)(const void*, std::size_t), const
   if (w.failure) std::rethrow_exception(std::exchange(w.failure, nullptr));
 }
 
-}  // namespace viscontact::particles
+}  // namespace viscontact

@@ -1,4 +1,4 @@
-#include "viscontact/report/particles/particles_room.hpp"
+#include "viscontact/report/particles/view_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@ namespace {
 
 using particles::dot;
 using particles::Frame;
-using particles::PlanePlace;
+using particles::PlanePosition;
 using particles::Playback;
 using particles::Vector;
 using particles::operator+;
@@ -16,7 +16,7 @@ using particles::operator-;
 using particles::operator*;
 
 /// Of the particles of a frame, without the `cut` outermost to either side.
-Reach reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
+Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
     const double x = position(playback, frame, k)[axis], r = playback.radii[k];
@@ -24,7 +24,7 @@ Reach reach_of(const Playback& playback, const Frame& frame, std::size_t axis, s
     lows.push_back(x - r);
     highs.push_back(x + r);
   }
-  Reach reach;
+  Interval reach;
   if (lows.size() <= 2 * cut) return reach;
   const auto at = static_cast<std::ptrdiff_t>(cut);
   std::ranges::nth_element(lows, lows.begin() + at);
@@ -33,7 +33,7 @@ Reach reach_of(const Playback& playback, const Frame& frame, std::size_t axis, s
   return reach;
 }
 
-double size_of(const Room& room, int dimension) {
+double size_of(const ViewBox& room, int dimension) {
   double size = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
     size = std::max(size, room.high[d] - room.low[d]);
@@ -41,7 +41,7 @@ double size_of(const Room& room, int dimension) {
 }
 
 /// Reaches for the plane if it is next to the room, so that particles are seen to lie on it.
-void reach_for(Room& room, const PlanePlace& plane, int dimension) {
+void extend_to_plane(ViewBox& room, const PlanePosition& plane, int dimension) {
   constexpr double kNear = 0.5;  // of the room's size
   double distance = 0;
   for (std::size_t d = 0; d < 3; ++d)
@@ -56,14 +56,14 @@ void reach_for(Room& room, const PlanePlace& plane, int dimension) {
 
 }  // namespace
 
-Room room_of(const Playback& playback, const std::vector<std::size_t>& frames) {
+ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames) {
   constexpr double kFlownAway = 1.5;  // times the room of the others
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   const auto cut = playback.radii.size() / (100 * dimension);  // 2 % in all, for all sides
-  Room room;
+  ViewBox room;
   double size = 0;
   for (std::size_t axis = 0; axis < dimension; ++axis) {
-    Reach all, central;
+    Interval all, central;
     for (const auto f : frames) {
       const auto whole = reach_of(playback, playback.frames[f], axis, 0);
       const auto middle = reach_of(playback, playback.frames[f], axis, cut);
@@ -78,7 +78,8 @@ Room room_of(const Playback& playback, const std::vector<std::size_t>& frames) {
   }
   if (!(size > 0)) size = 1;
   for (const auto f : frames)
-    for (const auto& plane : playback.frames[f].planes) reach_for(room, plane, playback.dimension);
+    for (const auto& plane : playback.frames[f].planes)
+      extend_to_plane(room, plane, playback.dimension);
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(room, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -101,8 +102,8 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
   return kept;
 }
 
-Polygon in_room(Polygon polygon, const Room& room, const std::vector<PlanePlace>& planes,
-                std::size_t own, int dimension) {
+Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
+                        const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
   // Planes may meet or coincide: nothing vanishes by round-off.
   const double slack = 1e-4 * size_of(room, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {

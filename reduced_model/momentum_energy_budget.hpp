@@ -14,23 +14,24 @@ namespace viscontact {
 /// (the left sides are 0 for a model without inertia). What the film absorbed is -film_work, what drag dissipated -drag_work, what was lost on the
 /// solid -solid_work. The contact models book each step as it is made. For the models with the whole drag the film's impulse is what the force does not explain, and its
 /// work is summed over the rows, with an error of second order in their spacing; the force's work closes the balance.
-struct Books {
+struct MomentumEnergyBudget {
   double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
   double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;
 };
 
 /// The entries by name, for files.
-struct BookEntry {
+struct BudgetEntry {
   std::string_view name;
-  double Books::*value;
+  double MomentumEnergyBudget::*value;
 };
-inline constexpr std::array kBookEntries = {BookEntry{"external_impulse", &Books::external_impulse},
-                                            BookEntry{"film_impulse", &Books::film_impulse},
-                                            BookEntry{"drag_impulse", &Books::drag_impulse},
-                                            BookEntry{"solid_impulse", &Books::solid_impulse},
-                                            BookEntry{"external_work", &Books::external_work},
-                                            BookEntry{"film_work", &Books::film_work},
-                                            BookEntry{"drag_work", &Books::drag_work},
-                                            BookEntry{"solid_work", &Books::solid_work}};
+inline constexpr std::array kBudgetEntries = {
+    BudgetEntry{"external_impulse", &MomentumEnergyBudget::external_impulse},
+    BudgetEntry{"film_impulse", &MomentumEnergyBudget::film_impulse},
+    BudgetEntry{"drag_impulse", &MomentumEnergyBudget::drag_impulse},
+    BudgetEntry{"solid_impulse", &MomentumEnergyBudget::solid_impulse},
+    BudgetEntry{"external_work", &MomentumEnergyBudget::external_work},
+    BudgetEntry{"film_work", &MomentumEnergyBudget::film_work},
+    BudgetEntry{"drag_work", &MomentumEnergyBudget::drag_work},
+    BudgetEntry{"solid_work", &MomentumEnergyBudget::solid_work}};
 
 }  // namespace viscontact

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
-#include "tests/hostile/whole_outputs.hpp"
+#include "tests/robustness/whole_outputs.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

@@ -12,9 +12,9 @@ namespace viscontact::particles {
 
 /// The films between particles as a graph: a blow on one end of a chain closes its films one after
 /// the other, and whoever solves for the contacts wants to know them at once.
-class FilmsOfParticles {
+class PairsOfParticles {
  public:
-  explicit FilmsOfParticles(const State& state);
+  explicit PairsOfParticles(const State& state);
 
   /// The films of `start` and those that are reached from their particles over at most `depth`
   /// films for which `may_close(film number)`, of which `may_close` is asked once each. Pairs only:

@@ -1,4 +1,4 @@
-#include "tests/hostile/fuzz_target.hpp"
+#include "tests/robustness/fuzz_target.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -8,9 +8,9 @@
 #include <limits>
 #include <span>
 
-#include "viscontact/particles/projection/contact_graph.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/plane.hpp"
+#include "viscontact/particles/projection/contact_graph.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
@@ -36,7 +36,7 @@ Contact<D> contact_of(const Particles& p, const Film& film) {
 
 /// Of a particle and a plane at `place`.
 template <int D>
-Contact<D> contact_of(const Particles& p, const Film& film, const PlanePlace& place) {
+Contact<D> contact_of(const Particles& p, const Film& film, const PlanePosition& place) {
   Contact<D> contact{-1, film.second, {}, 0, film.gamma, film.impulse};
   for (std::size_t d = 0; d < D; ++d) contact.normal[d] = place.normal[d];
   const auto k = static_cast<std::size_t>(film.second);
@@ -46,7 +46,7 @@ Contact<D> contact_of(const Particles& p, const Film& film, const PlanePlace& pl
 
 /// Either, by the sign of film.first.
 template <int D>
-Contact<D> contact_of(const Particles& p, const Film& film, std::span<const PlanePlace> places) {
+Contact<D> contact_of(const Particles& p, const Film& film, std::span<const PlanePosition> places) {
   return film.first < 0 ? contact_of<D>(p, film, places[static_cast<std::size_t>(-1 - film.first)])
                         : contact_of<D>(p, film);
 }
@@ -74,7 +74,7 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
 /// would be motion out of nothing.
 template <int D>
 Contact<D> resolved_contact_of(const Particles& p, const Film& film,
-                               std::span<const PlanePlace> places, double tolerated) {
+                               std::span<const PlanePosition> places, double tolerated) {
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   auto contact = contact_of<D>(p, film, places);
   const auto j = static_cast<std::size_t>(film.second);
@@ -100,7 +100,7 @@ Contact<D> resolved_contact_of(const Particles& p, const Film& film,
 /// their linearised gap: |x_j - x_i| > r_i + r_j + |w|, |w| the length of the relative displacement
 /// or more. It takes no root and no division, and tells most pairs of a list.
 template <int D>
-bool stay_apart(const Particles& p, const Film& film, std::span<const double> displacements) {
+bool cannot_close(const Particles& p, const Film& film, std::span<const double> displacements) {
   const auto i = static_cast<std::size_t>(film.first), j = static_cast<std::size_t>(film.second);
   double square = 0, moved = 0;
   for (std::size_t d = 0; d < D; ++d) {

@@ -28,7 +28,7 @@ bool is_let_in(const Read& read) {
     read();
     return true;
   } catch (const Error& error) {
-    require(error.exit_code() == ExitCode::kBadInput, "a file was refused with another exit code");
+    require(error.kind() == ErrorKind::kBadInput, "a file was refused with another exit code");
     return false;
   }
 }

@@ -4,12 +4,12 @@
 
 #include <sstream>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "tests/hostile/whole_outputs.hpp"
+#include "tests/robustness/whole_outputs.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 namespace {

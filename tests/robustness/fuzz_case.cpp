@@ -3,11 +3,11 @@
 #include <string>
 #include <utility>
 
+#include "tests/robustness/fuzz_target.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/sweep/variation.hpp"
-#include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {
 namespace {

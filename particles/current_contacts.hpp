@@ -9,7 +9,7 @@
 
 namespace viscontact::particles {
 
-struct ContactNow {
+struct CurrentContact {
   std::int32_t first;      ///< particle, or -1 - k: plane k
   std::int32_t second;     ///< particle
   double gap;              ///< [L]
@@ -19,10 +19,11 @@ struct ContactNow {
 
 /// The names of both partners in files: a particle's id, then that of the other particle or
 /// -1, -2, ... for the first, second plane.
-std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles, const ContactNow& contact);
+std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
+                                             const CurrentContact& contact);
 
 /// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
-std::vector<ContactNow> contacts_of(const Setting& setting, const State& state);
+std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Film::gamma_error of all films [M L/T].
 double largest_gamma_error(const State& state);

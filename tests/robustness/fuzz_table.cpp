@@ -2,11 +2,11 @@
 #include <numeric>
 #include <string>
 
+#include "tests/robustness/fuzz_target.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
-#include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {
 namespace {

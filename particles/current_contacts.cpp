@@ -1,22 +1,22 @@
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
 
-#include "viscontact/particles/film_geometry.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact_geometry.hpp"
 #include "viscontact/particles/neighbours/neighbours.hpp"
-#include "viscontact/common/system/team.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-double gap_of(const Particles& p, const Film& film, std::span<const PlanePlace> places) {
+double gap_of(const Particles& p, const Film& film, std::span<const PlanePosition> places) {
   return p.dimension == 2 ? contact_of<2>(p, film, places).gap : contact_of<3>(p, film, places).gap;
 }
 
 }  // namespace
 
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
-                                             const ContactNow& contact) {
+                                             const CurrentContact& contact) {
   const auto second = particles.id(static_cast<std::size_t>(contact.second));
   if (contact.first < 0) return {second, contact.first};
   return {particles.id(static_cast<std::size_t>(contact.first)), second};
@@ -25,10 +25,10 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
-  Team team(1);
-  for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, team))
+  ThreadPool pool(1);
+  for (const auto& pair : close_pairs(p.dimension, p.positions, p.radii, pool))
     smallest = std::min(smallest, gap_of(p, {pair.first, pair.second}, {}));
-  for (const auto& place : places_of(setting.planes, state.time))
+  for (const auto& place : positions_of(setting.planes, state.time))
     for (std::size_t k = 0; k < p.count(); ++k)
       smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
   return (0 - smallest) / mean_radius(p);  // 0, not -0
@@ -41,10 +41,10 @@ double largest_gamma_error(const State& state) {
   return largest;
 }
 
-std::vector<ContactNow> contacts_of(const Setting& setting, const State& state) {
-  std::vector<ContactNow> contacts;
+std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state) {
+  std::vector<CurrentContact> contacts;
   const auto& p = state.particles;
-  const auto places = places_of(setting.planes, state.time);
+  const auto places = positions_of(setting.planes, state.time);
   const double touching = setting.solver.tolerance * mean_radius(p);
   for (const auto* films : {&state.pairs, &state.walls})
     for (const auto& film : *films)
