@@ -8,7 +8,7 @@
 
 namespace viscontact {
 
-/// What a user asked for (interfaces.md, "Many particles").
+/// What a user asked for (case-file.md, "Many particles").
 struct ParticlesCase {
   std::filesystem::path path;
   std::string text;  ///< of the file

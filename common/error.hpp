@@ -8,7 +8,7 @@
 namespace viscontact {
 
 /// What the process reports to its caller when an Error ends it (interfaces of the command line,
-/// docs/interfaces.md).
+/// docs/command-line.md).
 enum class ExitCode {
   kDone = 0,
   kWrongUsage = 2,       ///< the command line itself
