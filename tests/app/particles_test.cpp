@@ -24,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// The example of docs/interfaces.md: three discs on a floor, two of them in a file, the last pushed and pulled.
+/// The example of docs/case-file.md: three discs on a floor, two of them in a file, the last pushed and pulled.
 constexpr const char* kCase = R"(title = "Three discs on a floor"
 
 [space]

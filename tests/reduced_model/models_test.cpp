@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 
-// interfaces.md, "Trajectory".
+// file-formats.md, "Trajectory".
 const std::vector<std::string> kNames = {"reference",
                                          "reference_exact",
                                          "inertial",
