@@ -167,7 +167,8 @@ void check_start(const ParticlesCase& c, const ParticleNames& names) {
                                 "the mean radius is {:.3g}; it must be at most a hundredth of each "
                                 "radius",
                                 names(smallest), tolerance, allowed));
-  const double farthest = particles::largest_resolved_distance(tolerance, particles::mean_radius(p));
+  const double farthest =
+      particles::largest_resolved_distance(tolerance, particles::mean_radius(p));
   for (std::size_t k = 0; k < p.count(); ++k)
     for (const double x : p.position(k))
       if (std::abs(x) > farthest)
