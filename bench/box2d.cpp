@@ -1,4 +1,4 @@
-// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X] [--threads N] [--method NAME] [--print STRETCH]
+// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X] [--threads N] [--print STRETCH]
 // Discs on a lattice of spacing 2.1 in a box of width 2.1 ceil(sqrt N) with floor and two walls, jitter +-0.05, radii 0.8 to 1, m = r^2, g = 1,
 // h = 0.05, gamma_min = -2; prints CPU time, iterations, residual and memory by stretches of time.
 #include <fmt/format.h>
@@ -40,7 +40,6 @@ int main(int argc, char** argv) {
                                           {"--tolerance", "1e-6"},
                                           {"--impulse-tolerance", "1e-10"},
                                           {"--threads", "1"},
-                                          {"--method", "conjugate_gradients"},
                                           {"--print", "2.5"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
@@ -52,7 +51,7 @@ int main(int argc, char** argv) {
   const int count = std::stoi(o["--count"]);
   auto setting = box(count);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
-                    std::stoi(o["--max-iterations"]), o["--method"]};
+                    std::stoi(o["--max-iterations"])};
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
   Simulation simulation(setting, box_of_discs(count), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;

@@ -429,7 +429,7 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
         PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
     published.finish();
   }
-  const bool other_wall = c.tabulation && !c.tabulation->geometry.starts_with("plane");
+  const bool other_wall = c.tabulation && !find_geometry(c.tabulation->geometry).has_exact_drag;
   if (other_wall && c.fit && c.fit->exact)
     root.section("fit").fail(
         "exact", fmt::format("is the drag near a plane; tabulation.geometry is {}, for which "

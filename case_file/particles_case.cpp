@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -234,14 +235,14 @@ void read_forces_by_id(const TomlSection& root, int dimension, double end_time, 
   }
 }
 
-std::string_view read_method(const TomlSection& solver) {
+/// Reads the key `method`. Earlier versions offered three methods; all solve the same problem, so that
+/// a case that names one of the two that are gone is still read.
+void read_method(const TomlSection& solver) {
+  constexpr std::array kMethods = {"conjugate_gradients", "accelerated_gradient", "gauss_seidel"};
   const auto text = solver.text("method");
-  std::string names;
-  for (const auto& row : particles::kSolverMethods) {
-    if (row.name == text) return row.name;
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", row.name);
-  }
-  solver.fail("method", fmt::format("is '{}'; it must be one of {}", text, names));
+  if (std::ranges::find(kMethods, text) == kMethods.end())
+    solver.fail("method",
+                fmt::format("is '{}'; it must be \"conjugate_gradients\", the only method", text));
 }
 
 }  // namespace
@@ -281,7 +282,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
       settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
     if (solver.has("max_iterations"))
       settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
-    if (solver.has("method")) settings.method = read_method(solver);
+    if (solver.has("method")) read_method(solver);
     solver.finish();
   }
   c.frame_interval = c.end_time / 100;

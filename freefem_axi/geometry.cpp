@@ -58,7 +58,7 @@ double leading_in_cavity(double radius, Parameters parameters) {
 }
 
 constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, space_above_floor},
+    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, space_above_floor, true},
     Geometry{"free_surface",
              "free_surface.edp",
              {},

@@ -38,6 +38,8 @@ struct Geometry {
   double (*leading_factor)(double radius, std::span<const double> parameters);
   /// For a sphere of radius r [L], a gap [L] and the parameters in the order above.
   RequiredSpace (*room)(double radius, double gap, std::span<const double> parameters);
+  /// True if the exact drag near a plane (lubrication/plane_drag.hpp) is the drag of this geometry.
+  bool has_exact_drag = false;
 };
 
 /// The geometry of that name. Throws Error(kBadInput) that lists the names there are.

@@ -51,6 +51,8 @@ Fit exact_plane_fit(double viscosity, double radius) {
   return fit;
 }
 
+bool is_exact_plane(const Fit& fit) { return fit.basis == kExactPlane; }
+
 Fit with_viscosity(Fit fit, double viscosity) {
   const double scale = viscosity / fit.viscosity;
   fit.viscosity = viscosity;

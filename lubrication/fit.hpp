@@ -69,6 +69,9 @@ inline constexpr std::string_view kExactPlane = "exact_plane";
 /// What stands for the exact drag where a fit is wanted: no terms, no misfit. Its interval says where the doubles end.
 Fit exact_plane_fit(double viscosity, double radius);
 
+/// True if `fit` stands for the exact drag.
+bool is_exact_plane(const Fit& fit);
+
 /// The fit of the same flow in a fluid of another viscosity > 0: Stokes flow is linear in it.
 Fit with_viscosity(Fit fit, double viscosity);
 

@@ -37,7 +37,7 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
       fitted_interval_(fit.gap_interval),
       below_(below),
       above_(above) {
-  if (fit.basis == kExactPlane) {
+  if (is_exact_plane(fit)) {
     *this = exact_plane(fit.viscosity, fit.radius);
     return;
   }

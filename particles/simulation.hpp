@@ -10,7 +10,7 @@
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/plane.hpp"
-#include "viscontact/particles/projection/projection.hpp"
+#include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {

@@ -56,17 +56,23 @@ bool is_made_from(const CsvComments& comments, const CsvComments& identity) {
 }
 
 std::string time_step_of(std::string_view model, const Motion& motion) {
-  const auto name = find_model(model).model->name;
-  if (name == "viscous_contact_exact") return "none";
-  if (find_model(model).model->contact != nullptr || name == "explicit_euler")
-    return format_number(motion.contact_time_step);
-  return name == "reference" ? format_number(motion.reference_time_step) : "variable";
+  switch (find_model(model).model->time_steps) {
+    case TimeSteps::kReference:
+      return format_number(motion.reference_time_step);
+    case TimeSteps::kContact:
+      return format_number(motion.contact_time_step);
+    case TimeSteps::kNone:
+      return "none";
+    case TimeSteps::kVariable:
+      break;
+  }
+  return "variable";
 }
 
 /// What the fit's errors do to the motion without inertia; nothing where there is no such motion, or the fit is exact.
 std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFit& outside) {
   constexpr std::size_t kTimes = 81;
-  if (fit.basis == kExactPlane) return "";
+  if (is_exact_plane(fit)) return "";
   try {
     return write_uncertainty(propagate_fit(motion, fit, kTimes, outside.below, outside.above));
   } catch (const Error& error) {
@@ -81,7 +87,7 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
 /// if that cannot be said. The drag is continued by its limits below and above the interval.
 std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, const Fit& fit,
                              OutsideFit outside) {
-  if (choice.exact_drag || fit.basis == kExactPlane) return "";
+  if (choice.exact_drag || is_exact_plane(fit)) return "";
   const auto [low, high] = LubricationForce(fit, outside.below, outside.above).interval();
   if (outside.below == BelowInterval::kError) outside.below = BelowInterval::kLubricationLimit;
   if (outside.above == AboveInterval::kError) outside.above = AboveInterval::kStokesLimit;

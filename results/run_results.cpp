@@ -13,7 +13,7 @@ namespace {
 /// of the user's, and may be anything.
 bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;
-  const bool needs_none = fit.basis == kExactPlane || (c.fit && (c.fit->exact || c.fit->file));
+  const bool needs_none = is_exact_plane(fit) || (c.fit && (c.fit->exact || c.fit->file));
   return !needs_none || content_sha256(read_file(run.table())) == fit.table_sha256;
 }
 

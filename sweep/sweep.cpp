@@ -179,7 +179,7 @@ Case Sweep::case_at(std::uint64_t index) const {
   const auto numbers = point(index);
   try {
     Case c = case_.with(numbers);
-    if (plan_.fit.basis != kExactPlane && c.radius != plan_.fit.radius)
+    if (!is_exact_plane(plan_.fit) && c.radius != plan_.fit.radius)
       throw_bad_input(
           {plan_.case_path.string()},
           fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is of one "
@@ -206,8 +206,8 @@ std::string Sweep::row(std::uint64_t index) const {
   std::string failure;
   try {
     const Case c = case_at(index);
-    const Fit fit = plan_.fit.basis == kExactPlane ? exact_plane_fit(c.viscosity, c.radius)
-                                                   : with_viscosity(plan_.fit, c.viscosity);
+    const Fit fit = is_exact_plane(plan_.fit) ? exact_plane_fit(c.viscosity, c.radius)
+                                              : with_viscosity(plan_.fit, c.viscosity);
     const LubricationForce force(fit, plan_.below, plan_.above);
     for (const auto& model : plan_.models) {
       try {

@@ -12,18 +12,6 @@
 namespace viscontact::particles {
 namespace {
 
-template <int D>
-SolverMethod<D> method_of(const SolverSettings& settings) {
-  for (const auto& row : kSolverMethods)
-    if (row.name == settings.method) {
-      if constexpr (D == 2)
-        return row.discs;
-      else
-        return row.spheres;
-    }
-  throw Error(ErrorKind::kBadInput, fmt::format("there is no method '{}'", settings.method));
-}
-
 /// Neighbours in the list share particles, so that in a sweep each contact would wait for the
 /// result of the one before it. The order interleaves three parts of the list that are far from
 /// each other, within each block of the threads. Measured on box2d, 1 to 6 parts take 8.4, 6.8,
@@ -230,12 +218,11 @@ void StepProjection<D>::allow(double length, double fraction) {
 }
 
 template <int D>
-SolverResult StepProjection<D>::solve_chosen(const SolverSettings& settings, bool is_rough,
-                                             int iterations) {
+SolverResult StepProjection<D>::solve_chosen(bool is_rough, int iterations) {
   ContactGraph<D> graph(contacts_, free_, body_mobilities_, pool_);
   graph.largest_island = largest_island_;
   graph.is_rough = is_rough;
-  const auto solved = method_of<D>(settings)(graph, iterations, factor_);
+  const auto solved = conjugate_gradients(graph, iterations, factor_);
   std::vector<double> moved(graph.bodies() * D), impulses(contacts_.size());
   graph.to_bodies(graph.z, moved);
   graph.impulses(impulses);
@@ -350,8 +337,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   while (!chosen_.empty()) {
     allow((is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius,
           is_rough ? kRoughImpulse : settings.impulse_tolerance);
-    const auto solved =
-        solve_chosen(settings, is_rough, settings.max_iterations - result.iterations);
+    const auto solved = solve_chosen(is_rough, settings.max_iterations - result.iterations);
     result.iterations += solved.iterations;
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);

@@ -10,6 +10,7 @@
 #include "viscontact/particles/contact_geometry.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/projection.hpp"
+#include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
@@ -81,7 +82,7 @@ class StepProjection {
   void find_impulses_at_work();
   Scale scale_of(const Contact<D>& here);
   void allow(double length, double fraction);
-  SolverResult solve_chosen(const SolverSettings& settings, bool is_rough, int iterations);
+  SolverResult solve_chosen(bool is_rough, int iterations);
   std::vector<std::size_t> closed_by_free_motion();
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
                                    bool is_final, ProjectionResult& result);

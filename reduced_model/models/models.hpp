@@ -11,6 +11,14 @@
 
 namespace viscontact {
 
+/// Which steps of time a model makes.
+enum class TimeSteps {
+  kVariable,   ///< those that its integrator chooses
+  kReference,  ///< Motion::reference_time_step
+  kContact,    ///< Motion::contact_time_step
+  kNone        ///< it goes from event to event
+};
+
 struct Model {
   std::string_view name;         ///< what users type, and the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
@@ -22,6 +30,7 @@ struct Model {
   /// The keys, apart from those of [motion], of a case on which the model depends, separated by
   /// blanks; empty: not stated, it may depend on every key. `sphere.mass` follows from `inertia`.
   std::string_view settings = {};
+  TimeSteps time_steps = TimeSteps::kVariable;
 };
 
 /// Every model there is.

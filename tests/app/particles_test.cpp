@@ -9,6 +9,7 @@
 
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
+#include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
@@ -352,7 +353,7 @@ INSTANTIATE_TEST_SUITE_P(
          "contains 3 numbers; it must contain 2"},
         {"ZeroMass", "\nmass = 1.0", "\nmass = 0.0", "case.toml"},
         {"Tolerance", "tolerance = 1e-6", "tolerance = 1e-20", "between 1e-12 and 0.1"},
-        {"Method", "tolerance = 1e-6", "method = \"magic\"", "must be one of"},
+        {"Method", "tolerance = 1e-6", "method = \"magic\"", "the only method"},
         {"TinyInterval", "every = 0.5", "every = 1e-300", "output.every"},
         {"MisspeltVelocity", "x,y,vx,vy,", "x,y,Vx,Vy,", "has a column 'Vx'"},
         {"HalfAVelocity", "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25",
@@ -378,6 +379,15 @@ TEST_F(ParticlesCommand, BlankLinesAtTheEndOfTheFileAreNoParticles) {
   folder_.file("discs.csv", std::string(kDiscs) + "\n,,,,,\n\n");
   expect_done(run(put_case(kCase), out()));
   EXPECT_EQ(particles::read_particles(out() / "final_particles.csv", 2).particles.count(), 3U);
+}
+
+TEST_F(ParticlesCommand, ACaseThatNamesAMethodOfAnEarlierVersionIsStillRun) {
+  expect_done(run(put_case(kCase), out("now")));
+  expect_done(run(
+      put_case(replaced(kCase, "tolerance = 1e-6", "tolerance = 1e-6\nmethod = \"gauss_seidel\"")),
+      out("then")));
+  EXPECT_EQ(rest_of(out("then") / "final_particles.csv"),
+            rest_of(out("now") / "final_particles.csv"));
 }
 
 TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {

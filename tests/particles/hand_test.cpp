@@ -158,26 +158,22 @@ TEST_P(ByHand, AMovingPlaneCarriesAParticleAndLetsItGoWhenItTurnsBack) {
 TEST_P(ByHand, BetweenTwoClosingPlanesItIsCarriedAndThenTheStepIsReported) {
   State state = no_particles(GetParam());
   add_particle(state, {0, 0, 0}, 0.5, 2);
-  for (const auto& row : kSolverMethods) {
-    SCOPED_TRACE(std::string(row.name));
-    auto setting = setting_of(0.01);
-    setting.solver.method = row.name;
-    setting.solver.max_iterations = 100;
-    auto left = plane_at_rest({-1, 0, 0}, {1, 0, 0});
-    left.velocity = {{{10, {1, 0, 0}}}};
-    setting.planes = {left, plane_at_rest({1, 0, 0}, {-1, 0, 0})};
-    Simulation simulation(setting, state, 1);
-    run(simulation, 0.99, [](const StepReport& report) { EXPECT_TRUE(report.converged); });
-    EXPECT_NEAR(simulation.state().particles.velocity(0)[0], 1, kRounding);
-    // From t = 1 on there is no room: neither hidden nor endless, and never not a number.
-    run(simulation, 1.1, [&](const StepReport& report) {
-      if (report.time > 1.005) {
-        EXPECT_FALSE(report.converged) << report.time;
-        EXPECT_GE(report.residual, (report.time - 1) / 2 / 0.5 * (1 - 1e-9)) << report.time;
-        EXPECT_TRUE(std::isfinite(simulation.state().particles.velocity(0)[0]));
-      }
-    });
-  }
+  auto setting = setting_of(0.01);
+  setting.solver.max_iterations = 100;
+  auto left = plane_at_rest({-1, 0, 0}, {1, 0, 0});
+  left.velocity = {{{10, {1, 0, 0}}}};
+  setting.planes = {left, plane_at_rest({1, 0, 0}, {-1, 0, 0})};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 0.99, [](const StepReport& report) { EXPECT_TRUE(report.converged); });
+  EXPECT_NEAR(simulation.state().particles.velocity(0)[0], 1, kRounding);
+  // From t = 1 on there is no room: neither hidden nor endless, and never not a number.
+  run(simulation, 1.1, [&](const StepReport& report) {
+    if (report.time > 1.005) {
+      EXPECT_FALSE(report.converged) << report.time;
+      EXPECT_GE(report.residual, (report.time - 1) / 2 / 0.5 * (1 - 1e-9)) << report.time;
+      EXPECT_TRUE(std::isfinite(simulation.state().particles.velocity(0)[0]));
+    }
+  });
 }
 
 TEST_P(ByHand, ATurningPlaneLiftsWhatLiesOnIt) {

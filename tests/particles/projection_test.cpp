@@ -161,29 +161,20 @@ Problem<D> random_problem(Random& random) {
   return problem;
 }
 
-template <int D>
-SolverMethod<D> method_of(const SolverMethodRow& row) {
-  if constexpr (D == 2)
-    return row.discs;
-  else
-    return row.spheres;
-}
-
 struct Answer {
   Eigen::VectorXd impulses, displacements;
   SolverResult solved;
 };
 
 template <int D>
-Answer answer_of(const SolverMethodRow& row, const Problem<D>& problem, double tolerance,
-                 int threads = 1) {
+Answer answer_of(const Problem<D>& problem, double tolerance, int threads = 1) {
   ThreadPool pool(threads);
   auto contacts = problem.contacts;
   for (auto& contact : contacts) contact.allowed = tolerance;
   ContactGraph<D> graph(contacts, problem.displacements, problem.mobilities, pool);
   ActiveSetFactor<D> factor;
   Answer answer;
-  answer.solved = method_of<D>(row)(graph, 1'000'000, factor);
+  answer.solved = conjugate_gradients(graph, 1'000'000, factor);
   std::vector<double> impulses(problem.contacts.size());
   graph.impulses(impulses);
   answer.impulses =
@@ -209,7 +200,7 @@ double square_distance(const DenseProblem& problem, const Eigen::VectorXd& y,
 constexpr double kDense = 1e-10;
 
 template <int D>
-void expect_all_methods_agree(const Problem<D>& problem) {
+void expect_the_dense_solution(const Problem<D>& problem) {
   constexpr double kTolerance = 1e-11;
   const auto dense = problem.dense();
   const auto exact = solve(dense);
@@ -219,36 +210,33 @@ void expect_all_methods_agree(const Problem<D>& problem) {
   for (Eigen::Index c = 0; c < exact.size(); ++c)
     ASSERT_NEAR(std::min(at_exact[c], dense.diagonal()[c] * (exact[c] - dense.gamma[c])), 0,
                 kDense);
-  for (const auto& row : kSolverMethods) {
-    SCOPED_TRACE(std::string(row.name));
-    const auto answer = answer_of(row, problem, kTolerance);
-    EXPECT_LE(answer.solved.residual, 1);
-    EXPECT_LT(answer.solved.iterations, 1'000'000);
-    // What it says is what it is.
-    const Eigen::VectorXd gradient = dense.gradient(answer.impulses);
-    double largest = 0;
-    for (Eigen::Index c = 0; c < exact.size(); ++c) {
-      EXPECT_GE(answer.impulses[c], dense.gamma[c] * (1 + 1e-15));
-      const double room = dense.diagonal()[c] * (answer.impulses[c] - dense.gamma[c]);
-      largest = std::max(largest, std::abs(std::min(gradient[c], room)));
-    }
-    EXPECT_NEAR(largest, answer.solved.residual * kTolerance,
-                1e-13 * (1 + answer.impulses.cwiseAbs().sum()));
-    const double bound = bound_by_convexity(dense, answer.impulses, exact, kTolerance + kDense);
-    EXPECT_LE(square_distance(dense, answer.displacements, exact_displacements), bound);
-    EXPECT_NEAR(dense.objective(answer.impulses), dense.objective(exact), bound);
-    // Much closer than that bound, where nothing is degenerate: all but rounding times the condition.
-    EXPECT_LE(square_distance(dense, answer.displacements, exact_displacements), 1e-12);
-    // The gap between primal and dual: p - gamma^n times what the contacts are open.
-    EXPECT_NEAR((answer.impulses - dense.gamma).dot(gradient), 0, bound);
+  const auto answer = answer_of(problem, kTolerance);
+  EXPECT_LE(answer.solved.residual, 1);
+  EXPECT_LT(answer.solved.iterations, 1'000'000);
+  // What it says is what it is.
+  const Eigen::VectorXd gradient = dense.gradient(answer.impulses);
+  double largest = 0;
+  for (Eigen::Index c = 0; c < exact.size(); ++c) {
+    EXPECT_GE(answer.impulses[c], dense.gamma[c] * (1 + 1e-15));
+    const double room = dense.diagonal()[c] * (answer.impulses[c] - dense.gamma[c]);
+    largest = std::max(largest, std::abs(std::min(gradient[c], room)));
   }
+  EXPECT_NEAR(largest, answer.solved.residual * kTolerance,
+              1e-13 * (1 + answer.impulses.cwiseAbs().sum()));
+  const double bound = bound_by_convexity(dense, answer.impulses, exact, kTolerance + kDense);
+  EXPECT_LE(square_distance(dense, answer.displacements, exact_displacements), bound);
+  EXPECT_NEAR(dense.objective(answer.impulses), dense.objective(exact), bound);
+  // Much closer than that bound, where nothing is degenerate: all but rounding times the condition.
+  EXPECT_LE(square_distance(dense, answer.displacements, exact_displacements), 1e-12);
+  // The gap between primal and dual: p - gamma^n times what the contacts are open.
+  EXPECT_NEAR((answer.impulses - dense.gamma).dot(gradient), 0, bound);
 }
 
 TEST(Projection, OfRandomDiscsIsThatOfADenseSolver) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    expect_all_methods_agree(random_problem<2>(random));
+    expect_the_dense_solution(random_problem<2>(random));
     if (::testing::Test::HasFailure()) return;
   }
 }
@@ -257,7 +245,7 @@ TEST(Projection, OfRandomSpheresIsThatOfADenseSolver) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    expect_all_methods_agree(random_problem<3>(random));
+    expect_the_dense_solution(random_problem<3>(random));
     if (::testing::Test::HasFailure()) return;
   }
 }
@@ -293,7 +281,7 @@ TEST(Projection, OfAPackingWithMoreContactsThanFreedomsHasOneVelocity) {
   for (const int side : {2, 4, 7}) {
     auto problem = packed_lattice(side, random);
     ASSERT_GT(problem.contacts.size(), problem.displacements.size());
-    expect_all_methods_agree(problem);
+    expect_the_dense_solution(problem);
   }
 }
 
@@ -356,19 +344,16 @@ TEST(Projection, OfDuplicateContactsHasOneVelocityAndTheirImpulsesAddUp) {
   for (int i = 0; i < 50; ++i) {
     SCOPED_TRACE(i);
     auto problem = random_problem<2>(random);
-    const auto once = answer_of(kSolverMethods[0], problem, 1e-12);
+    const auto once = answer_of(problem, 1e-12);
     // Each contact in two halves.
     const auto contacts = problem.contacts.size();
     for (std::size_t c = 0; c < contacts; ++c) {
       problem.contacts[c].gamma /= 2;
       problem.contacts.push_back(problem.contacts[c]);
     }
-    for (const auto& row : kSolverMethods) {
-      const auto twice = answer_of(row, problem, 1e-12);
-      // As above: the conditions to 1e-12, times the condition.
-      EXPECT_LE((once.displacements - twice.displacements).lpNorm<Eigen::Infinity>(), 1e-7)
-          << row.name;
-    }
+    const auto twice = answer_of(problem, 1e-12);
+    // As above: the conditions to 1e-12, times the condition.
+    EXPECT_LE((once.displacements - twice.displacements).lpNorm<Eigen::Infinity>(), 1e-7);
   }
 }
 
@@ -378,16 +363,12 @@ TEST(Projection, HasVelocitiesThatDoNotDependOnTheGuess) {
     SCOPED_TRACE(i);
     auto problem = random_problem<3>(random);
     const auto dense = problem.dense();
-    for (const auto& row : kSolverMethods) {
-      const auto first = answer_of(row, problem, 1e-11);
-      for (auto& contact : problem.contacts) contact.impulse = random.uniform(-20, 20);
-      const auto second = answer_of(row, problem, 1e-11);
-      EXPECT_LE(square_distance(dense, first.displacements, second.displacements),
-                bound_by_convexity(dense, first.impulses, second.impulses, 2e-11))
-          << row.name;
-      EXPECT_LE((first.displacements - second.displacements).lpNorm<Eigen::Infinity>(), 1e-6)
-          << row.name;
-    }
+    const auto first = answer_of(problem, 1e-11);
+    for (auto& contact : problem.contacts) contact.impulse = random.uniform(-20, 20);
+    const auto second = answer_of(problem, 1e-11);
+    EXPECT_LE(square_distance(dense, first.displacements, second.displacements),
+              bound_by_convexity(dense, first.impulses, second.impulses, 2e-11));
+    EXPECT_LE((first.displacements - second.displacements).lpNorm<Eigen::Infinity>(), 1e-6);
   }
 }
 
@@ -395,47 +376,41 @@ TEST(Projection, LeavesAConvergedGuessAsItIs) {
   Random random(6);
   for (int i = 0; i < 50; ++i) {
     auto problem = random_problem<2>(random);
-    for (const auto& row : kSolverMethods) {
-      const auto answer = answer_of(row, problem, 1e-9);
-      auto again = problem;
-      for (std::size_t c = 0; c < again.contacts.size(); ++c)
-        again.contacts[c].impulse = answer.impulses[static_cast<Eigen::Index>(c)];
-      // Twice the tolerance: the guess is rounded.
-      EXPECT_EQ(answer_of(row, again, 2e-9).solved.iterations, 0) << row.name;
-    }
+    const auto answer = answer_of(problem, 1e-9);
+    auto again = problem;
+    for (std::size_t c = 0; c < again.contacts.size(); ++c)
+      again.contacts[c].impulse = answer.impulses[static_cast<Eigen::Index>(c)];
+    // Twice the tolerance: the guess is rounded.
+    EXPECT_EQ(answer_of(again, 2e-9).solved.iterations, 0);
   }
 }
 
 TEST(Projection, OfNoContactsIsDone) {
-  for (const auto& row : kSolverMethods) {
-    const Problem<2> problem{{}, {1, 2}, {1}};
-    const auto answer = answer_of(row, problem, 1e-9);
-    EXPECT_EQ(answer.solved.iterations, 0);
-    EXPECT_EQ(answer.solved.residual, 0);
-  }
+  const Problem<2> problem{{}, {1, 2}, {1}};
+  const auto answer = answer_of(problem, 1e-9);
+  EXPECT_EQ(answer.solved.iterations, 0);
+  EXPECT_EQ(answer.solved.residual, 0);
 }
 
 TEST(Projection, ThatCannotBeSaysSo) {
   // Two planes that overlap at the disc: no displacement is on the free side of both.
-  for (const auto& row : kSolverMethods) {
-    Problem<2> problem{{}, {0, 0}, {1}};
-    for (const double side : {1.0, -1.0}) {
-      Contact<2> contact;
-      contact.normal = {side, 0};
-      contact.gap = -0.1;
-      contact.allowed = 1e-6;
-      problem.contacts.push_back(contact);
-    }
-    ThreadPool pool(1);
-    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
-    ActiveSetFactor<2> factor;
-    const auto solved = row.discs(graph, 1000, factor);
-    // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
-    // 1e4 or more, of which the regularisation (1e-14) makes a gap.
-    EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-6)) << row.name;
-    EXPECT_LE(solved.iterations, 1003) << row.name;
-    for (const double z : graph.z) EXPECT_TRUE(std::isfinite(z)) << row.name;
+  Problem<2> problem{{}, {0, 0}, {1}};
+  for (const double side : {1.0, -1.0}) {
+    Contact<2> contact;
+    contact.normal = {side, 0};
+    contact.gap = -0.1;
+    contact.allowed = 1e-6;
+    problem.contacts.push_back(contact);
   }
+  ThreadPool pool(1);
+  ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
+  ActiveSetFactor<2> factor;
+  const auto solved = conjugate_gradients(graph, 1000, factor);
+  // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
+  // 1e4 or more, of which the regularisation (1e-14) makes a gap.
+  EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-6));
+  EXPECT_LE(solved.iterations, 1003);
+  for (const double z : graph.z) EXPECT_TRUE(std::isfinite(z));
 }
 
 }  // namespace
