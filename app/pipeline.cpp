@@ -23,6 +23,7 @@
 #include "common/file.hpp"
 #include "common/interrupt.hpp"
 #include "common/named.hpp"
+#include "common/number.hpp"
 #include "reduced_model/comparison.hpp"
 #include "reduced_model/models.hpp"
 

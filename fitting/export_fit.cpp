@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/csv.hpp"
+#include "common/file.hpp"
 #include "common/named.hpp"
 #include "common/number.hpp"
 #include "fitting/lubrication_force.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/csv.hpp"
+#include "common/number.hpp"
 #include "fitting/stokes_drag.hpp"
 
 namespace viscontact {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "common/csv.hpp"
+#include "common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/csv.hpp"
+#include "common/file.hpp"
 #include "common/process.hpp"
 #include "fitting/lubrication_force.hpp"
 #include "fitting/spread_gaps.hpp"
