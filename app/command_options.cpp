@@ -1,4 +1,4 @@
-#include "app/command_options.hpp"
+#include "viscontact/app/command_options.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "common/error.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/foreign_files.hpp"
-#include "common/error.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

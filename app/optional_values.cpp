@@ -1,12 +1,12 @@
-#include "app/optional_values.hpp"
+#include "viscontact/app/optional_values.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
-#include "common/number.hpp"
-#include "fitting/terms.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 

@@ -1,18 +1,15 @@
-// Times of viscous contact: very many spheres at once, and single motions per step and row. Run by bench/run.
+// Times of viscous contact: motions of one sphere, per step and row. Run by bench/run.
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/contact_step.hpp"
-#include "reduced_model/motion.hpp"
-#include "reduced_model/reference_exact.hpp"
-#include "reduced_model/viscous_contact.hpp"
-#include "reduced_model/viscous_contact_many.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/integration/contact_step.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact.hpp"
 
 namespace viscontact {
 namespace {
@@ -27,65 +24,11 @@ Motion lecture_motion(double step) {
   return motion;
 }
 
-/// About the lecture's sphere: most land, half of them on solids, and most of these are released.
-ManySpheres spheres_about_the_lecture(std::size_t count) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  ManySpheres spheres;
-  for (std::size_t i = 0; i < count; ++i) {
-    spheres.mass.push_back(std::pow(10, 2 * uniform(random)));
-    spheres.initial_gap.push_back(0.5 + uniform(random));
-    spheres.initial_velocity.push_back(uniform(random) - 0.5);
-    spheres.gamma_min.push_back(i % 2 == 0 ? -std::numeric_limits<double>::infinity()
-                                           : -400 * uniform(random));
-    spheres.force_scale.push_back(2 * uniform(random));
-  }
-  return spheres;
-}
-
-/// Peak of the process so far.
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
 void count_steps(benchmark::State& state, double steps) {
   state.counters["steps"] = steps;
   state.counters["per_step"] = benchmark::Counter(
       steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-
-/// Arguments: threads, place among runnable_instruction_sets().
-void many_spheres(benchmark::State& state) {
-  constexpr std::size_t kSpheres = 1'000'000;
-  constexpr int kSteps = 1000;
-  const auto spheres = spheres_about_the_lecture(kSpheres);
-  const auto motion = lecture_motion(4.0 / kSteps);
-  const auto set = runnable_instruction_sets()[static_cast<std::size_t>(state.range(1))];
-  const ManySpheresRun run{motion.end_time, motion.contact_time_step,
-                           static_cast<int>(state.range(0)), set};
-  for (auto _ : state) {
-    const auto contacts = simulate_viscous_contact_many(spheres, motion.external_force, run);
-    benchmark::DoNotOptimize(contacts.gap.data());
-  }
-  state.counters["sphere_steps"] = benchmark::Counter(
-      static_cast<double>(kSpheres) * kSteps, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["peak_MB"] = peak_megabytes();
-  state.SetLabel(std::string(name_of(set)) + ", threads: " + std::to_string(state.range(0)));
-}
-
-/// First of all, before any trajectory weighs on the peak of memory.
-const bool kManyRegistered = [] {
-  auto* many = benchmark::RegisterBenchmark("many_spheres", many_spheres)
-                   ->Unit(benchmark::kMillisecond)
-                   ->UseRealTime()
-                   ->MeasureProcessCPUTime();
-  const auto sets = static_cast<long>(runnable_instruction_sets().size());
-  for (long set = sets; set-- > 0;)
-    for (const long threads : {1, 2}) many->Args({threads, set});
-  return true;
-}();
 
 /// Argument: steps.
 void single_sphere(benchmark::State& state) {

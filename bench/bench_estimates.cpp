@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
 
 namespace viscontact {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/inertial.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 #include "tests/oracles/inertial_motion.hpp"
 
 namespace viscontact {

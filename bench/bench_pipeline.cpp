@@ -1,11 +1,12 @@
 // Times of the C++ parts on the shipped table and fit of the lecture's case. Run by bench/run.
 #include <benchmark/benchmark.h>
 
-#include "case_file/case_file.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/fit_uncertainty.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/fit_uncertainty.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "common/error.hpp"
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/sphere_in_cylinder.hpp"
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/box2d_case.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "case_file/case_file.hpp"
+#include "viscontact/case_file/case_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <system_error>
 #include <utility>
 
-#include "case_file/toml_section.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "fitting/terms.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/terms.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 namespace {

@@ -9,11 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/toml_section.hpp"
-#include "fitting/fit.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "freefem_axi/tabulation.hpp"
-#include "reduced_model/motion.hpp"
+#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 

@@ -1,11 +1,11 @@
-#include "case_file/dotted_keys.hpp"
+#include "viscontact/case_file/dotted_keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,4 +1,4 @@
-#include "case_file/particles_case.hpp"
+#include "viscontact/case_file/particles_case.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/toml_section.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "particles/neighbours.hpp"
-#include "particles/particle_file.hpp"
+#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/neighbours/neighbours.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact {
 

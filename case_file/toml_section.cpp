@@ -1,4 +1,4 @@
-#include "case_file/toml_section.hpp"
+#include "viscontact/case_file/toml_section.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "case_file/dotted_keys.hpp"
-#include "common/error.hpp"
+#include "viscontact/case_file/dotted_keys.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/allowed.hpp"
+#include "viscontact/common/allowed.hpp"
 
 namespace viscontact {
 

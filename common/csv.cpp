@@ -1,4 +1,4 @@
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "common/file.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

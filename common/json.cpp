@@ -1,4 +1,4 @@
-#include "common/json.hpp"
+#include "viscontact/common/json.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

@@ -1,6 +1,7 @@
-#include "fitting/basis_comparison.hpp"
+#include "viscontact/fitting/basis_comparison.hpp"
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 

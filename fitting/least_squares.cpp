@@ -1,4 +1,4 @@
-#include "fitting/least_squares.hpp"
+#include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

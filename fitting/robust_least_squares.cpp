@@ -1,4 +1,4 @@
-#include "fitting/robust_least_squares.hpp"
+#include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
 #include <fmt/format.h>
@@ -10,34 +10,23 @@
 #include <memory>
 #include <vector>
 
-#include "common/error.hpp"
-#include "common/named.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
 
 namespace viscontact {
 namespace {
 
-struct NamedLoss {
-  std::string_view name;
-  Loss loss;
-  std::unique_ptr<ceres::LossFunction> (*make)();
-};
-
-const std::array kLosses = {
-    NamedLoss{"none", Loss::kSquared,
-              []() -> std::unique_ptr<ceres::LossFunction> {
-                return std::make_unique<ceres::TrivialLoss>();
-              }},
-    NamedLoss{"huber", Loss::kHuber,
-              []() -> std::unique_ptr<ceres::LossFunction> {
-                return std::make_unique<ceres::HuberLoss>(1.345);
-              }},
-    NamedLoss{"cauchy", Loss::kCauchy,
-              []() -> std::unique_ptr<ceres::LossFunction> {
-                return std::make_unique<ceres::CauchyLoss>(2.385);
-              }},
-};
-
-const NamedLoss& row_of(Loss loss) { return *std::ranges::find(kLosses, loss, &NamedLoss::loss); }
+std::unique_ptr<ceres::LossFunction> make_loss(Loss loss) {
+  switch (loss) {
+    case Loss::kHuber:
+      return std::make_unique<ceres::HuberLoss>(1.345);
+    case Loss::kCauchy:
+      return std::make_unique<ceres::CauchyLoss>(2.385);
+    case Loss::kSquared:
+      break;
+  }
+  return std::make_unique<ceres::TrivialLoss>();
+}
 
 /// 1.4826 makes the median of |z| the standard deviation of Gaussian z.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
@@ -106,10 +95,6 @@ Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
 
 }  // namespace
 
-std::string_view to_string(Loss loss) { return row_of(loss).name; }
-
-Loss parse_loss(std::string_view word) { return require_named(kLosses, word, "loss").loss; }
-
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side, Loss loss) {
   RobustSolution solution;
@@ -119,9 +104,9 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == Loss::kSquared) return solution;
   // Huber's sum has one minimum; Cauchy's may have several: from Huber's, the one that most rows agree on.
-  const auto function = row_of(loss).make();
+  const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
-  iterate(matrix, right_hand_side, *row_of(Loss::kHuber).make(), solution);
+  iterate(matrix, right_hand_side, *make_loss(Loss::kHuber), solution);
   if (loss != Loss::kHuber) iterate(matrix, right_hand_side, *function, solution);
   solution.least_squares.covariance =
       robust_covariance(matrix, right_hand_side, plain, *function, solution);

@@ -1,21 +1,10 @@
 // Least squares that a few wrong rows do not spoil: M-estimates by Ceres's loss functions.
 #pragma once
 
-#include <string_view>
-
-#include "fitting/least_squares.hpp"
+#include "viscontact/fitting/least_squares.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 namespace viscontact {
-
-/// How a residual z (over the residuals' own scale) counts: z^2/2; Huber 1964: as |z| beyond 1.345; Cauchy:
-/// (c^2/2) ln(1 + (z/c)^2) with c = 2.385. Both constants keep 95 % of least squares' efficiency on Gaussian residuals (Holland & Welsch 1977).
-enum class Loss { kSquared, kHuber, kCauchy };
-
-/// "none", "huber", "cauchy".
-std::string_view to_string(Loss loss);
-
-/// Throws Error(kBadInput) for another word.
-Loss parse_loss(std::string_view word);
 
 struct RobustSolution {
   /// Of the rows weighted as the loss weighs them in the end; covariance of the M-estimate, scale^2 sum psi^2 / (n - p) / (mean psi')^2 (A^T A)^-1 (Huber

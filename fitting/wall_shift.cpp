@@ -1,11 +1,11 @@
-#include "fitting/wall_shift.hpp"
+#include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fitting/force_table.hpp"
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {
 

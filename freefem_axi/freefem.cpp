@@ -1,4 +1,4 @@
-#include "freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/process.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 

@@ -1,9 +1,9 @@
-#include "freefem_axi/geometry.hpp"
+#include "viscontact/freefem_axi/geometry.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "common/named.hpp"
+#include "viscontact/common/named.hpp"
 
 namespace viscontact {
 namespace {

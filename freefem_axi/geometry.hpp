@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "common/allowed.hpp"
+#include "viscontact/common/allowed.hpp"
 
 namespace viscontact {
 

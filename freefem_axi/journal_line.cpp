@@ -1,13 +1,14 @@
-#include "freefem_axi/journal_line.hpp"
+#include "viscontact/freefem_axi/journal_line.hpp"
 
 #include <fmt/format.h>
 
 #include <initializer_list>
 #include <sstream>
 
-#include "common/file.hpp"
-#include "common/number.hpp"
-#include "common/on_one_line.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/common/on_one_line.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "fitting/force_table.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 

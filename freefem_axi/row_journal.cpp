@@ -1,4 +1,4 @@
-#include "freefem_axi/row_journal.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/locked_file.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_file.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common/descriptor.hpp"
-#include "freefem_axi/journal_line.hpp"
+#include "viscontact/common/files/descriptor.hpp"
+#include "viscontact/freefem_axi/journal_line.hpp"
 
 namespace viscontact {
 

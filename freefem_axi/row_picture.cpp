@@ -1,4 +1,4 @@
-#include "freefem_axi/row_picture.hpp"
+#include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "common/error.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "freefem_axi/row_record.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,18 +10,18 @@
 #include <string_view>
 #include <system_error>
 
-#include "common/descriptor.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/number.hpp"
-#include "freefem_axi/row_journal.hpp"
+#include "viscontact/common/files/descriptor.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 
 namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// True for "K-of-T.HOST.PROCESS" (Share's writers in app/tabulate_stage.cpp): what else begins like a journal's name is the user's.
+/// True for "K-of-T.HOST.PROCESS" (Share's writers in pipeline/tabulate_stage.cpp): what else begins like a journal's name is the user's.
 bool is_writer_name(std::string_view name) {
   const auto skip = [&name](std::string_view text) {
     if (!name.starts_with(text)) return false;

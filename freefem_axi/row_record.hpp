@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "freefem_axi/journal_line.hpp"
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/journal_line.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 

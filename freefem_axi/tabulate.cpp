@@ -1,4 +1,4 @@
-#include "freefem_axi/tabulate.hpp"
+#include "viscontact/freefem_axi/tabulate.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <mutex>
 #include <thread>
 
-#include "common/error.hpp"
-#include "common/interrupt.hpp"
-#include "freefem_axi/row_journal.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "freefem_axi/row_record.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,11 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/number.hpp"
-#include "fitting/stokes_drag.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fitting/force_table.hpp"
-#include "freefem_axi/freefem.hpp"
-#include "freefem_axi/geometry.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/geometry.hpp"
 
 namespace viscontact {
 

@@ -1,10 +1,10 @@
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 
 #include <algorithm>
 
-#include "particles/film_geometry.hpp"
-#include "particles/neighbours.hpp"
-#include "particles/team.hpp"
+#include "viscontact/particles/film_geometry.hpp"
+#include "viscontact/particles/neighbours/neighbours.hpp"
+#include "viscontact/common/system/team.hpp"
 
 namespace viscontact::particles {
 namespace {

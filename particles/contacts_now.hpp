@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 

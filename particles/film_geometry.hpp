@@ -8,10 +8,10 @@
 #include <limits>
 #include <span>
 
-#include "particles/contact_graph.hpp"
-#include "particles/particles.hpp"
-#include "particles/plane.hpp"
-#include "particles/state.hpp"
+#include "viscontact/particles/projection/contact_graph.hpp"
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/plane.hpp"
+#include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 

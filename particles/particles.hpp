@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "particles/vector.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -1,4 +1,4 @@
-#include "particles/piecewise_constant.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>
 

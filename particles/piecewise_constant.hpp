@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "particles/vector.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 

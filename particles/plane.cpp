@@ -1,4 +1,4 @@
-#include "particles/plane.hpp"
+#include "viscontact/particles/plane.hpp"
 
 #include <cmath>
 

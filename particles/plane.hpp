@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "particles/piecewise_constant.hpp"
-#include "particles/vector.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
 

@@ -1,4 +1,4 @@
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "common/error.hpp"
-#include "particles/block_results.hpp"
-#include "particles/candidates.hpp"
-#include "particles/step_projection.hpp"
-#include "particles/team.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/block_results.hpp"
+#include "viscontact/particles/neighbours/candidates.hpp"
+#include "viscontact/particles/projection/step_projection.hpp"
+#include "viscontact/common/system/team.hpp"
 
 namespace viscontact::particles {
 

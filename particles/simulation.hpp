@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "particles/contact_law.hpp"
-#include "particles/particles.hpp"
-#include "particles/piecewise_constant.hpp"
-#include "particles/plane.hpp"
-#include "particles/projection.hpp"
-#include "particles/state.hpp"
+#include "viscontact/particles/contact_law.hpp"
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/plane.hpp"
+#include "viscontact/particles/projection/projection.hpp"
+#include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "particles/particles.hpp"
+#include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
 

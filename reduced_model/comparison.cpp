@@ -1,4 +1,4 @@
-#include "reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/json.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/json.hpp"
 
 namespace viscontact {
 namespace {

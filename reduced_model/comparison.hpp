@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 

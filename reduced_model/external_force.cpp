@@ -1,4 +1,4 @@
-#include "reduced_model/external_force.hpp"
+#include "viscontact/reduced_model/external_force.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
-#include "common/bisection.hpp"
-#include "common/csv.hpp"
-#include "common/error.hpp"
+#include "viscontact/common/bisection.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,4 +1,4 @@
-#include "reduced_model/fewer_rows.hpp"
+#include "viscontact/reduced_model/fewer_rows.hpp"
 
 #include <algorithm>
 #include <cstddef>

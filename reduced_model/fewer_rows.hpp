@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 

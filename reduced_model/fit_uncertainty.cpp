@@ -1,4 +1,4 @@
-#include "reduced_model/fit_uncertainty.hpp"
+#include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/json.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/json.hpp"
 
 namespace viscontact {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/motion.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "reduced_model/motion.hpp"
+#include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "common/error.hpp"
-#include "common/interrupt.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/interrupt.hpp"
 
 namespace viscontact {
 

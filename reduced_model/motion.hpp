@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "reduced_model/external_force.hpp"
+#include "viscontact/reduced_model/external_force.hpp"
 
 namespace viscontact {
 

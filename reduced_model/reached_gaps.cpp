@@ -1,8 +1,8 @@
-#include "reduced_model/reached_gaps.hpp"
+#include "viscontact/reduced_model/reached_gaps.hpp"
 
 #include <algorithm>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

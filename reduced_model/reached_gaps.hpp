@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "reduced_model/models.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 

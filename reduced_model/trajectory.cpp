@@ -1,11 +1,11 @@
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 
-#include "common/csv.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/maybe.hpp"
-#include "reduced_model/books.hpp"
+#include "viscontact/common/maybe.hpp"
+#include "viscontact/reduced_model/books.hpp"
 
 namespace viscontact {
 

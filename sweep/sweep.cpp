@@ -1,4 +1,4 @@
-#include "sweep/sweep.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,11 @@
 #include <set>
 #include <thread>
 
-#include "common/error.hpp"
-#include "common/interrupt.hpp"
-#include "common/number.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 namespace {

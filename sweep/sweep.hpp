@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "case_file/case_file.hpp"
-#include "fitting/fit.hpp"
-#include "sweep/variation.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/sweep/variation.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "sweep/sweep_file.hpp"
+#include "viscontact/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,12 +10,13 @@
 #include <fstream>
 #include <optional>
 
-#include "common/csv.hpp"
-#include "common/error.hpp"
-#include "common/file.hpp"
-#include "common/locked_file.hpp"
-#include "common/number.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

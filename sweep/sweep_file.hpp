@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "sweep/sweep.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 namespace viscontact {
 

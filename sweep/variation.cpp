@@ -1,12 +1,12 @@
-#include "sweep/variation.hpp"
+#include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "common/error.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -22,10 +22,11 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit.hpp"
-#include "fitting/force_table.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace {
 

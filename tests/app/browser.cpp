@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "common/file.hpp"
-#include "common/process.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {

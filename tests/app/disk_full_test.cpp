@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "common/file.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

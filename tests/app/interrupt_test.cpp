@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "common/file.hpp"
-#include "fitting/force_table.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/common/temporary_folder.hpp"
 

@@ -17,10 +17,10 @@
 #include <set>
 #include <thread>
 
-#include "case_file/case_file.hpp"
-#include "common/file.hpp"
-#include "common/number.hpp"
-#include "freefem_axi/row_record.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"

@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 
-#include "common/file.hpp"
-#include "common/process.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -5,8 +5,8 @@
 #include <ostream>
 #include <regex>
 
-#include "common/file.hpp"
-#include "particles/particle_file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

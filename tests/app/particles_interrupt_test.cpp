@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

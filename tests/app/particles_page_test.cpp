@@ -1,5 +1,5 @@
 // The page that plays a motion of particles, in a browser (chromium), and the still picture of it.
-#include "app/particles_page.hpp"
+#include "viscontact/report/particles/particles_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <regex>
 #include <sstream>
 
-#include "app/film_colours.hpp"
-#include "app/particles_picture.hpp"
-#include "app/particles_room.hpp"
-#include "common/file.hpp"
+#include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/particles_picture.hpp"
+#include "viscontact/report/particles/particles_room.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/browser.hpp"
 
 namespace viscontact {
@@ -209,7 +209,7 @@ TEST(ParticlesPage, FetchesNothingAndTakesItsTitleAsText) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
 }
 
-// app/provenance.cpp writes a line of its own there, and takes the line away again.
+// results/provenance.cpp writes a line of its own there, and takes the line away again.
 TEST(ParticlesPage, HasAPlaceForTheLineThatSaysHowItWasMade) {
   const auto playback = falling_row(2, 3, 3);
   const auto page = particles_page(playback, "</head>");

@@ -7,10 +7,10 @@
 #include <regex>
 #include <sstream>
 
-#include "common/file.hpp"
-#include "common/locked_folder.hpp"
-#include "particles/particle_file.hpp"
-#include "particles/restart.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/io/restart.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

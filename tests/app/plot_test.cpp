@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "common/file.hpp"
-#include "freefem_axi/row_picture.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_picture.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -9,7 +9,8 @@
 #include <regex>
 #include <sstream>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/process.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "tests/docs/document.hpp"
 
 namespace viscontact {

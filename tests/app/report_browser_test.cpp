@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "common/file.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/browser.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -7,15 +7,16 @@
 #include <cstdlib>
 #include <regex>
 
-#include "common/file.hpp"
-#include "common/locked_folder.hpp"
-#include "fitting/fit.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "common/file.hpp"
-#include "fitting/force_table.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 #include "tests/oracles/brenner.hpp"
 
 namespace viscontact {

@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "common/file.hpp"
-#include "common/process.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"

@@ -7,8 +7,8 @@
 #include <csignal>
 #include <sstream>
 
-#include "common/csv.hpp"
-#include "common/file.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"

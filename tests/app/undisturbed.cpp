@@ -4,7 +4,7 @@
 #include <sstream>
 #include <vector>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "reduced_model/models.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/common/temporary_folder.hpp"
 

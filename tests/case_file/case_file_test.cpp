@@ -1,5 +1,5 @@
 // Case files that are no case files, and files that are damaged.
-#include "case_file/case_file.hpp"
+#include "viscontact/case_file/case_file.hpp"
 
 #include <gmock/gmock.h>
 

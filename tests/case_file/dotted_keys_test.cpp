@@ -1,10 +1,10 @@
 // Keys of very many parts, which overflowed the stack of toml++.
-#include "case_file/dotted_keys.hpp"
+#include "viscontact/case_file/dotted_keys.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "case_file/particles_case.hpp"
+#include "viscontact/case_file/particles_case.hpp"
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
 
 namespace viscontact {

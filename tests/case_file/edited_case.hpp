@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "case_file/case_file.hpp"
+#include "viscontact/case_file/case_file.hpp"
 #include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "case_file/particles_case.hpp"
-#include "particles/contacts_now.hpp"
+#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 
 namespace viscontact {
 namespace {

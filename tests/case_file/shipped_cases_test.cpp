@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "case_file/case_file.hpp"
-#include "fitting/force_table.hpp"
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/descriptor.hpp"
+#include "viscontact/common/files/descriptor.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <exception>
 #include <string>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Each in a process of its own: an interrupt cannot be taken back.
-#include "common/interrupt.hpp"
+#include "viscontact/common/system/interrupt.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "common/process.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 

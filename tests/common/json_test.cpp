@@ -1,4 +1,4 @@
-#include "common/json.hpp"
+#include "viscontact/common/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "common/locked_folder.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <optional>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "common/named.hpp"
+#include "viscontact/common/named.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

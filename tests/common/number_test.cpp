@@ -1,4 +1,4 @@
-#include "common/number.hpp"
+#include "viscontact/common/number.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "common/process.hpp"
+#include "viscontact/common/system/process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

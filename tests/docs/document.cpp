@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/process.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {

@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/docs/document.hpp"
 
 namespace viscontact {

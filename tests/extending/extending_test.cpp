@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/process.hpp"
-#include "fitting/force_table.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/docs/document.hpp"
 #include "tests/oracles/bispherical.hpp"

@@ -1,4 +1,5 @@
-#include "fitting/basis_comparison.hpp"
+#include "viscontact/fitting/basis_comparison.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

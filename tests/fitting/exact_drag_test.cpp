@@ -5,7 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/fitting/long_double_least_squares.hpp"
 #include "tests/fitting/samples.hpp"
 

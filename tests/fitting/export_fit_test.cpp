@@ -1,5 +1,5 @@
 // Exported code, compiled and run, against the fitted force.
-#include "fitting/export_fit.hpp"
+#include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,11 +12,12 @@
 #include <sstream>
 #include <vector>
 
-#include "common/csv.hpp"
-#include "common/file.hpp"
-#include "common/process.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "fitting/spread_gaps.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/spread_gaps.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"

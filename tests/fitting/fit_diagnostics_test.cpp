@@ -1,4 +1,4 @@
-#include "fitting/fit_diagnostics.hpp"
+#include "viscontact/lubrication/fit_diagnostics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "fitting/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/terms.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 

@@ -1,4 +1,4 @@
-#include "fitting/fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,9 @@
 #include <numbers>
 #include <string>
 
-#include "fitting/terms.hpp"
+#include "viscontact/lubrication/terms.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 

@@ -1,4 +1,4 @@
-#include "fitting/force_table.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 #include <random>
 #include <string>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"

@@ -9,8 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fitting/lubrication_force.hpp"
-#include "fitting/terms.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/terms.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 

@@ -1,4 +1,4 @@
-#include "fitting/least_squares.hpp"
+#include "viscontact/fitting/least_squares.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "fitting/terms.hpp"
+#include "viscontact/lubrication/terms.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/long_double_least_squares.hpp"
 #include "tests/fitting/samples.hpp"

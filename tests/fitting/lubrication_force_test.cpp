@@ -1,4 +1,5 @@
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fitting/least_squares.hpp"
+#include "viscontact/fitting/least_squares.hpp"
 
 namespace viscontact {
 

@@ -1,5 +1,5 @@
 // The fast drag of the half-space against Brenner's series, values of 40 digits, and itself.
-#include "fitting/plane_drag.hpp"
+#include "viscontact/lubrication/plane_drag.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 #include "tests/fitting/samples.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/gauss_legendre.hpp"

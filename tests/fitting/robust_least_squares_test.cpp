@@ -1,4 +1,4 @@
-#include "fitting/robust_least_squares.hpp"
+#include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit.hpp"
-#include "fitting/force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 #include "tests/oracles/brenner.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 

@@ -5,9 +5,11 @@
 #include <regex>
 #include <string>
 
-#include "common/file.hpp"
-#include "fitting/fit.hpp"
-#include "fitting/force_table.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "tests/oracles/brenner.hpp"
 
 namespace viscontact {

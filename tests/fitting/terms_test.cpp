@@ -1,4 +1,4 @@
-#include "fitting/terms.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

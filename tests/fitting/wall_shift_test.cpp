@@ -1,13 +1,14 @@
 // A table that is a smooth wall's, shifted, gives its shift back.
-#include "fitting/wall_shift.hpp"
+#include "viscontact/fitting/wall_shift.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "common/error.hpp"
-#include "fitting/fit.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/oracles/bispherical.hpp"
 

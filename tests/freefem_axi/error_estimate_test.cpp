@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
 
 namespace viscontact {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "freefem_axi/tabulate.hpp"
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulate.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"

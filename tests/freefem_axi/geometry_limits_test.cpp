@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/oracles/bispherical.hpp"

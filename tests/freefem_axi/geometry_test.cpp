@@ -1,5 +1,5 @@
 // The table of geometries: what each is told, and the room it needs.
-#include "freefem_axi/geometry.hpp"
+#include "viscontact/freefem_axi/geometry.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "freefem_axi/freefem.hpp"
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"

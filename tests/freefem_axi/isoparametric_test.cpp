@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/freefem_axi/levels.hpp"
 
 namespace viscontact {

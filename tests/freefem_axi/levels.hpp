@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/number.hpp"
-#include "common/process.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/freefem_axi/levels.hpp"
 #include "tests/oracles/bispherical.hpp"
 

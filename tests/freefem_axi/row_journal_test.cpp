@@ -1,4 +1,4 @@
-#include "freefem_axi/row_journal.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 
 #include <csignal>
 
-#include "common/file.hpp"
-#include "freefem_axi/row_record.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact {
 namespace {

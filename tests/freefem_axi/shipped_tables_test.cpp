@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "fitting/force_table.hpp"
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "freefem_axi/row_picture.hpp"
+#include "viscontact/freefem_axi/row_picture.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 

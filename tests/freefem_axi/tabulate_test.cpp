@@ -1,13 +1,13 @@
 // The driver over several rows: with a script in FreeFEM's place, and once with FreeFEM.
-#include "freefem_axi/tabulate.hpp"
+#include "viscontact/freefem_axi/tabulate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "common/file.hpp"
-#include "freefem_axi/row_journal.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "freefem_axi/tabulation.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 

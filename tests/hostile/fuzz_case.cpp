@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "case_file/case_file.hpp"
-#include "reduced_model/models.hpp"
-#include "reduced_model/trajectory.hpp"
-#include "sweep/variation.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+#include "viscontact/sweep/variation.hpp"
 #include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
-#include "fitting/export_fit.hpp"
-#include "fitting/fit.hpp"
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/fitting/export/export_fit.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 #include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {

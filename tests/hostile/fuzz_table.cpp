@@ -2,8 +2,10 @@
 #include <numeric>
 #include <string>
 
-#include "fitting/fit.hpp"
-#include "fitting/force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/terms.hpp"
 #include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/descriptor.hpp"
+#include "viscontact/common/files/descriptor.hpp"
 
 namespace viscontact {
 namespace {

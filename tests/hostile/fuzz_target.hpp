@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 
 /// libFuzzer's interface; one target defines it. Anything thrown is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,8 +1,8 @@
 // Any bytes as a trajectory file: read, written, read again, compared.
 #include <string>
 
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/hostile/fuzz_target.hpp"
 
 namespace viscontact {

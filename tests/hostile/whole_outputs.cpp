@@ -10,14 +10,14 @@
 #include <string_view>
 #include <vector>
 
-#include "case_file/case_file.hpp"
-#include "common/csv.hpp"
-#include "common/file.hpp"
-#include "fitting/fit.hpp"
-#include "fitting/force_table.hpp"
-#include "particles/restart.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/sample_files.hpp"
 
 namespace viscontact {

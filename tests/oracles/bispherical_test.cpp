@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
 

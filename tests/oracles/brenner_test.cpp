@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
 
 namespace viscontact {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "common/file.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 

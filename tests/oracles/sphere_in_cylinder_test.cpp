@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "common/csv.hpp"
+#include "viscontact/common/csv.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
 

@@ -1,7 +1,7 @@
 // The case of the benchmark box2d, for its test and for bench/box2d.cpp.
 #pragma once
 
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 

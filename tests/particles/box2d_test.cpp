@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/box2d_case.hpp"
 #include "tests/particles/systems.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

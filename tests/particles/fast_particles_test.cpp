@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "common/error.hpp"
+#include "viscontact/common/error.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/error.hpp"
-#include "particles/contacts_now.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

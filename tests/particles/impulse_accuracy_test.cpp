@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

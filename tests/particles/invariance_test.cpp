@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "particles/team.hpp"
+#include "viscontact/common/system/team.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

@@ -1,5 +1,5 @@
 // The cell lists against all pairs looked at one by one.
-#include "particles/neighbours.hpp"
+#include "viscontact/particles/neighbours/neighbours.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "reduced_model/contact_model.hpp"
+#include "viscontact/reduced_model/models/contact_model.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

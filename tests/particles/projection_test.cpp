@@ -1,5 +1,5 @@
 // The projection of a step against a dense solver that shares nothing with it.
-#include "particles/projection.hpp"
+#include "viscontact/particles/projection/projection.hpp"
 
 #include <gtest/gtest.h>
 

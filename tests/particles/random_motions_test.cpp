@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "particles/contacts_now.hpp"
+#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
 
 namespace viscontact::particles {

@@ -1,5 +1,5 @@
 // Restart files of this version and of the one before, and those that are refused.
-#include "particles/restart.hpp"
+#include "viscontact/particles/io/restart.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "particles/simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::particles {
 

@@ -1,5 +1,5 @@
 // Loops that threads share: every index once, sums that do not depend on the threads, errors that come back.
-#include "particles/team.hpp"
+#include "viscontact/common/system/team.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

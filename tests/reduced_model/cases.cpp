@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tests/oracles/brenner.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 namespace {

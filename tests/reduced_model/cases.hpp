@@ -5,9 +5,9 @@
 #include <random>
 #include <string_view>
 
-#include "fitting/fit.hpp"
-#include "reduced_model/motion.hpp"
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 

@@ -1,4 +1,4 @@
-#include "reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
 
 #include <gmock/gmock.h>
 

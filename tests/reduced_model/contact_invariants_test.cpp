@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "reduced_model/viscous_contact.hpp"
-#include "reduced_model/viscous_contact_regular_drag.hpp"
-#include "reduced_model/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {

@@ -1,5 +1,5 @@
 // Single steps of viscous contact, by hand. All numbers are dyadic: what is computed by hand comes out to the bit.
-#include "reduced_model/contact_step.hpp"
+#include "viscontact/reduced_model/integration/contact_step.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduced_model/inertial.hpp"
-#include "reduced_model/reference_exact.hpp"
-#include "reduced_model/viscous_contact_regular_drag.hpp"
-#include "reduced_model/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 

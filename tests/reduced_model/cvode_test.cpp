@@ -1,5 +1,5 @@
 // The CVODE wrapper on systems whose solution is known.
-#include "reduced_model/cvode.hpp"
+#include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reduced_model/external_force.hpp"
+#include "viscontact/reduced_model/external_force.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/file.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 

@@ -1,12 +1,12 @@
-#include "reduced_model/fewer_rows.hpp"
+#include "viscontact/reduced_model/fewer_rows.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "common/error.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {

@@ -1,4 +1,4 @@
-#include "reduced_model/fit_uncertainty.hpp"
+#include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

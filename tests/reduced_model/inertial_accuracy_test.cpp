@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/csv.hpp"
-#include "reduced_model/inertial.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 #include "tests/oracles/inertial_motion.hpp"
 #include "tests/reduced_model/cases.hpp"
 

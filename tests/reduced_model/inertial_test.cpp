@@ -1,4 +1,4 @@
-#include "reduced_model/inertial.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,8 +9,8 @@
 #include <functional>
 #include <string>
 
-#include "common/csv.hpp"
-#include "reduced_model/reference_exact.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 

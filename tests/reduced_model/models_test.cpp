@@ -1,4 +1,4 @@
-#include "reduced_model/models.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 #include <gmock/gmock.h>
 

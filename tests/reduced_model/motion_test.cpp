@@ -1,4 +1,4 @@
-#include "reduced_model/motion.hpp"
+#include "viscontact/reduced_model/motion.hpp"
 
 #include <gmock/gmock.h>
 

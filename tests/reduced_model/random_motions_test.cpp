@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "reduced_model/inertial.hpp"
-#include "reduced_model/reference_exact.hpp"
-#include "reduced_model/viscous_contact_exact.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 

@@ -1,11 +1,11 @@
 // The inertialess models: the lecture's explicit Euler, and the first integral.
-#include "reduced_model/reference.hpp"
+#include "viscontact/reduced_model/models/reference.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "reduced_model/reference_exact.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "case_file/case_file.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {

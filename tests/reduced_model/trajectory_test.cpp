@@ -1,4 +1,4 @@
-#include "reduced_model/trajectory.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "reduced_model/models.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/reduced_model/cases.hpp"
 

@@ -1,5 +1,5 @@
 // Viscous contact from event to event, against motions known in closed form and against the scheme.
-#include "reduced_model/viscous_contact_exact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "reduced_model/inelastic_contact.hpp"
-#include "reduced_model/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/inelastic_contact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {

@@ -1,5 +1,5 @@
 // The viscous contact model on motions whose limit is known in closed form.
-#include "reduced_model/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/viscous_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/models.hpp"
-#include "reduced_model/reference_exact.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {

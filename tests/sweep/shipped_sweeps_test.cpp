@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fitting/lubrication_force.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 #include "tests/sweep/sweep_rows.hpp"
 
 namespace viscontact {

@@ -1,5 +1,5 @@
 // The file of a sweep: whole, cut off anywhere, and of another sweep.
-#include "sweep/sweep_file.hpp"
+#include "viscontact/sweep/sweep_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,9 @@
 #include <functional>
 #include <stdexcept>
 
-#include "common/csv.hpp"
-#include "common/file.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/file.hpp"
-#include "common/number.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sweep/sweep.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 namespace viscontact {
 

@@ -1,5 +1,5 @@
 // Rows of a sweep, one by one and on several threads.
-#include "sweep/sweep.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,11 +11,11 @@
 #include <map>
 #include <stdexcept>
 
-#include "common/file.hpp"
-#include "common/number.hpp"
-#include "fitting/lubrication_force.hpp"
-#include "reduced_model/comparison.hpp"
-#include "reduced_model/models.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/sweep/sweep_rows.hpp"

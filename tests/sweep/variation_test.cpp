@@ -1,5 +1,5 @@
 // What a sweep varies: its ranges, the points of grid and random samples, and the case with the numbers of a point.
-#include "sweep/variation.hpp"
+#include "viscontact/sweep/variation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <set>
 
-#include "case_file/case_file.hpp"
+#include "viscontact/case_file/case_file.hpp"
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 

@@ -1,0 +1,94 @@
+#include "viscontact/app/commands/doctor.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+
+namespace viscontact {
+namespace {
+
+struct Finding {
+  bool good;
+  std::string what;
+};
+
+using Report = std::function<void(const Finding&)>;
+
+/// A row of which the exact value is known: gap 0.1 below a sphere of radius 1 in a container so
+/// wide that it does not matter at 1e-4 (Brenner 1961: 11.45915720340955722964).
+Finding solve_known_row(const FreeFem& freefem) {
+  constexpr double kBrenner = 11.45915720340955722964;
+  constexpr double kTolerance = 1e-4;
+  Tabulation tabulation;
+  tabulation.viscosity = tabulation.radius = 1;
+  tabulation.container = Container{40, 80};
+  tabulation.relative_accuracy = kTolerance;
+  const auto row = solve_row(freefem, tabulation, 0.1, -1);
+  const double error = std::abs(row.drag_factor / kBrenner - 1);
+  return {error < kTolerance,
+          fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
+                      row.drag_factor, error, row.seconds)};
+}
+
+void examine_freefem(const Report& report) {
+  try {
+    auto freefem = default_freefem();
+    freefem.row_limit = freefem.version_limit;  // the row takes about a second
+    report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
+                              freefem.executable, freefem.script_folder.string())});
+    report(solve_known_row(freefem));
+  } catch (const Error& error) {
+    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    report({false, error.what()});
+  }
+}
+
+Finding examine_gnuplot() {
+  constexpr auto kLongest = std::chrono::minutes(1);  // it answers within a second
+  const auto gnuplot = run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest);
+  if (!gnuplot.started || gnuplot.exit_status != 0)
+    return {false,
+            "gnuplot, for --plot and for the report's still pictures; apt-get install gnuplot-nox"};
+  return {true, gnuplot.output.substr(0, gnuplot.output.find('\n'))};
+}
+
+void print_line(const Finding& finding) {
+  const auto word = finding.good ? coloured("ok     ", Colour::kGreen, STDOUT_FILENO)
+                                 : coloured("MISSING", Colour::kRed, STDOUT_FILENO);
+  fmt::print("{} {}\n", word, finding.what);
+}
+
+}  // namespace
+
+bool examine(bool json) {
+  std::vector<Finding> findings;
+  const Report report = [&](const Finding& finding) {
+    findings.push_back(finding);
+    if (!json) print_line(finding);
+  };
+  for (const auto& [program, version] : library_versions())
+    report({true, fmt::format("{} {}", program, version)});
+  report(examine_gnuplot());
+  examine_freefem(report);
+  if (json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& finding : findings)
+      all.push_back({{"ok", finding.good}, {"what", finding.what}});
+    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+  return std::ranges::all_of(findings, &Finding::good);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,40 @@
+#include "viscontact/app/commands/init_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "viscontact/app/commands/case_template.hpp"
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+
+void add_init(CLI::App& app) {
+  auto* command = app.add_subcommand("init", "a commented case to begin with");
+  auto file = std::make_shared<std::string>();
+  command->add_option("CASE", *file, "case file to write (TOML); one that is there stays")
+      ->required()
+      ->type_name(kFile);
+  command->callback([file] {
+    check_outputs({*file});
+    const std::filesystem::path path = *file;
+    if (std::filesystem::exists(std::filesystem::symlink_status(path)))
+      throw_bad_input({*file}, "is there and is not replaced; remove it first, or write elsewhere");
+    write_file(path, case_template());
+    const auto named = [](std::string name) {  // no option
+      return shell_word(name.starts_with('-') ? "./" + name : name);
+    };
+    auto results = path;
+    results.replace_extension(path.has_extension() ? "" : ".results");
+    say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file, named(*file),
+                    named(results.string())));
+  });
+}
+
+}  // namespace viscontact

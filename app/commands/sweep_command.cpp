@@ -1,0 +1,257 @@
+#include "viscontact/app/commands/sweep_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/pipeline/pipeline.hpp"
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/report/flow/sweep_plot.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/sweep/sweep_file.hpp"
+
+namespace viscontact {
+namespace {
+
+struct SweepOptions {
+  std::string case_file, fit, output, reference, plot, x, y;
+  std::vector<std::string> vary, models, columns;
+  std::uint64_t samples = 0, seed = 1;
+  int jobs = default_jobs();
+  bool dry_run = false, json = false;
+};
+
+/// The command line, and where it is silent the case's [sweep].
+SweepPlan plan_of(const SweepOptions& o, const Case& c) {
+  SweepPlan plan = planned(c);
+  if (!o.fit.empty()) plan.fit = read_fit(o.fit);
+  if (!o.vary.empty()) {
+    plan.variations.clear();
+    for (const auto& text : o.vary) plan.variations.push_back(parse_variation(text));
+  }
+  if (o.samples > 0) plan.samples = o.samples;
+  plan.seed = o.seed;
+  if (!o.models.empty()) {
+    plan.models = o.models;
+    // The case's reference was one of the case's models.
+    if (std::ranges::find(plan.models, plan.reference) == plan.models.end()) plan.reference.clear();
+  }
+  if (!o.reference.empty()) plan.reference = o.reference;
+  return plan;
+}
+
+/// What to draw: the command line, else the case's [sweep] as far as it fits what is varied and run, else the first keys and the smallest gaps.
+SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan) {
+  const SweepRequest request = c.sweep.value_or(SweepRequest{});
+  const auto is_varied = [&](const std::string& key) {
+    return std::ranges::find(plan.variations, key, &Variation::key) != plan.variations.end();
+  };
+  const auto columns = sweep_columns(plan);
+  const auto is_there = [&](const std::string& column) {
+    const auto slash = column.find('/');
+    return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
+           (slash == std::string::npos || is_varied(column.substr(slash + 1)));
+  };
+  SweepPlot picture{o.x, o.y, o.columns};
+  for (auto* axis : {&picture.x, &picture.y})
+    if (*axis == "motion.mass") *axis = "sphere.mass";
+  if (picture.x.empty() && picture.y.empty()) {
+    if (is_varied(request.x)) picture.x = request.x;
+    if (is_varied(request.y) && plan.samples == 0) picture.y = request.y;
+  }
+  if (picture.columns.empty() && std::ranges::all_of(request.plot, is_there))
+    picture.columns = request.plot;
+  if (picture.x.empty()) {
+    const auto free = std::ranges::find_if(
+        plan.variations, [&](const Variation& v) { return v.key != picture.y && v.count > 1; });
+    picture.x = free != plan.variations.end() ? free->key : plan.variations[0].key;
+    const auto other = std::ranges::find_if(
+        plan.variations, [&](const Variation& v) { return v.key != picture.x && v.count > 1; });
+    if (picture.y.empty() && plan.samples == 0 && other != plan.variations.end())
+      picture.y = other->key;
+  }
+  if (!picture.y.empty() && plan.samples > 0)
+    throw Error(ExitCode::kWrongUsage,
+                "a map can be drawn of a grid only, not of random samples; leave out --y");
+  if (picture.columns.empty())
+    for (const auto& model : plan.models) picture.columns.push_back(model + ".minimal_gap");
+  return picture;
+}
+
+void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
+  const auto columns = sweep_columns(plan);
+  const auto check = [&](const std::string& name) {
+    if (std::ranges::find(columns, name) != columns.end()) return;
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("there is no column '{}' to plot; the columns are: {}", name,
+                            fmt::join(columns, ", ")));
+  };
+  for (const auto& axis : {picture.x, picture.y}) {
+    if (axis.empty()) continue;
+    const auto key = std::ranges::find(plan.variations, axis, &Variation::key);
+    if (key == plan.variations.end() || (key->count < 2 && plan.samples == 0))
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format(
+              "'{}' cannot be an axis of the plot; an axis must be a key that is varied over at "
+              "least two values",
+              axis));
+  }
+  for (const auto& column : picture.columns) {
+    const auto slash = column.find('/');
+    check(column.substr(0, slash));
+    if (slash != std::string::npos) check(column.substr(slash + 1));
+  }
+}
+
+/// "about 3 min", from the time that the rows so far have taken.
+class Remaining {
+ public:
+  std::string after(std::uint64_t done, std::uint64_t size) {
+    if (!first_) first_ = done;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    if (done <= *first_) return "";
+    const double left =
+        spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
+    return left > 90 ? fmt::format(", about {:.0f} min left", left / 60)
+                     : fmt::format(", about {:.0f} s left", left);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<std::uint64_t> first_;
+};
+
+/// "; ... failed at 3 points", or nothing if no model failed anywhere.
+std::string failures_in_words(const SweepOutcome& outcome) {
+  const auto points = [](std::uint64_t n) {
+    return fmt::format("{} point{}", n, n == 1 ? "" : "s");
+  };
+  std::string text;
+  if (outcome.without_result > 0)
+    text += fmt::format("; every model failed at {}", points(outcome.without_result));
+  if (outcome.with_some_results > 0)
+    text += fmt::format("; some models failed at {}", points(outcome.with_some_results));
+  return text.empty() ? text : text + " (the column 'failure' says why)";
+}
+
+void run(const SweepOptions& o) {
+  check_models("--models", o.models);
+  check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
+  refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
+  if (!o.plot.empty()) refuse_other_kind(o.plot, "<svg", "picture");
+  const Case c = read_case(o.case_file);
+  const Sweep sweep(plan_of(o, c));
+  const SweepPlot picture = o.plot.empty() ? SweepPlot{} : picture_of(o, c, sweep.plan());
+  if (!o.plot.empty()) check_columns(picture, sweep.plan());
+
+  if (o.dry_run) {
+    fmt::print("{}", dry_run_text({dry_run(sweep, o.output)}, o.jobs, o.json));
+    return;
+  }
+  auto files = files_of_motion(c);
+  if (!o.fit.empty())
+    files.emplace_back(o.fit);
+  else if (c.fit && c.fit->file)
+    files.emplace_back(*c.fit->file);
+  const auto provenance = provenance_of({files, {}});
+
+  Remaining remaining;
+  auto shown = std::chrono::steady_clock::now();
+  const auto computed = write_sweep(
+      sweep, o.output, o.jobs, VISCONTACT_VERSION, provenance_line(provenance, o.output),
+      [&](std::uint64_t done, std::uint64_t size) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - shown < std::chrono::milliseconds(200)) return;
+        shown = now;
+        show_progress(fmt::format("sweep: {} of {}{}", done, size, remaining.after(done, size)));
+      });
+  clear_progress();
+  const auto size = sweep_size(sweep.plan());
+  const auto outcome = read_outcome(sweep.plan(), o.output);
+  say((computed == 0
+           ? fmt::format("sweep: {} is up to date", o.output)
+           : fmt::format(
+                 "sweep: {} rows in {}{}", size, o.output,
+                 computed < size ? fmt::format(", {} of them from before", size - computed) : "")) +
+      failures_in_words(outcome));
+  if (outcome.without_result == outcome.points)
+    throw Error(ExitCode::kNotConverged,
+                fmt::format("{}: every model failed at every point; the column 'failure' says why, "
+                            "at the first point: {}",
+                            o.output, outcome.first_failure));
+  if (!o.plot.empty())
+    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture),
+                 provenance_of(Inputs{files, {o.output}}));
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("sweep", "a case run with many numbers: a row of figures each");
+  auto o = std::make_shared<SweepOptions>();
+  command
+      ->add_option("CASE", o->case_file,
+                   "case file (TOML); its [sweep] holds defaults for what follows")
+      ->required()
+      ->type_name(kFile);
+  command
+      ->add_option("-o,--output", o->output,
+                   "rows to write (CSV); an interrupted sweep goes on with the same command")
+      ->required()
+      ->type_name(kFile);
+  command
+      ->add_option(
+          "--vary", o->vary,
+          "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
+          "sphere.mass, motion.external_force[0].value; may be repeated: the grid of all")
+      ->type_name("KEY=RANGE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--samples", o->samples,
+                   "so many random points of the ranges instead of the grid")
+      ->check(CLI::Range(1.0, 1e12))
+      ->type_name("N");
+  command->add_option("--seed", o->seed, "of the random points")->capture_default_str();
+  command->add_option("--models", o->models, "comma-separated; default: inertial,viscous_contact")
+      ->type_name(kModels)
+      ->delimiter(',');
+  command
+      ->add_option("--reference", o->reference,
+                   "model that the others are compared with; default: inertial, or the first")
+      ->type_name(kModel);
+  command
+      ->add_option("--fit", o->fit,
+                   "fit of the lubrication force (JSON); default: the case's [fit] file or exact")
+      ->type_name(kFile);
+  command
+      ->add_option("--plot", o->plot,
+                   "picture to write (SVG): lines over one key, or a map over two")
+      ->type_name(kFile);
+  command->add_option("--x", o->x, "key along the picture; default: the first varied")
+      ->type_name("KEY");
+  command->add_option("--y", o->y, "key up the picture, for a map")->type_name("KEY");
+  command
+      ->add_option(
+          "--column", o->columns,
+          "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
+      ->type_name("COLUMN,...")
+      ->delimiter(',');
+  add_jobs(*command, o->jobs, "points at once");
+  auto* dry = command->add_flag("--dry-run", o->dry_run,
+                                "print how many rows there are and about how long they take");
+  add_json(*command, o->json)->needs(dry);
+  command->callback([o] { run(*o); });
+}
+
+}  // namespace viscontact

@@ -1,0 +1,45 @@
+# viscontact_library(NAME SOURCES FILE... [HEADERS FILE...] [NEEDS PART...] [FIND PACKAGE...]
+#                    [PUBLIC LIBRARY...] [PRIVATE LIBRARY...])
+#
+# Adds a part of Viscontact that can be used on its own: the target viscontact_NAME, also viscontact::NAME.
+# Files are named relative to the folder of the CMakeLists.txt that calls it.
+#
+# HEADERS  public headers; they are installed, all others are internal
+# NEEDS    parts of Viscontact that it links to
+# FIND     arguments of find_dependency, one string a package, for those who use the part after
+#          find_package(viscontact COMPONENTS NAME)
+# PUBLIC   libraries of others whose headers the public headers include
+# PRIVATE  libraries of others that only its sources use
+#
+# A part without HEADERS belongs to the program alone and is not installed.
+function(viscontact_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;NEEDS;FIND;PUBLIC;PRIVATE")
+  set(target viscontact_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(viscontact::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${VISCONTACT_INCLUDE_FOLDER}>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM arg_NEEDS PREPEND viscontact_ OUTPUT_VARIABLE parts)
+  target_link_libraries(${target} PUBLIC ${parts} ${arg_PUBLIC}
+                        PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:viscontact_warnings>)
+  if(NOT arg_HEADERS)
+    return()
+  endif()
+
+  install(TARGETS ${target} EXPORT viscontact-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  foreach(header IN LISTS arg_HEADERS)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    cmake_path(GET header PARENT_PATH below)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/viscontact/${folder}/${below})
+  endforeach()
+  install(EXPORT viscontact-${name} NAMESPACE viscontact:: FILE viscontact-${name}-targets.cmake
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscontact)
+  # What the package's configuration says of the part: viscontact-config.cmake.in.
+  list(JOIN arg_FIND "\" \"" find)
+  string(APPEND description "set(viscontact_${name}_needs ${arg_NEEDS})\n")
+  string(APPEND description "set(viscontact_${name}_find \"${find}\")\n")
+  set_property(GLOBAL APPEND PROPERTY VISCONTACT_PARTS ${name})
+  set_property(GLOBAL APPEND_STRING PROPERTY VISCONTACT_PART_DESCRIPTIONS "${description}")
+endfunction()

@@ -1,0 +1,145 @@
+#include "viscontact/common/files/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "viscontact/common/files/descriptor.hpp"
+#include "viscontact/common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+[[noreturn]] void throw_system_error(const std::filesystem::path& path, const char* action,
+                                     int code) {
+  throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
+}
+
+constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
+
+/// Takes away the files NAME.viscontact-PID.tmp beside `place` whose process was killed before it could.
+void remove_left_behind(const std::filesystem::path& place) {
+  const std::string front = place.filename().string() + std::string(kUnfinishedOf);
+  const auto folder = place.has_parent_path() ? place.parent_path() : ".";
+  std::error_code ignored;  // they are in nobody's way
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= front.size() + kUnfinished.size() || !name.starts_with(front) ||
+        !name.ends_with(kUnfinished))
+      continue;
+    const char* const end = name.data() + name.size() - kUnfinished.size();
+    pid_t process = 0;
+    const auto number = std::from_chars(name.data() + front.size(), end, process);
+    if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
+    if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+    // On a shared disk it may be a process of another machine: then the file is locked.
+    const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry.path().c_str());
+  }
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) throw_system_error(path, "read", errno);
+  // A device may have no end (/dev/zero).
+  struct stat status = {};
+  if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
+    throw_bad_input({path.string()}, "cannot be read (a device, not a file)");
+  std::string content;
+  std::array<char, 1 << 16> buffer{};
+  for (;;) {
+    const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw_system_error(path, "read", errno);
+    if (count == 0) return content;
+    content.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::vector<std::filesystem::path> missing;
+  for (auto folder = path; !folder.empty() && !std::filesystem::exists(folder, error);
+       folder = folder.parent_path())
+    missing.push_back(folder);
+  std::filesystem::create_directories(path, error);
+  if (error) throw_system_error(path, "made", error.value());
+  for (const auto& folder : missing) sync_folder_of(folder);
+}
+
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_system_error(path, "removed", error.value());
+}
+
+void sync_folder_of(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : ".";
+  const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  // EINVAL: a file system that has no such thing.
+  if (file.get() >= 0 && ::fsync(file.get()) != 0 && errno != EINVAL)
+    throw_system_error(path, "written", errno);
+}
+
+std::filesystem::path check_output_file(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  // A link stays a link: what it points to is replaced.
+  fs::path place = path;
+  if (fs::is_symlink(fs::symlink_status(path, error))) {
+    place = fs::weakly_canonical(path, error);
+    // What does not exist yet is not followed by that.
+    if (!error && fs::is_symlink(fs::symlink_status(place, error)))
+      place = place.parent_path() / fs::read_symlink(place, error);
+    if (error) throw_system_error(path, "written", error.value());
+  }
+  const auto status = fs::status(place, error);
+  if (fs::is_directory(status)) throw_system_error(path, "written", EISDIR);
+  // Renaming over a device or a pipe would take it away from everybody.
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw_bad_input({path.string()}, "cannot be written (not a regular file)");
+  return place;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path place = check_output_file(path);
+  if (place.has_parent_path()) make_folder(place.parent_path());
+  // The process number keeps two runs that write the same file apart.
+  const std::filesystem::path beside =
+      place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
+  try {
+    const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.get() < 0) throw_system_error(path, "written", errno);
+    (void)::flock(file.get(),
+                  LOCK_EX | LOCK_NB);  // for remove_left_behind; not every disk has locks
+    while (!content.empty()) {
+      const ssize_t count = ::write(file.get(), content.data(), content.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw_system_error(path, "written", errno);
+      content.remove_prefix(static_cast<std::size_t>(count));
+    }
+    if (::fsync(file.get()) != 0) throw_system_error(path, "written", errno);
+    if (::rename(beside.c_str(), place.c_str()) != 0) throw_system_error(path, "written", errno);
+    sync_folder_of(place);
+    remove_left_behind(place);
+  } catch (...) {
+    ::unlink(beside.c_str());
+    throw;
+  }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,64 @@
+#include "viscontact/common/files/locked_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact {
+namespace {
+
+/// `path` cannot be opened for writing: nothing is in it yet.
+[[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
+  throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
+}
+
+[[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
+  throw_bad_input({path.string()},
+                  fmt::format("cannot be written ({}); finished rows are kept, the same command "
+                              "goes on from there",
+                              std::strerror(code)));
+}
+
+/// True if the descriptor is what stands at `path`: the process that held the journal may have removed it
+/// while we waited for it to be opened.
+bool is_still_at(int file, const std::filesystem::path& path) {
+  struct stat opened = {};
+  struct stat there = {};
+  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &there) == 0 &&
+         opened.st_dev == there.st_dev && opened.st_ino == there.st_ino;
+}
+
+}  // namespace
+
+Descriptor open_and_lock(const std::filesystem::path& path, const std::string& held) {
+  for (;;) {
+    Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    if (file.get() < 0) throw_not_opened(path, errno);
+    // A file system without locks is no reason to compute nothing.
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw_bad_input({path.string()}, held);
+    if (is_still_at(file.get(), path)) return file;
+  }
+}
+
+void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file.get(), text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw_not_written(path, errno);
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void sync_file(const Descriptor& file, const std::filesystem::path& path) {
+  if (::fsync(file.get()) != 0) throw_not_written(path, errno);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,253 @@
+#include "viscontact/fitting/export/export_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/spread_gaps.hpp"
+
+namespace viscontact {
+namespace {
+
+/// R = sum of weight * value, Gamma = sum of weight * antiderivative - offset.
+struct Sum {
+  std::vector<std::pair<double, Term>> terms;
+  double offset = 0;
+};
+
+/// In the order of all_terms(), as LubricationForce sums.
+Sum sum_of(const Fit& fit) {
+  Sum sum;
+  for (const auto& term : all_terms())
+    if (const auto* fitted = find_named(fit.terms, term.name); fitted != nullptr)
+      sum.terms.emplace_back(-fitted->coefficient / fit.reference_velocity, term);
+  for (const auto& [weight, term] : sum.terms)
+    sum.offset += weight * term.antiderivative(fit.radius);
+  return sum;
+}
+
+/// A number as the language writes a double.
+using Literal = std::string (*)(double);
+
+std::string plain(double number) { return format_number(number); }
+
+/// 56.5d0, 1d-05.
+std::string fortran_literal(double number) {
+  std::string text = format_number(number);
+  const auto exponent = text.find('e');
+  if (exponent == std::string::npos) return text + "d0";
+  text[exponent] = 'd';
+  return text;
+}
+
+/// 56.5, 5.0, 1e-05: without a point or an exponent C would read an integer, which overflows when it is long.
+std::string c_literal(double number) {
+  const std::string text = format_number(number);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+/// weight * (formula) + ..., a term a line.
+std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
+                       std::string_view between) {
+  std::string text;
+  for (const auto& [weight, term] : sum.terms)
+    text += fmt::format("{}({}) * ({})", text.empty() ? "" : between, literal(weight),
+                        (term.*formula).text);
+  return text;
+}
+
+/// What a reader must know before using the numbers, a line each.
+std::vector<std::string> facts(const Fit& fit, std::string_view source) {
+  const auto version = fit.versions.find("Viscontact");
+  std::vector<std::string> lines = {
+      fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
+                  version == fit.versions.end() ? "of unknown version" : version->second),
+      "F = -R(q) u: q the gap, u the normal velocity (positive away), F along the outward normal.",
+      "Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has "
+      "absorbed.",
+      fmt::format(
+          "Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
+          plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),
+          plain(fit.viscosity)),
+      fmt::format("Approaching: {}.", fit.geometry.empty() ? "not said" : fit.geometry),
+      fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.",
+                  fit.basis, fit.largest_relative_residual, fit.rms_relative_residual)};
+  if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
+    lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
+                                fit.diagnostics->largest_error_estimate));
+  if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
+  if (!fit.table_sha256.empty())
+    lines.push_back(fmt::format("SHA-256 of the table: {}.", fit.table_sha256));
+  // They stand in comments: a line end from a fit file must not become code.
+  for (auto& line : lines)
+    std::ranges::replace_if(
+        line, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return lines;
+}
+
+std::string commented(const Fit& fit, std::string_view source, std::string_view mark) {
+  std::string text;
+  for (const auto& line : facts(fit, source)) text += fmt::format("{} {}\n", mark, line);
+  return text;
+}
+
+std::string write_c_header(const Fit& fit, std::string_view source) {
+  const Sum sum = sum_of(fit);
+  const auto function = [&](std::string_view name, Formula Term::*formula,
+                            const std::string& tail) {
+    return fmt::format(
+        "static inline double viscontact_{}(double gap) {{\n"
+        "  const double q = gap, l = log(gap);\n"
+        "  (void)q;\n  (void)l;\n"
+        "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return NAN;\n"
+        "  return {}{};\n}}\n\n",
+        name, terms_text(sum, formula, c_literal, "\n      + "), tail);
+  };
+  return commented(fit, source, "//") +
+         "// C99 or C++11. Outside the interval the answer is NaN.\n" +
+         fmt::format(
+             "#ifndef VISCONTACT_LUBRICATION_H\n#define VISCONTACT_LUBRICATION_H\n\n"
+             "#include <math.h>\n\n#define VISCONTACT_SMALLEST_GAP {}\n"
+             "#define VISCONTACT_LARGEST_GAP {}\n\n",
+             c_literal(fit.gap_interval[0]), c_literal(fit.gap_interval[1])) +
+         "// R(q), > 0.\n" + function("resistance", &Term::value, "") + "// Gamma(q).\n" +
+         function("impulse", &Term::antiderivative,
+                  fmt::format("\n      - ({})", c_literal(sum.offset))) +
+         "// F(q, u).\nstatic inline double viscontact_force(double gap, double velocity) {\n"
+         "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
+}
+
+std::string write_fortran(const Fit& fit, std::string_view source) {
+  const Sum sum = sum_of(fit);
+  const auto function = [&](std::string_view name, Formula Term::*formula,
+                            const std::string& tail) {
+    return fmt::format(
+        "  elemental function viscontact_{0}(gap) result(answer)\n"
+        "    real(real64), intent(in) :: gap\n"
+        "    real(real64) :: answer, q, l\n"
+        "    if (.not. (gap >= smallest_gap .and. gap <= largest_gap)) then\n"
+        "      answer = ieee_value(answer, ieee_quiet_nan)\n"
+        "      return\n"
+        "    end if\n"
+        "    q = gap\n"
+        "    l = log(gap)\n"
+        "    answer = {1}{2}\n"
+        "  end function\n\n",
+        name, terms_text(sum, formula, fortran_literal, " &\n      + "), tail);
+  };
+  return commented(fit, source, "!") + "! Outside the interval the answer is NaN.\n" +
+         fmt::format(
+             "module viscontact_lubrication\n"
+             "  use, intrinsic :: iso_fortran_env, only: real64\n"
+             "  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan\n"
+             "  implicit none\n"
+             "  real(real64), parameter :: smallest_gap = {}, largest_gap = {}\n"
+             "contains\n\n",
+             fortran_literal(fit.gap_interval[0]), fortran_literal(fit.gap_interval[1])) +
+         "  ! R(q), > 0.\n" + function("resistance", &Term::value, "") + "  ! Gamma(q).\n" +
+         function("impulse", &Term::antiderivative,
+                  fmt::format(" &\n      - ({})", fortran_literal(sum.offset))) +
+         "  ! F(q, u).\n"
+         "  elemental function viscontact_force(gap, velocity) result(answer)\n"
+         "    real(real64), intent(in) :: gap, velocity\n"
+         "    real(real64) :: answer\n"
+         "    answer = -viscontact_resistance(gap) * velocity\n"
+         "  end function\n\n"
+         "end module\n";
+}
+
+std::string write_python(const Fit& fit, std::string_view source) {
+  const Sum sum = sum_of(fit);
+  const auto function = [&](std::string_view name, std::string_view what, Formula Term::*formula,
+                            const std::string& tail) {
+    return fmt::format(
+        "def {0}(gap):\n"
+        "    \"\"\"{1} Raises ValueError outside the interval.\"\"\"\n"
+        "    _check(gap)\n"
+        "    q, l = gap, math.log(gap)\n"
+        "    return ({2}{3})\n\n\n",
+        name, what, terms_text(sum, formula, plain, "\n            + "), tail);
+  };
+  return commented(fit, source, "#") +
+         fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",
+                     plain(fit.gap_interval[0]), plain(fit.gap_interval[1])) +
+         "def _check(gap):\n"
+         "    if not SMALLEST_GAP <= gap <= LARGEST_GAP:\n"
+         "        raise ValueError(f\"gap {gap} is outside [{SMALLEST_GAP}, "
+         "{LARGEST_GAP}]\")\n\n\n" +
+         function("resistance", "R(q), > 0.", &Term::value, "") +
+         function("impulse", "Gamma(q).", &Term::antiderivative,
+                  fmt::format("\n            - ({})", plain(sum.offset))) +
+         "def force(gap, velocity):\n"
+         "    \"\"\"F(q, u). Raises ValueError outside the interval.\"\"\"\n"
+         "    return -resistance(gap) * velocity\n";
+}
+
+std::string write_json(const Fit& fit, std::string_view source) {
+  const Sum sum = sum_of(fit);
+  const LubricationForce force(fit);
+  nlohmann::ordered_json json;
+  json["about"] = facts(fit, source);
+  json["formulas"] =
+      "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
+      "impulse_offset";
+  json["interval"] =
+      fit.gap_interval;  // no key of a fit file, which an export is not to be taken for
+  json["radius"] = fit.radius;
+  json["viscosity"] = fit.viscosity;
+  json["largest_relative_residual"] = fit.largest_relative_residual;
+  json["terms"] = nlohmann::ordered_json::array();
+  for (const auto& [weight, term] : sum.terms)
+    json["terms"].push_back({{"name", term.name},
+                             {"weight", weight},
+                             {"value", term.value.text},
+                             {"antiderivative", term.antiderivative.text}});
+  json["impulse_offset"] = sum.offset;
+  json["reference_velocity"] = fit.reference_velocity;
+  for (const double gap : spread_gaps(fit.gap_interval)) {
+    json["samples"]["gap"].push_back(gap);
+    json["samples"]["resistance"].push_back(force.resistance(gap));
+    json["samples"]["impulse"].push_back(force.impulse(gap));
+    json["samples"]["force"].push_back(-force.resistance(gap) * fit.reference_velocity);
+  }
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string write_csv(const Fit& fit, std::string_view source) {
+  const LubricationForce force(fit);
+  std::string text = commented(fit, source, "#");
+  text += fmt::format("# force: at velocity {}\ngap,resistance,impulse,force\n",
+                      plain(fit.reference_velocity));
+  for (const double gap : spread_gaps(fit.gap_interval))
+    text += fmt::format("{},{},{},{}\n", plain(gap), plain(force.resistance(gap)),
+                        plain(force.impulse(gap)),
+                        plain(-force.resistance(gap) * fit.reference_velocity));
+  return text;
+}
+
+constexpr std::array kTargets = {
+    ExportTarget{"c-header", "functions of C99 and C++", TextKind::kC, write_c_header},
+    ExportTarget{"fortran", "a module of Fortran 2008", TextKind::kFortran, write_fortran},
+    ExportTarget{"python", "a module of Python 3", TextKind::kHashComment, write_python},
+    ExportTarget{"json", "terms, formulas and 201 samples", TextKind::kJson, write_json},
+    ExportTarget{"csv", "201 samples", TextKind::kHashComment, write_csv},
+};
+
+}  // namespace
+
+std::span<const ExportTarget> export_targets() { return kTargets; }
+
+std::string export_fit(const Fit& fit, std::string_view target, std::string_view source) {
+  (void)LubricationForce(fit);  // refuses a fit whose drag is not positive
+  return require_named(kTargets, target, "export target").write(fit, source);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,181 @@
+#include "viscontact/fitting/fit_force_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/fitting/diagnose.hpp"
+#include "viscontact/fitting/robust_least_squares.hpp"
+
+namespace viscontact {
+namespace {
+
+/// Stokes flow is linear in the velocity: at equal gaps F/u must agree to within the rows' own error estimates, where they have any.
+void check_linearity(const ForceTable& table) {
+  std::map<double, const ForceTableRow*> first_at;
+  for (const auto& row : table.rows) {
+    const auto* first = first_at.try_emplace(row.gap, &row).first->second;
+    const double allowed = row.relative_error_estimate + first->relative_error_estimate;
+    const double ratio =
+        (row.force / row.reference_velocity) / (first->force / first->reference_velocity);
+    if (allowed > 0 && std::abs(ratio - 1) > allowed)
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("at gap {} the force is not linear in the velocity: force over "
+                              "velocity differs by {:.2g} relative between the velocities {} and "
+                              "{}; the rows' error estimates allow {:.2g}",
+                              row.gap, ratio - 1, first->reference_velocity, row.reference_velocity,
+                              allowed));
+  }
+}
+
+/// The coefficient to hold. Throws Error(kBadInput) if neither settings nor table have one.
+double held_leading(const ForceTable& table, const FitSettings& settings) {
+  if (find_named(settings.basis.terms, kLeadingTerm) == nullptr)
+    throw Error(ExitCode::kBadInput, "the basis has no term 1/q whose coefficient could be held");
+  if (settings.leading_value) return *settings.leading_value;
+  if (!table.leading_coefficient)
+    throw Error(
+        ExitCode::kBadInput,
+        "the table does not say what theory's coefficient of 1/q is; give the value to hold, "
+        "or write the k of R = k/q into the table's header (# leading_coefficient: k)");
+  return -*table.leading_coefficient * table.rows.front().reference_velocity;
+}
+
+void check_gaps(const ForceTable& table, const FitSettings& settings) {
+  if (settings.hold_leading && settings.basis.terms.size() == 1)
+    throw Error(ExitCode::kBadInput,
+                "the only coefficient is held, so that there is nothing to fit; give more terms");
+  std::set<double> gaps;
+  for (const auto& row : table.rows) gaps.insert(row.gap);
+  const std::size_t needed =
+      std::max<std::size_t>(2, settings.basis.terms.size() - (settings.hold_leading ? 1 : 0));
+  if (gaps.size() < needed)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the table has {} different gap(s); the basis {} needs at least {}",
+                            gaps.size(), settings.basis.name, needed));
+}
+
+/// What the least squares are made of, a row for each of the table's.
+struct Equations {
+  Eigen::VectorXd force;  // at the first row's velocity
+  Eigen::VectorXd left;   // what the held term leaves of it to the others
+  Eigen::MatrixXd terms;  // a column for each term that is not held
+  Eigen::VectorXd weight;
+};
+
+bool is_held(const Term& term, const FitSettings& settings) {
+  return settings.hold_leading && term.name == kLeadingTerm;
+}
+
+Equations assemble(const ForceTable& table, const FitSettings& settings, double held) {
+  const auto rows = static_cast<Eigen::Index>(table.rows.size());
+  const auto columns =
+      static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.hold_leading ? 1 : 0);
+  const double u0 = table.rows.front().reference_velocity;
+  Equations equations = {Eigen::VectorXd(rows), Eigen::VectorXd(rows),
+                         Eigen::MatrixXd(rows, columns), Eigen::VectorXd::Ones(rows)};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto& row = table.rows[static_cast<std::size_t>(i)];
+    const double log_gap = std::log(row.gap);
+    equations.force(i) = equations.left(i) = row.force * (u0 / row.reference_velocity);
+    Eigen::Index column = 0;
+    for (const auto& term : settings.basis.terms) {
+      const double value = term.value.at(row.gap, log_gap);
+      if (is_held(term, settings))
+        equations.left(i) -= held * value;
+      else
+        equations.terms(i, column++) = value;
+    }
+  }
+  if (settings.weights == Weights::kRelative)
+    equations.weight = equations.force.cwiseAbs().cwiseInverse();
+  return equations;
+}
+
+/// Coefficients and covariance, with a zero row and column for what is held.
+void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
+                      double held, Fit& fit) {
+  std::vector<Eigen::Index> columns;  // of the solution; -1: held
+  Eigen::Index free = 0;
+  for (const auto& term : settings.basis.terms) {
+    const std::string name(term.name);
+    if (is_held(term, settings)) {
+      columns.push_back(-1);
+      fit.terms.push_back({name, held, 0, true});
+    } else {
+      fit.terms.push_back(
+          {name, solution.coefficients(free), std::sqrt(solution.covariance(free, free)), false});
+      columns.push_back(free++);
+    }
+  }
+  fit.covariance.assign(columns.size(), std::vector<double>(columns.size(), 0.0));
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      if (columns[i] >= 0 && columns[j] >= 0)
+        fit.covariance[i][j] = solution.covariance(columns[i], columns[j]);
+}
+
+FittedSystem residuals_of(const Equations& equations, const RobustSolution& solution) {
+  const Eigen::VectorXd residual =
+      equations.terms * solution.least_squares.coefficients - equations.left;
+  const Eigen::VectorXd weighted = equations.weight.cwiseProduct(residual);
+  const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
+  FittedSystem system;
+  system.weighted_matrix = root.cwiseProduct(equations.weight).asDiagonal() * equations.terms;
+  system.weighted_residual = root.cwiseProduct(weighted);
+  system.relative_residual = residual.cwiseQuotient(equations.force);
+  system.scaled_residual = weighted / solution.scale;
+  return system;
+}
+
+}  // namespace
+
+Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
+  check_linearity(table);
+  check_gaps(table, settings);
+  const double held = settings.hold_leading ? held_leading(table, settings) : 0;
+  const auto equations = assemble(table, settings, held);
+  const auto solution =
+      solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
+                                 equations.weight.cwiseProduct(equations.left), settings.loss);
+
+  Fit fit;
+  fit.basis = settings.basis.name;
+  fit.reference_velocity = table.rows.front().reference_velocity;
+  fit.viscosity = table.viscosity;
+  fit.radius = table.radius;
+  fit.gap_interval = {std::ranges::min_element(table.rows, {}, &ForceTableRow::gap)->gap,
+                      std::ranges::max_element(table.rows, {}, &ForceTableRow::gap)->gap};
+  fit.weights = settings.weights;
+  fit.loss = settings.loss;
+  fit.geometry = table.geometry;
+  fit.leading_coefficient = table.leading_coefficient;
+  set_coefficients(solution.least_squares, settings, held, fit);
+  fit.condition_number = solution.least_squares.condition_number;
+  const auto system = residuals_of(equations, solution);
+  fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();
+  fit.rms_relative_residual = std::sqrt(system.relative_residual.array().square().mean());
+  if (!std::isfinite(fit.rms_relative_residual) ||
+      std::ranges::any_of(fit.terms, [](const FitTerm& term) {
+        return !std::isfinite(term.coefficient) || !std::isfinite(term.standard_error);
+      }))
+    throw Error(
+        ExitCode::kBadInput,
+        "the forces are too large, or differ too much in size, to be fitted in double precision");
+  fit.diagnostics = diagnose(table, system, fit);
+  return fit;
+}
+
+Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights) {
+  FitSettings settings;
+  settings.basis = find_basis(basis);
+  settings.weights = weights;
+  return fit_force_table(table, settings);
+}
+
+}  // namespace viscontact

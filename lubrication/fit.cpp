@@ -1,0 +1,67 @@
+#include "viscontact/lubrication/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
+
+namespace viscontact {
+namespace {
+
+struct NamedLoss {
+  std::string_view name;
+  Loss loss;
+};
+
+constexpr std::array kLosses = {NamedLoss{"none", Loss::kSquared}, NamedLoss{"huber", Loss::kHuber},
+                                NamedLoss{"cauchy", Loss::kCauchy}};
+
+}  // namespace
+
+std::string_view to_string(Weights weights) {
+  return weights == Weights::kRelative ? "relative" : "absolute";
+}
+
+Weights parse_weights(std::string_view word) {
+  if (word == "relative") return Weights::kRelative;
+  if (word == "absolute") return Weights::kAbsolute;
+  throw Error(ExitCode::kBadInput,
+              fmt::format("the weights are '{}'; they must be relative or absolute", word));
+}
+
+std::string_view to_string(Loss loss) {
+  return std::ranges::find(kLosses, loss, &NamedLoss::loss)->name;
+}
+
+Loss parse_loss(std::string_view word) { return require_named(kLosses, word, "loss").loss; }
+
+Fit exact_plane_fit(double viscosity, double radius) {
+  Fit fit;
+  fit.basis = kExactPlane;
+  fit.reference_velocity = -1;
+  fit.viscosity = viscosity;
+  fit.radius = radius;
+  fit.gap_interval = {1e-300, 1e300};
+  fit.geometry = "plane, unbounded";
+  fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;
+  return fit;
+}
+
+Fit with_viscosity(Fit fit, double viscosity) {
+  const double scale = viscosity / fit.viscosity;
+  fit.viscosity = viscosity;
+  for (auto& term : fit.terms) {
+    term.coefficient *= scale;
+    term.standard_error *= scale;
+  }
+  for (auto& row : fit.covariance)
+    for (auto& entry : row) entry *= scale * scale;
+  if (fit.leading_coefficient) *fit.leading_coefficient *= scale;
+  return fit;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,267 @@
+#include "viscontact/lubrication/lubrication_force.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/lubrication/plane_drag.hpp"
+#include "viscontact/lubrication/spread_gaps.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
+
+namespace viscontact {
+namespace {
+
+// Gaps over radius between which lambda and its integral are numbers of full precision.
+constexpr std::array kExactRange = {1e-300, 1e300};
+
+}  // namespace
+
+LubricationForce::LubricationForce(double viscosity, double radius)
+    : exact_(true),
+      radius_(radius),
+      viscosity_(viscosity),
+      leading_(stokes_resistance(viscosity, radius) * radius),
+      fitted_interval_{kExactRange[0] * radius, kExactRange[1] * radius} {}
+
+LubricationForce LubricationForce::exact_plane(double viscosity, double radius) {
+  return {viscosity, radius};
+}
+
+LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInterval above)
+    : radius_(fit.radius),
+      viscosity_(fit.viscosity),
+      fitted_interval_(fit.gap_interval),
+      below_(below),
+      above_(above) {
+  if (fit.basis == kExactPlane) {
+    *this = exact_plane(fit.viscosity, fit.radius);
+    return;
+  }
+  weights_.assign(all_terms().size(), 0.0);
+  for (const auto& term : fit.terms)
+    weights_[place_of(term.name)] = -term.coefficient / fit.reference_velocity;
+  leading_ = weights_[place_of(kLeadingTerm)];
+  regular_weights_ = weights_;
+  regular_weights_[place_of(kLeadingTerm)] = 0;
+  impulse_at_radius_ = sum_antiderivatives(weights_, radius_);
+  // A drag that changes sign has no Gamma to invert; such a fit is of no use to any model.
+  for (const double gap : spread_gaps(fitted_interval_))
+    if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
+      throw Error(ExitCode::kBadInput,
+                  fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
+                              "inside its interval; a drag must be positive and finite: "
+                              "fit again with another basis or other weights",
+                              resistance(gap), gap));
+  set_limits(fit);
+}
+
+void LubricationForce::set_limits(const Fit& fit) {
+  const auto [smallest, largest] = fitted_interval_;
+  if (below_ == BelowInterval::kLubricationLimit && leading_ > 0)
+    limit_ = {leading_, regular_resistance(smallest)};
+  if (below_ == BelowInterval::kTheoryLimit) {
+    if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
+      throw Error(ExitCode::kBadInput,
+                  "the fit does not say what theory's coefficient k of k/q is (its key "
+                  "leading_coefficient must be > 0); fit a table that says it, or use the fitted "
+                  "coefficient");
+    limit_ = {*fit.leading_coefficient, resistance(smallest) - *fit.leading_coefficient / smallest};
+  }
+  image_ = (resistance(largest) / stokes_resistance(viscosity_, radius_) - 1) * (largest + radius_);
+}
+
+std::array<double, 2> LubricationForce::interval() const {
+  return {below_ == BelowInterval::kError ? fitted_interval_[0] : 0.0,
+          above_ == AboveInterval::kError ? fitted_interval_[1]
+                                          : std::numeric_limits<double>::infinity()};
+}
+
+void LubricationForce::check_gap(double gap) const {
+  const auto [smallest, largest] = fitted_interval_;
+  const bool allowed =
+      gap >= smallest ? gap <= largest || (above_ != AboveInterval::kError && std::isfinite(gap))
+                      : below_ != BelowInterval::kError && gap > 0;
+  if (allowed) return;
+  const char* remedy = "";
+  if (exact_ && gap >= 0 && gap < smallest)
+    throw Error(ExitCode::kNotConverged,
+                "the film is thinner than the smallest number that a double can hold");
+  if (exact_)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("gap {} is outside [{}, {}], the gaps at which the exact drag can be "
+                            "computed",
+                            gap, smallest, largest));
+  if (gap < smallest && below_ == BelowInterval::kError)
+    remedy =
+        ", or let the drag follow the lubrication limit below it (below = \"lubrication_limit\" in "
+        "the section [fit] of the case)";
+  if (gap > largest)
+    remedy =
+        ", or let the drag tend to Stokes' drag above it (above = \"stokes_limit\" in the section "
+        "[fit] of the case)";
+  throw Error(
+      ExitCode::kBadInput,
+      fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
+                  smallest, largest, remedy));
+}
+
+double LubricationForce::leading_coefficient() const {
+  if (!(leading_ > 0))
+    throw Error(ExitCode::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
+                                                 "is {}; it must be > 0 for a contact model and "
+                                                 "for the lubrication limit",
+                                                 leading_));
+  return leading_;
+}
+
+LubricationForce::LubricationLimit LubricationForce::limit() const {
+  if (!(limit_.k > 0)) (void)leading_coefficient();  // says what is missing
+  return limit_;
+}
+
+double LubricationForce::regular_resistance(double gap) const {
+  if (exact_)
+    return leading_ / radius_ * plane_drag_factor_regular(std::max(gap / radius_, kExactRange[0]));
+  const double from = std::max(gap, fitted_interval_[0]);
+  check_gap(from);
+  if (from > fitted_interval_[1]) return resistance(from) - leading_ / from;
+  return sum_values(regular_weights_, from);
+}
+
+double LubricationForce::regular_impulse(double gap) const {
+  if (exact_)
+    return gap > 0 ? leading_ * plane_drag_regular_integral(std::max(gap / radius_, kExactRange[0]))
+                   : 0;
+  const auto [smallest, largest] = fitted_interval_;
+  if (gap <= smallest) return gap * regular_resistance(smallest);
+  check_gap(gap);
+  const double to_smallest = smallest * regular_resistance(smallest);
+  const double within = std::min(gap, largest);
+  const double in_interval = sum_antiderivatives(regular_weights_, within) -
+                             sum_antiderivatives(regular_weights_, smallest);
+  const double above =
+      gap > largest ? impulse(gap) - impulse(largest) - leading_ * std::log(gap / largest) : 0;
+  return to_smallest + in_interval + above;
+}
+
+double LubricationForce::resistance(double gap) const {
+  check_gap(gap);
+  if (exact_) return leading_ / radius_ * plane_drag_factor(gap / radius_);
+  if (gap < fitted_interval_[0]) {
+    const double resistance = limit().k / gap + limit().constant;
+    if (!std::isfinite(resistance))
+      throw Error(ExitCode::kNotConverged,
+                  fmt::format("the resistance at gap {} is larger than a double can hold", gap));
+    return resistance;
+  }
+  if (gap > fitted_interval_[1])
+    return stokes_resistance(viscosity_, radius_) * (1 + image_ / (gap + radius_));
+  return sum_values(weights_, gap);
+}
+
+double LubricationForce::resistance_log_slope(double gap) const {
+  check_gap(gap);
+  if (exact_) return leading_ / radius_ * plane_drag_factor_log_slope(gap / radius_);
+  if (gap < fitted_interval_[0]) return -limit().k / gap;
+  if (gap > fitted_interval_[1])
+    return -stokes_resistance(viscosity_, radius_) * image_ * gap /
+           ((gap + radius_) * (gap + radius_));
+  return sum_log_slopes(weights_, gap);
+}
+
+double LubricationForce::impulse(double gap) const {
+  check_gap(gap);
+  if (exact_) return leading_ * plane_drag_integral(gap / radius_);
+  const auto [smallest, largest] = fitted_interval_;
+  if (gap < smallest)
+    return impulse(smallest) + limit().k * std::log(gap / smallest) +
+           limit().constant * (gap - smallest);
+  if (gap > largest)
+    return impulse(largest) +
+           stokes_resistance(viscosity_, radius_) *
+               (gap - largest + image_ * std::log((gap + radius_) / (largest + radius_)));
+  return sum_antiderivatives(weights_, gap) - impulse_at_radius_;
+}
+
+std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
+  if (!std::isfinite(impulse_wanted))
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the film would have to absorb an impulse of {}; it must be finite",
+                            impulse_wanted));
+  const auto [smallest, largest] = fitted_interval_;
+  const double low = std::log(smallest / radius_);
+  const double high = std::log(largest / radius_);
+  if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
+    // lambda > 1/eps and > 1, so Gamma/k is below ln eps on this side of eps = 1, and above ln eps and eps - 1 on that side.
+    const double scaled = impulse_wanted / leading_;
+    if (scaled < 0) return {std::max(scaled, low), 0.0};
+    return {0.0, std::min(scaled, std::log1p(scaled))};
+  }
+  if (impulse_wanted < impulse(smallest)) {
+    if (exact_)
+      throw Error(ExitCode::kNotConverged,
+                  "the film is thinner than the smallest number that a double can hold");
+    if (below_ == BelowInterval::kError)
+      throw Error(
+          ExitCode::kBadInput,
+          fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
+                      "{:.6g}]; tabulate and fit further, or let the drag follow the lubrication "
+                      "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
+                      "case)",
+                      smallest, largest));
+    // k (s - ln q1) + c (e^s - q1) = what is wanted beyond Gamma(q1): the second term moves s by less than |c| q1 / k.
+    const auto [k, constant] = limit();
+    const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
+    const double by_constant = constant * smallest / k;
+    const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
+    const double thinnest = std::log(std::numeric_limits<double>::min()) - std::log(radius_);
+    if (!(above >= thinnest))
+      throw Error(ExitCode::kNotConverged,
+                  "the film is thinner than the smallest number that a double can hold");
+    return {std::max(thinnest, by_leading_term + std::min(0.0, by_constant)), above};
+  }
+  const double beyond = impulse_wanted - impulse(largest);
+  if (!(beyond > 0)) return {low, high};
+  if (above_ == AboveInterval::kError)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
+                            "tabulate and fit further, or let the drag tend to Stokes' drag above "
+                            "it (above = \"stokes_limit\" in the section [fit] of the case)",
+                            smallest, largest));
+  // R lies between its values at q2 and at infinity.
+  const double stokes = stokes_resistance(viscosity_, radius_);
+  return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
+}
+
+double LubricationForce::gap_of_impulse(double impulse_wanted) const {
+  // Gamma is close to a linear function of s = ln(q/r) near contact, so Newton's method is applied
+  // in s, inside a bracket that shrinks. The radius r makes s, and with it the rounding of q,
+  // independent of the unit of length.
+  auto [low, high] = bracket_of_impulse(impulse_wanted);
+  double s = high - (high - low) / 2;
+  constexpr int kMaxSteps = 200;  // bisection alone needs about 60
+  // ln and exp of an end of the interval may come back a rounding outside it.
+  const auto gap_at = [this](double log_gap) {
+    return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
+  };
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double gap = gap_at(s);
+    const double excess = impulse(gap) - impulse_wanted;
+    if (excess == 0) return gap;
+    (excess > 0 ? high : low) = s;
+    const double newton = s - excess / (resistance(gap) * gap);
+    const double next = newton > low && newton < high ? newton : low + (high - low) / 2;
+    // Steps below the rounding of s change nothing any more.
+    if (std::abs(next - s) <=
+        2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
+      return gap_at(next);
+    s = next;
+  }
+  return gap_at(s);
+}
+
+}  // namespace viscontact

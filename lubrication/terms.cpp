@@ -1,0 +1,121 @@
+#include "viscontact/lubrication/terms.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <type_traits>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
+
+namespace viscontact {
+namespace {
+
+// The expression once as text and once as code: what is exported cannot differ from what is fitted.
+#define FORMULA(expression)                                                                       \
+  Formula {                                                                                       \
+#expression,                                                                                  \
+        []([[maybe_unused]] double q, [[maybe_unused]] double l) -> double { return expression; } \
+  }
+
+// clang-format off
+constexpr std::array kTerms = {
+    //   name          value             log_slope                 antiderivative
+    Term{kLeadingTerm, FORMULA(1.0/q),   FORMULA(-1.0/q),          FORMULA(l)},
+    Term{"ln q",       FORMULA(l),       FORMULA(1.0),             FORMULA(q*(l - 1.0))},
+    Term{"1",          FORMULA(1.0),     FORMULA(0.0),             FORMULA(q)},
+    Term{"q ln q",     FORMULA(q*l),     FORMULA(q*(l + 1.0)),     FORMULA(q*q*(2.0*l - 1.0)/4.0)},
+    Term{"q",          FORMULA(q),       FORMULA(q),               FORMULA(q*q/2.0)},
+    Term{"q^2 ln q",   FORMULA(q*q*l),   FORMULA(q*q*(2.0*l + 1.0)), FORMULA(q*q*q*(3.0*l - 1.0)/9.0)},
+    Term{"q^2",        FORMULA(q*q),     FORMULA(2.0*q*q),         FORMULA(q*q*q/3.0)},
+    Term{"q^3 ln q",   FORMULA(q*q*q*l), FORMULA(q*q*q*(3.0*l + 1.0)), FORMULA(q*q*q*q*(4.0*l - 1.0)/16.0)},
+    Term{"q^3",        FORMULA(q*q*q),   FORMULA(3.0*q*q*q),       FORMULA(q*q*q*q/4.0)},
+};
+// clang-format on
+
+#undef FORMULA
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Adds the term of that name. Throws Error(kBadInput).
+void add_term(Basis& basis, std::string_view name) {
+  if (find_named(basis.terms, name) != nullptr)
+    throw Error(ExitCode::kBadInput,
+                fmt::format("the term '{}' is named twice; name it once", name));
+  basis.terms.push_back(require_named(kTerms, name, "term"));
+}
+
+Basis make_basis(std::string_view name, std::string_view terms) {
+  Basis basis = parse_terms(terms);
+  basis.name = name;
+  return basis;
+}
+
+/// The formulas are known when this is compiled, so that all are expanded in place.
+template <Formula Term::*formula>
+double sum_of(std::span<const double> weights, double gap) {
+  const double log_gap = std::log(gap);
+  double total = 0;
+  const auto add = [&]<std::size_t i>(std::integral_constant<std::size_t, i>) {
+    constexpr auto at = (kTerms[i].*formula).at;
+    if (weights[i] != 0) total += weights[i] * at(gap, log_gap);
+  };
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (add(std::integral_constant<std::size_t, i>()), ...);
+  }
+  (std::make_index_sequence<kTerms.size()>());
+  return total;
+}
+
+}  // namespace
+
+std::span<const Term> all_terms() { return kTerms; }
+
+double sum_values(std::span<const double> weights, double gap) {
+  return sum_of<&Term::value>(weights, gap);
+}
+
+double sum_log_slopes(std::span<const double> weights, double gap) {
+  return sum_of<&Term::log_slope>(weights, gap);
+}
+
+double sum_antiderivatives(std::span<const double> weights, double gap) {
+  return sum_of<&Term::antiderivative>(weights, gap);
+}
+
+std::size_t place_of(std::string_view term) {
+  return static_cast<std::size_t>(&require_named(kTerms, term, "term") - kTerms.data());
+}
+
+std::optional<Term> find_term(std::string_view name) {
+  const auto* term = find_named(kTerms, name);
+  return term == nullptr ? std::nullopt : std::optional(*term);
+}
+
+const std::vector<Basis>& all_bases() {
+  static const std::vector<Basis> bases = {
+      make_basis("lecture", "1/q, 1, q, q^2, q^3"),
+      make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
+      make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),
+  };
+  return bases;
+}
+
+const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
+
+Basis parse_terms(std::string_view names) {
+  Basis basis{kOwnTerms, {}};
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const auto end = std::min(names.find(',', begin), names.size());
+    add_term(basis, trimmed(names.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return basis;
+}
+
+}  // namespace viscontact

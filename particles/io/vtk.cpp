@@ -1,0 +1,105 @@
+#include "viscontact/particles/io/vtk.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "viscontact/common/number.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// The <AppendedData> of a file, and the elements that point into it.
+class Appended {
+ public:
+  template <class Number>
+  std::string array(const char* type, const char* name, int components,
+                    const std::vector<Number>& values) {
+    const auto element = fmt::format(
+        R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
+        "\n",
+        type, name, components, bytes_.size());
+    const std::uint64_t size = values.size() * sizeof(Number);
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+    return element;
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+std::string write_vtp(const Particles& particles, std::span<const ContactNow> contacts) {
+  std::vector<double> points, velocities, gaps, gammas;
+  std::vector<std::int32_t> ids, firsts, seconds;
+  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    const auto x = particles.position(k), u = particles.velocity(k);
+    points.insert(points.end(), x.begin(), x.end());
+    velocities.insert(velocities.end(), u.begin(), u.end());
+    ids.push_back(particles.id(k));
+  }
+  // VTK numbers vertices before lines.
+  for (const bool wall : {true, false})
+    for (const auto& contact : contacts) {
+      if ((contact.first < 0) != wall) continue;
+      if (wall) {
+        vertices.push_back(contact.second);
+        vertex_ends.push_back(std::ssize(vertices));
+      } else {
+        lines.insert(lines.end(), {contact.first, contact.second});
+        line_ends.push_back(std::ssize(lines));
+      }
+      gaps.push_back(contact.gap);
+      gammas.push_back(contact.gamma);
+      const auto [first, second] = ids_of(particles, contact);
+      firsts.push_back(first);
+      seconds.push_back(second);
+    }
+  Appended data;
+  std::string text = "<?xml version=\"1.0\"?>\n";
+  text += fmt::format(
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n",
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  text += fmt::format(
+      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
+      particles.count(), vertex_ends.size(), line_ends.size());
+  text += "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
+  text += data.array("Float64", "radius", 1, particles.radii);
+  text += data.array("Float64", "velocity", 3, velocities);
+  text += data.array("Int32", "id", 1, ids);
+  text += "</PointData>\n<CellData Scalars=\"gamma\">\n";
+  text += data.array("Float64", "gap", 1, gaps);
+  text += data.array("Float64", "gamma", 1, gammas);
+  text += data.array("Int32", "i", 1, firsts);
+  text += data.array("Int32", "j", 1, seconds);
+  text += "</CellData>\n<Points>\n";
+  text += data.array("Float64", "Points", 3, points);
+  text += "</Points>\n<Verts>\n";
+  text += data.array("Int64", "connectivity", 1, vertices);
+  text += data.array("Int64", "offsets", 1, vertex_ends);
+  text += "</Verts>\n<Lines>\n";
+  text += data.array("Int64", "connectivity", 1, lines);
+  text += data.array("Int64", "offsets", 1, line_ends);
+  text += "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  text += data.bytes();
+  text += "\n</AppendedData>\n</VTKFile>\n";
+  return text;
+}
+
+std::string write_pvd(std::span<const std::pair<double, std::string>> files) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  for (const auto& [time, file] : files)
+    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
+                        format_number(time), file);
+  return text + "</Collection>\n</VTKFile>\n";
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <vector>
+
+#include "viscontact/common/system/block_results.hpp"
+#include "viscontact/particles/projection/projection.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// What a pass over the contacts from y to x = P(y - g(y)/L) finds.
+struct Sums {
+  double square = 0;  ///< |x - y|^2
+  double uphill = 0;  ///< g(y).(x - x before)
+  Sums& operator+=(const Sums& other) {
+    square += other.square;
+    uphill += other.uphill;
+    return *this;
+  }
+};
+
+}  // namespace
+
+template <int D>
+Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /*factor*/) {
+  const std::size_t count = graph.count();
+  const std::size_t numbers = graph.bodies() * D;
+  auto& team = graph.team();
+  // x: iterates; y: extrapolated; g: gradients, linear in their points, so that one product with W serves both.
+  std::vector<double> x = graph.z, y = graph.z, next(count), g_x(count), g_y(count), g_next(count);
+  std::vector<double> bodies_y(numbers), bodies_x(numbers), bodies_next(numbers), step;
+  const auto gradient = [&](const std::vector<double>& bodies, std::vector<double>& g,
+                            const std::vector<double>& at) {
+    return team
+        .template sum_of_blocks<Largest>(
+            count,
+            [&](std::size_t begin, std::size_t end) {
+              Largest largest;
+              for (std::size_t c = begin; c < end; ++c) {
+                g[c] = graph.linear_term[c] + graph.to_contact(c, bodies.data());
+                largest.value = std::max(largest.value, graph.residual(c, at[c], g[c]));
+              }
+              return largest;
+            })
+        .value;
+  };
+  graph.to_bodies(x, bodies_x);
+  Solved solved;
+  if (count == 0) return solved;
+  solved.residual = gradient(bodies_x, g_x, x);
+  g_y = g_x;
+  bodies_y = bodies_x;
+  double theta = 1;
+  double steepness = 1;  // L: of W, whose diagonal is 1
+  constexpr double kSteeper = 1.3, kFlatter = 0.99;
+  while (solved.residual > 1 && solved.iterations < max_iterations) {
+    Sums sums;
+    for (;;) {
+      sums = team.template sum_of_blocks<Sums>(count, [&](std::size_t begin, std::size_t end) {
+        Sums part;
+        for (std::size_t c = begin; c < end; ++c) {
+          next[c] = std::max(graph.bound[c], y[c] - g_y[c] / steepness);
+          const double change = next[c] - y[c];
+          part.square += change * change;
+          part.uphill += g_y[c] * (next[c] - x[c]);
+        }
+        return part;
+      });
+      graph.to_bodies(next, bodies_next);
+      ++solved.iterations;
+      // (x - y)^T W (x - y), of displacements that are linear in x and y.
+      step = bodies_y;
+      const double curvature = graph.combine(bodies_next, -1, step);
+      // Equal but for rounding is not steeper.
+      if (curvature <= steepness * sums.square * (1 + 1e-9) || solved.iterations >= max_iterations)
+        break;
+      steepness *= kSteeper;
+    }
+    solved.residual = gradient(bodies_next, g_next, next);
+    const double theta_next = (1 + std::sqrt(1 + 4 * theta * theta)) / 2;
+    const bool restart = sums.uphill > 0;
+    const double beta = restart ? 0 : (theta - 1) / theta_next;
+    theta = restart ? 1 : theta_next;
+    team.for_blocks(count, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        y[c] = next[c] + beta * (next[c] - x[c]);
+        g_y[c] = g_next[c] + beta * (g_next[c] - g_x[c]);
+      }
+    });
+    for (std::size_t k = 0; k < numbers; ++k)
+      bodies_y[k] = bodies_next[k] + beta * (bodies_next[k] - bodies_x[k]);
+    std::swap(x, next);
+    std::swap(g_x, g_next);
+    std::swap(bodies_x, bodies_next);
+    steepness *= kFlatter;
+  }
+  graph.z = x;
+  return solved;
+}
+
+template Solved accelerated_gradient<2>(ContactGraph<2>&, int, FaceFactor<2>&);
+template Solved accelerated_gradient<3>(ContactGraph<3>&, int, FaceFactor<3>&);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,94 @@
+#include "viscontact/particles/projection/active_set_newton.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace viscontact::particles {
+namespace {
+
+template <int D>
+class Newton {
+ public:
+  explicit Newton(ContactGraph<D>& graph)
+      : graph_(graph),
+        factor_(0),
+        displacements_(graph.bodies() * D),
+        gradient_(graph.count()),
+        correction_(graph.count()),
+        active_(graph.count()) {
+    compute_gradient();
+  }
+
+  /// Predicts the active contacts and solves for their impulses. Returns false if that cannot be
+  /// done.
+  bool step() {
+    bool changed = false;
+    for (std::size_t c = 0; c < graph_.count(); ++c) {
+      // A contact that is at its bound and closes by no more than is allowed may carry load once
+      // its neighbours do: in a column at rest only the lowest contact closes by itself.
+      const double slack = 1 / graph_.per_allowed[c];
+      const char active = graph_.z[c] - graph_.bound[c] >= gradient_[c] - slack ? 1 : 0;
+      changed |= active != active_[c];
+      active_[c] = active;
+      if (active == 0) graph_.z[c] = graph_.bound[c];
+    }
+    if ((changed || !factor_.exists()) && !factor_.factorise(graph_, active_)) return false;
+    compute_gradient();
+    factor_.solve(gradient_, correction_);
+    for (std::size_t c = 0; c < graph_.count(); ++c) {
+      graph_.z[c] -= correction_[c];
+      // A contact that touches without load is at its bound but for rounding errors.
+      const double slack = 1 / graph_.per_allowed[c];
+      if (graph_.z[c] < graph_.bound[c] && graph_.z[c] > graph_.bound[c] - slack)
+        graph_.z[c] = graph_.bound[c];
+    }
+    compute_gradient();
+    return true;
+  }
+
+  /// The largest residual; infinite where an impulse is below its bound.
+  double residual() const {
+    double largest = 0;
+    for (std::size_t c = 0; c < graph_.count(); ++c) {
+      if (!(graph_.z[c] >= graph_.bound[c])) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, graph_.residual(c, graph_.z[c], gradient_[c]));
+    }
+    return largest;
+  }
+
+ private:
+  void compute_gradient() {
+    graph_.to_bodies(graph_.z, displacements_);
+    for (std::size_t c = 0; c < graph_.count(); ++c)
+      gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, displacements_.data());
+  }
+
+  ContactGraph<D>& graph_;
+  FaceFactor<D> factor_;
+  std::vector<double> displacements_;  // B z, of the bodies
+  std::vector<double> gradient_, correction_;
+  std::vector<char> active_;
+};
+
+}  // namespace
+
+template <int D>
+Solved active_set_newton(ContactGraph<D>& graph, int max_iterations) {
+  const auto start = graph.z;
+  Newton<D> newton(graph);
+  Solved solved{0, std::numeric_limits<double>::infinity()};
+  while (solved.iterations < max_iterations && newton.step()) {
+    ++solved.iterations;
+    solved.residual = newton.residual();
+    if (solved.residual <= 1) return solved;
+  }
+  graph.z = start;
+  solved.residual = std::numeric_limits<double>::infinity();
+  return solved;
+}
+
+template Solved active_set_newton<2>(ContactGraph<2>&, int);
+template Solved active_set_newton<3>(ContactGraph<3>&, int);
+
+}  // namespace viscontact::particles

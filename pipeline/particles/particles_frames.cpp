@@ -1,0 +1,105 @@
+#include "viscontact/pipeline/particles/particles_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using particles::Frame;
+using particles::Simulation;
+
+Frame frame_at(double time, const particles::Setting& setting, const std::vector<double>& positions,
+               std::vector<particles::ContactNow> contacts) {
+  Frame frame;
+  frame.time = time;
+  frame.positions.assign(positions.begin(), positions.end());
+  for (const auto& plane : setting.planes) frame.planes.push_back(plane.at(time));
+  frame.contacts = std::move(contacts);
+  return frame;
+}
+
+}  // namespace
+
+double FrameTimes::after(double time) const {
+  return first + (std::floor((time + tiny - first) / interval) + 1) * interval;
+}
+
+ParticleFrames::ParticleFrames(fs::path folder, const Provenance& provenance,
+                               const particles::Particles& particles)
+    : folder_(std::move(folder)), provenance_(provenance) {
+  playback_.dimension = particles.dimension;
+  playback_.radii.assign(particles.radii.begin(), particles.radii.end());
+  playback_.ids = particles.ids;
+}
+
+void ParticleFrames::add(const Simulation& simulation) {
+  const auto& state = simulation.state();
+  auto contacts = particles::contacts_of(simulation.setting(), state);
+  const auto name = fmt::format("particles_{:05}.vtp", files_.size());
+  write_output(folder_ / name, TextKind::kXml, particles::write_vtp(state.particles, contacts),
+               provenance_);
+  files_.emplace_back(state.time, name);
+  if ((files_.size() - 1) % every_ == 0)
+    keep(
+        frame_at(state.time, simulation.setting(), state.particles.positions, std::move(contacts)));
+}
+
+void ParticleFrames::resume(const std::vector<FrameFile>& files,
+                            const particles::Setting& setting) {
+  for (const auto& file : files) {
+    files_.push_back(file);
+    // A frame that is not drawn is read all the same: it must be there.
+    auto [positions, contacts] = particles::read_vtp(folder_ / file.second, playback_.dimension);
+    if (positions.size() != playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
+      throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
+    if ((files_.size() - 1) % every_ == 0)
+      keep(frame_at(file.first, setting, positions, std::move(contacts)));
+  }
+}
+
+void ParticleFrames::end(const Simulation& simulation) {
+  if (files_.empty()) return;  // not even the first could be written
+  const auto& state = simulation.state();
+  if (files_.back().first < state.time) add(simulation);
+  if (playback_.frames.back().time < state.time)
+    keep(frame_at(state.time, simulation.setting(), state.particles.positions,
+                  particles::contacts_of(simulation.setting(), state)));
+}
+
+void ParticleFrames::keep(Frame frame) {
+  kept_bytes_ += frame.positions.size() * sizeof(float) +
+                 frame.contacts.size() * sizeof(particles::ContactNow);
+  playback_.frames.push_back(std::move(frame));
+  // Beyond what a page can show, every second is enough.
+  constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
+  if (kept_bytes_ > kMostBytes && playback_.frames.size() > 4) {
+    std::vector<Frame> half;
+    for (std::size_t i = 0; i < playback_.frames.size(); i += 2)
+      half.push_back(std::move(playback_.frames[i]));
+    playback_.frames = std::move(half);
+    kept_bytes_ /= 2;
+    every_ *= 2;
+  }
+}
+
+std::vector<FrameFile> frames_until(const fs::path& pvd, double time, const FrameTimes& times) {
+  auto files = particles::read_pvd(pvd);
+  std::erase_if(files, [&](const FrameFile& file) { return file.first > time + times.tiny; });
+  if (files.size() > 1 &&
+      files.back().first < times.after(files[files.size() - 2].first) - times.tiny)
+    files.pop_back();
+  if (files.empty()) throw_bad_input({pvd.string()}, "has no frame");
+  return files;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,124 @@
+#include "viscontact/pipeline/particles/particles_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+
+namespace viscontact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Beyond a million rows, 50 MB, every thousandth step and those that did not converge are enough.
+constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
+
+std::string comment_begin(std::int64_t last_step) {
+  return fmt::format("# record after step {}: ", last_step);
+}
+
+/// The value of `key`, put into `value`.
+template <class Value>
+void get(const Json& json, const char* key, Value& value) {
+  json.at(key).get_to(value);
+}
+
+/// The header line of `text` and its rows up to the step `last_step`.
+std::string rows_until(std::string_view text, std::string_view header, std::int64_t last_step) {
+  const auto begin = text.find(header);
+  if (begin == std::string_view::npos) return "";
+  auto end = begin + header.size();
+  for (auto line_end = text.find('\n', end); line_end != std::string_view::npos;
+       line_end = text.find('\n', end)) {
+    std::int64_t step = 0;
+    const auto [stop, error] = std::from_chars(text.data() + end, text.data() + line_end, step);
+    if (error != std::errc() || *stop != ',' || step > last_step) break;
+    end = line_end + 1;
+  }
+  return std::string(text.substr(begin, end - begin));
+}
+
+}  // namespace
+
+void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
+  last_step = step;
+  ++steps;
+  unconverged += report.converged ? 0 : 1;
+  iterations += report.iterations;
+  most_iterations = std::max(most_iterations, report.iterations);
+  largest_residual = std::max(largest_residual, report.residual);
+  largest_overlap = std::max(largest_overlap, report.largest_overlap);
+  largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
+  divided += report.parts > 1 ? 1 : 0;
+  unresolved += static_cast<std::int64_t>(report.unresolved);
+  last_time = report.time;
+  if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
+  fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}\n", step,
+                 format_number(report.time), report.contacts, report.glued, report.iterations,
+                 format_number(report.residual), format_number(report.largest_overlap),
+                 report.converged ? 1 : 0, format_number(report.impulse_residual), report.parts,
+                 report.unresolved);
+}
+
+std::string record_comment(const StepSums& sums) {
+  const Json json = {{"steps", sums.steps},
+                     {"unconverged", sums.unconverged},
+                     {"iterations", sums.iterations},
+                     {"most_iterations", sums.most_iterations},
+                     {"first_time", sums.first_time},
+                     {"last_time", sums.last_time},
+                     {"largest_residual", sums.largest_residual},
+                     {"largest_overlap", sums.largest_overlap},
+                     {"largest_impulse_residual", sums.largest_impulse_residual},
+                     {"divided", sums.divided},
+                     {"unresolved", sums.unresolved},
+                     {"seconds", sums.seconds},
+                     {"peak_memory_mebibytes", sums.peak_memory_mebibytes}};
+  return comment_begin(sums.last_step) + json.dump() + "\n";
+}
+
+StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step) {
+  const std::string text = read_file(path);
+  const std::string begin = comment_begin(last_step);
+  const auto at = text.find(begin);
+  if (at == std::string::npos)
+    throw_bad_input({path.string()}, fmt::format("has no record after step {}", last_step));
+  StepRecord record;
+  record.last_step = last_step;
+  const auto json_begin = at + begin.size();
+  try {
+    const Json json =
+        Json::parse(text.substr(json_begin, text.find('\n', json_begin) - json_begin));
+    get(json, "steps", record.steps);
+    get(json, "unconverged", record.unconverged);
+    get(json, "iterations", record.iterations);
+    get(json, "most_iterations", record.most_iterations);
+    get(json, "first_time", record.first_time);
+    get(json, "last_time", record.last_time);
+    get(json, "largest_residual", record.largest_residual);
+    get(json, "largest_overlap", record.largest_overlap);
+    get(json, "largest_impulse_residual", record.largest_impulse_residual);
+    get(json, "divided", record.divided);
+    get(json, "unresolved", record.unresolved);
+    get(json, "seconds", record.seconds);
+    get(json, "peak_memory_mebibytes", record.peak_memory_mebibytes);
+  } catch (const Json::exception&) {
+    throw_bad_input({path.string()}, fmt::format("its record after step {} is damaged", last_step));
+  }
+  record.rows = rows_until(text, record.rows, last_step);
+  const auto lines = std::ranges::count(record.rows, '\n');
+  if (lines == 0 || (record.steps <= kMostRows && lines != record.steps + 1))
+    throw_bad_input({path.string()},
+                    fmt::format("has {} rows up to step {}, its record says {}",
+                                std::max<std::int64_t>(lines - 1, 0), last_step, record.steps));
+  return record;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,329 @@
+#include "viscontact/pipeline/particles/particles_stage.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/pipeline/particles/particles_earlier_run.hpp"
+#include "viscontact/pipeline/particles/particles_frames.hpp"
+#include "viscontact/report/particles/particles_page.hpp"
+#include "viscontact/report/particles/particles_picture.hpp"
+#include "viscontact/pipeline/particles/particles_record.hpp"
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particles/io/vtk.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using particles::Simulation;
+using particles::StepReport;
+using Clock = std::chrono::steady_clock;
+
+particles::State first_state(const ParticlesCase& c, const std::string& restart) {
+  particles::State state;
+  if (restart.empty()) {
+    state.particles = c.particles;
+    return state;
+  }
+  state = particles::read_restart(restart);
+  check_same_particles(state, c, restart);
+  state.particles.ids = c.particles.ids;
+  if (state.time > c.end_time * (1 - 1e-9))
+    throw_bad_input({restart},
+                    fmt::format("is at time {} and {} ends at {}, so that nothing is left to do",
+                                state.time, c.path.string(), c.end_time));
+  // Another step than before begins a grid of times of its own.
+  const double on_grid =
+      state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
+  if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
+    state.grid_time = state.time;
+    state.grid_step = state.steps;
+  }
+  return state;
+}
+
+nlohmann::ordered_json record_of(const ParticlesCase& c, const StepSums& record,
+                                 const Simulation& simulation) {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
+  nlohmann::ordered_json json;
+  json["title"] = c.title;
+  json["particles"] = simulation.state().particles.count();
+  json["dimension"] = simulation.state().particles.dimension;
+  json["from_time"] = record.first_time;
+  json["to_time"] = record.last_time;
+  json["time_step"] = c.setting.time_step;
+  json["steps"] = record.steps;
+  json["unconverged_steps"] = record.unconverged;
+  json["iterations"] = record.iterations;
+  json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
+  json["largest_iterations"] = record.most_iterations;
+  json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
+  json["largest_residual"] = record.largest_residual;
+  json["largest_impulse_residual"] = record.largest_impulse_residual;
+  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
+  json["divided_steps"] = record.divided;
+  json["unresolved_contacts"] = record.unresolved;
+  json["largest_overlap"] = record.largest_overlap;
+  json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
+  json["seconds"] = record.seconds;
+  json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
+  return json;
+}
+
+/// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
+void remove_earlier_run(const fs::path& folder) {
+  for (const auto* name : kParticleResults) remove_file(folder / name);
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_named_as_frame(entry.path())) frames.push_back(entry.path());
+  for (const auto& frame : frames) remove_file(frame);
+}
+
+/// Throws if the folder has a file with the name of a result that Viscontact did not write.
+void check_folder_is_ours(const fs::path& folder) {
+  const auto check = [](const fs::path& path) { refuse_other_kind(path, "", "result"); };
+  for (const auto* name : kParticleResults) check(folder / name);
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_named_as_frame(entry.path())) check(entry.path());
+}
+
+/// Refuses to write over what the run is made from.
+void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
+  std::error_code none;
+  if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
+    throw_bad_input(
+        {restart.string()},
+        "belongs to the run in the output folder, whose frames and record would be lost; choose "
+        "another folder, or leave out --restart: the same command continues an interrupted run in "
+        "its own folder");
+  for (const auto& input : {c.path, c.particles_file}) {
+    if (input.empty()) continue;
+    for (const auto* output : kParticleResults) {
+      std::error_code ignored;
+      if (fs::equivalent(input, folder / output, ignored))
+        throw_bad_input({input.string()}, "would be overwritten by the run's " +
+                                              std::string(output) + "; choose another folder");
+    }
+  }
+}
+
+/// A run on its way: everything in it is there to be written at any time.
+class Run {
+ public:
+  /// `record` and `frames` are those of an interrupted run, or new ones.
+  Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance,
+      StepRecord record, ParticleFrames frames)
+      : case_(c),
+        simulation_(simulation),
+        folder_(std::move(folder)),
+        provenance_(provenance),
+        frames_(std::move(frames)),
+        record_(std::move(record)),
+        earlier_(record_) {}
+
+  /// To the end, or until it is interrupted.
+  void simulate() {
+    if (frames_.files().empty()) frames_.add(simulation_);
+    save();
+    const auto times = frame_times(case_, record_.first_time);
+    double next_frame = times.after(frames_.files().back().first);
+    while (simulation_.state().time < case_.end_time - times.tiny && !interrupted()) {
+      const auto report = simulation_.step(case_.end_time);
+      record_.add(simulation_.state().steps, report);
+      if (report.time >= next_frame - times.tiny) {
+        frames_.add(simulation_);
+        next_frame = times.after(report.time);
+      }
+      tell(report);
+      constexpr double kSaveEvery = 60;  // seconds
+      if (seconds_since(last_saved_) > kSaveEvery) save();
+    }
+  }
+
+  /// All that there is to see and to go on from. Returns the record.
+  std::string write_results() {
+    clear_progress();
+    frames_.end(simulation_);
+    save();
+    const auto& state = simulation_.state();
+    write("final_particles.csv", TextKind::kHashComment,
+          particles::write_particles(state.particles));
+    write("final_contacts.csv", TextKind::kHashComment,
+          particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
+    constexpr int kPanels = 4;
+    write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
+    write("particles.svg", TextKind::kSvg,
+          particles_picture(frames_.playback(), case_.title, kPanels));
+    const auto json = record_of(case_, with_costs(), simulation_).dump(2) + "\n";
+    write("run.json", TextKind::kJson, json);
+    return json;
+  }
+
+  const StepRecord& record() const { return record_; }
+
+ private:
+  static double seconds_since(Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  }
+  void write(const char* name, TextKind kind, const std::string& text) const {
+    write_output(folder_ / name, kind, text, provenance_);
+  }
+
+  /// The sums, with the time and memory of this call and those before it.
+  StepSums with_costs() const {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    StepSums record = record_;
+    record.seconds += seconds_since(begin_);
+    record.peak_memory_mebibytes =
+        std::max(record.peak_memory_mebibytes, static_cast<double>(usage.ru_maxrss) / 1024);
+    return record;
+  }
+
+  /// What a killed run is gone on from, and the frames so far. restart.bin comes last, because a
+  /// run goes on from its step: whenever the process is killed, the other files know that step.
+  /// steps.csv may then be newer by one call of this function, so it keeps the record of the one before.
+  void save() {
+    const auto record = with_costs();
+    write("particles.pvd", TextKind::kXml, particles::write_pvd(frames_.files()));
+    write("steps.csv", TextKind::kHashComment,
+          (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
+              record_comment(record) + record_.rows);
+    write("restart.bin", TextKind::kHashComment, particles::write_restart(simulation_.state()));
+    earlier_ = record;
+    last_saved_ = Clock::now();
+  }
+
+  void tell(const StepReport& report) {
+    constexpr double kEvery = 0.2;  // seconds
+    if (seconds_since(last_word_) < kEvery) return;
+    show_progress(fmt::format(
+        "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
+        case_.end_time, report.contacts, report.iterations, seconds_since(begin_)));
+    last_word_ = Clock::now();
+  }
+
+  const ParticlesCase& case_;
+  Simulation& simulation_;
+  fs::path folder_;
+  const Provenance& provenance_;
+  ParticleFrames frames_;
+  StepRecord record_;
+  StepSums earlier_;  // as they were when restart.bin was written
+  Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
+};
+
+/// The last words on a run that was written. Throws if it was interrupted or has a step that did not converge.
+void judge(const ParticlesCase& c, const StepSums& record, const fs::path& folder) {
+  say(fmt::format(
+      "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
+      "largest overlap {:.2g} mean radii; {}",
+      record.steps, record.last_time,
+      static_cast<double>(record.iterations) /
+          static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
+      record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
+  if (record.unconverged > 0)
+    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
+                     record.unconverged, record.steps, c.setting.solver.tolerance,
+                     c.setting.solver.impulse_tolerance));
+  if (record.unresolved > 0)
+    warn(fmt::format(
+        "particles: warning: {} contacts were computed although their particles move past each "
+        "other by more than half the sum of their radii even in a {}th of the time step "
+        "(steps.csv says when); use a shorter time_step",
+        record.unresolved, 1 << Simulation::kMostHalvings));
+  if (interrupted())
+    say(fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
+                    record.last_time));
+  throw_if_interrupted();
+  if (record.unconverged > 0)
+    throw Error(
+        ExitCode::kNotConverged,
+        fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                    "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                    "solver.impulse_tolerance is {}). All results are written, and "
+                    "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                    "tolerances",
+                    c.path.string(), record.unconverged, record.steps, record.largest_residual,
+                    c.setting.solver.tolerance, record.largest_impulse_residual,
+                    c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
+}
+
+/// For a run that has nothing left to do: what the call that ended it said.
+void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
+                   bool json) {
+  if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
+  say(fmt::format("particles: {} is up to date", folder.string()));
+  judge(c, run.record, folder);
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  const ParticlesCase c = read_particles_case(request.case_file);
+  std::vector<fs::path> inputs = {c.path};
+  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
+  if (!request.restart.empty()) inputs.emplace_back(request.restart);
+  const Provenance provenance = provenance_of({inputs, {}});
+  const fs::path folder = request.folder;
+  check_inputs_stay(c, request.restart, folder);
+  auto state = first_state(c, request.restart);
+  const LockedFolder ours(folder, kFolderIsHeld);
+  check_folder_is_ours(folder);
+  auto earlier = find_earlier_run(c, folder, provenance);
+  if (earlier && is_finished(*earlier, c, folder)) {
+    tell_finished(c, *earlier, folder, request.json);
+    return;
+  }
+  StepRecord record;
+  ParticleFrames frames(folder, provenance, c.particles);
+  if (earlier) {
+    remove_later_frames(*earlier, folder);
+    say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
+                    folder.string(), earlier->state.time, earlier->state.steps));
+    state = std::move(earlier->state);
+    record = std::move(earlier->record);
+  } else {
+    remove_earlier_run(folder);
+    record.first_time = record.last_time = state.time;
+    record.last_step = state.steps;
+  }
+  Simulation simulation(c.setting, std::move(state), request.threads);
+  Run run(c, simulation, folder, provenance, std::move(record),
+          earlier ? std::move(earlier->frames) : std::move(frames));
+  try {
+    run.simulate();
+  } catch (const Error&) {
+    // A step that cannot be computed left the state before it: that is kept, too, unless it is the writing that failed.
+    try {
+      run.write_results();
+    } catch (const Error&) {
+    }
+    throw;
+  }
+  const auto json = run.write_results();
+  if (request.json) fmt::print("{}", json);
+  judge(c, run.record(), folder);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,297 @@
+#include "viscontact/pipeline/simulate_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/pipeline/model_progress.hpp"
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/pipeline/run_copies.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/reduced_model/fewer_rows.hpp"
+#include "viscontact/reduced_model/fit_uncertainty.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/reached_gaps.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBelowKey = "drag below the fit";
+constexpr const char* kAboveKey = "drag above the fit";
+
+/// What identifies the inputs of a trajectory, in its "# key: value" lines.
+CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text,
+                                   const OutsideFit& outside) {
+  CsvComments comments = {{"case", sha256(c.text)},
+                          {"fit", content_sha256(fit_text)},
+                          {"revision of the models", std::to_string(kModelsRevision)},
+                          {"version of Viscontact", VISCONTACT_VERSION}};
+  if (!c.force_files.empty()) comments["force"] = sha256(text_of_forces(c));
+  if (outside.below != BelowInterval::kError)
+    comments[kBelowKey] =
+        outside.below == BelowInterval::kTheoryLimit ? "theory's limit" : "lubrication limit";
+  if (outside.above != AboveInterval::kError) comments[kAboveKey] = "Stokes' limit";
+  return comments;
+}
+
+/// True if a trajectory with these lines was made from those inputs.
+bool is_made_from(const CsvComments& comments, const CsvComments& identity) {
+  const auto value = [](const CsvComments& of, const std::string& key) {
+    const auto found = of.find(key);
+    return found == of.end() ? std::string() : found->second;
+  };
+  const auto same = [&](const std::string& key) {
+    return value(comments, key) == value(identity, key);
+  };
+  return same(kBelowKey) && same(kAboveKey) &&
+         std::ranges::all_of(identity, [&](const auto& line) { return same(line.first); });
+}
+
+std::string time_step_of(std::string_view model, const Motion& motion) {
+  const auto name = find_model(model).model->name;
+  if (name == "viscous_contact_exact") return "none";
+  if (find_model(model).model->contact != nullptr || name == "explicit_euler")
+    return format_number(motion.contact_time_step);
+  return name == "reference" ? format_number(motion.reference_time_step) : "variable";
+}
+
+/// What the fit's errors do to the motion without inertia; nothing where there is no such motion, or the fit is exact.
+std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFit& outside) {
+  constexpr std::size_t kTimes = 81;
+  if (fit.basis == kExactPlane) return "";
+  try {
+    return write_uncertainty(propagate_fit(motion, fit, kTimes, outside.below, outside.above));
+  } catch (const Error& error) {
+    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
+                     error.what()));
+    return "";
+  }
+}
+
+/// How far beyond the fit's interval a model goes, as the end of a message; empty if it does not, or
+/// if that cannot be said. The drag is continued by its limits below and above the interval.
+std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, const Fit& fit,
+                             OutsideFit outside) {
+  if (choice.exact_drag || fit.basis == kExactPlane) return "";
+  const auto [low, high] = LubricationForce(fit, outside.below, outside.above).interval();
+  if (outside.below == BelowInterval::kError) outside.below = BelowInterval::kLubricationLimit;
+  if (outside.above == AboveInterval::kError) outside.above = AboveInterval::kStokesLimit;
+  const auto reached =
+      reached_gaps(choice, motion, LubricationForce(fit, outside.below, outside.above));
+  if (!reached) return "";
+  std::string text;
+  if (reached->smallest && *reached->smallest < low)
+    text += fmt::format(
+        "; the sphere would come down to a gap of about {:.3g} (estimated by the lubrication "
+        "limit): tabulate down to there",
+        *reached->smallest);
+  if (reached->largest > high)
+    text += fmt::format(
+        "; the sphere would get up to a gap of about {:.3g} (estimated by Stokes' drag): tabulate "
+        "up to there",
+        reached->largest);
+  return text;
+}
+
+/// The record of a model that failed with this error of simulate().
+FailedModel failure_of(const ModelChoice& choice, const Error& error, const Motion& motion,
+                       const Fit& fit, const OutsideFit& outside) {
+  std::string reason = error.what();
+  const std::string prefix = fmt::format("model {}: ", choice.name);
+  if (reason.starts_with(prefix)) reason.erase(0, prefix.size());
+  if (error.exit_code() == ExitCode::kBadInput)
+    reason += estimate_of_gaps(choice, motion, fit, outside);
+  return {choice.name, reason, error.exit_code(), {}};
+}
+
+/// Throws Error(kBadInput) naming the case if a parameter of a model is wrong, whatever the drag is.
+void check_parameters(const Case& c, const std::vector<std::string>& models) {
+  const LubricationForce exact(exact_plane_fit(c.viscosity, c.radius));
+  for (const auto& name : models) try {
+      check_model(find_model(name), required_motion(c), exact);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(), fmt::format("{}: {}", c.path.string(), error.what()));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
+  if (asked.empty()) asked = c.models;
+  if (asked.empty())
+    for (const auto& model : default_models()) asked.emplace_back(model.name);
+  return asked;
+}
+
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
+                        const std::vector<std::string>& models, const OutsideFit& outside) {
+  Motion motion = required_motion(c);
+  Simulated simulated;
+  simulated.fit_text = fit_file.text;
+  const fs::path& fit_path = fit_file.path;
+  const Fit fit = parse_fit(fit_file.text, fit_path.string());
+  // A fit of another viscosity could be scaled, one of another radius could not; neither is done
+  // silently.
+  if (fit.viscosity != c.viscosity || fit.radius != c.radius)
+    throw_bad_input({fit_path.string()},
+                    fmt::format("is of viscosity {} and radius {}; the case has viscosity {} and "
+                                "radius {}: tabulate and "
+                                "fit for the case",
+                                fit.viscosity, fit.radius, c.viscosity, c.radius));
+  const LubricationForce force = [&] {
+    try {
+      return LubricationForce(fit, outside.below, outside.above);
+    } catch (const Error& error) {
+      throw Error(error.exit_code(), fmt::format("{}: {}", fit_path.string(), error.what()));
+    }
+  }();
+  const auto names = models_to_run(c, models);
+  check_parameters(c, names);
+  simulated.made_from = identity_of_trajectory(c, simulated.fit_text, outside);
+  for (const auto& name : names) {
+    throw_if_interrupted();
+    const auto choice = find_model(name);
+    const auto which = fmt::format("{} ({} of {})", name, &name - names.data() + 1, names.size());
+    motion.progress = ProgressOfModel(which, motion.end_time);
+    try {
+      simulated.trajectories.push_back(simulate(choice, motion, force));
+    } catch (const Error& error) {
+      if (error.exit_code() == ExitCode::kInterrupted) throw;
+      simulated.failed.push_back(failure_of(choice, error, motion, fit, outside));
+      simulated.failed.back().made_from = simulated.made_from;
+      continue;
+    }
+    auto& comments = simulated.trajectories.back().provenance;
+    comments = simulated.made_from;
+    comments["time_step"] = time_step_of(name, motion);
+    auto& rows = simulated.trajectories.back().rows;
+    if (motion.output_rows > 0) {
+      comments["rows_computed"] = std::to_string(rows.size());
+      rows = fewer_rows(rows, motion.output_rows);
+    }
+    if (choice.model->contact != nullptr) {
+      const auto drag = drag_of(choice, force);
+      const auto law = choice.model->contact(motion_of(choice, motion), drag).film_law;
+      if (!law.empty()) comments["recovered_film"] = law;
+    }
+  }
+  clear_progress();
+  throw_if_interrupted();
+  if (simulated.trajectories.empty()) throw error_of(simulated.failed, 0, c.path);
+  simulated.uncertainty = uncertainty_of(motion, fit, outside);
+  return simulated;
+}
+
+void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
+                     const Provenance& provenance) {
+  write_copies(run, c, simulated.fit_text);
+  if (simulated.uncertainty.empty())
+    remove_file(run.uncertainty());
+  else
+    write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
+  // Last: by the trajectories `run` sees whether all this has been done.
+  for (const auto& trajectory : simulated.trajectories)
+    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
+                 write_trajectory(trajectory), provenance);
+  auto failed = recorded_failures(run, simulated.made_from);
+  // What other models did with the same inputs stays recorded.
+  std::erase_if(failed, [&](const FailedModel& other) {
+    const auto is_it = [&](const auto& model) { return model.model == other.model; };
+    return std::ranges::any_of(simulated.trajectories, is_it) ||
+           std::ranges::any_of(simulated.failed, is_it);
+  });
+  failed.insert(failed.end(), simulated.failed.begin(), simulated.failed.end());
+  if (failed.empty())
+    remove_file(run.failed_models());
+  else
+    write_output(run.failed_models(), TextKind::kJson, write_failed_models(failed), provenance);
+  for (const auto& model : simulated.failed) {
+    remove_file(run.trajectory(model.model));
+    // The reason of the first is in the error that ends the command.
+    if (&model != &simulated.failed.front())
+      say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
+  }
+  say(fmt::format("simulate: {} models", simulated.trajectories.size()));
+}
+
+bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
+                  const std::string& fit_text, const OutsideFit& outside) {
+  const auto file = run.trajectory(model);
+  if (!fs::is_regular_file(file)) return false;
+  try {
+    return is_made_from(read_trajectory(file).provenance,
+                        identity_of_trajectory(c, fit_text, outside));
+  } catch (const Error&) {  // no trajectory at all is not up to date
+    return false;
+  }
+}
+
+std::vector<FailedModel> recorded_failures(const RunFolder& run,
+                                           const std::vector<std::string>& models, const Case& c,
+                                           const std::string& fit_text, const OutsideFit& outside) {
+  auto failed = recorded_failures(run, identity_of_trajectory(c, fit_text, outside));
+  std::erase_if(failed, [&](const FailedModel& model) {
+    return std::ranges::find(models, model.model) == models.end();
+  });
+  return failed;
+}
+
+namespace {
+
+/// The fit file of the case's exact drag as it is to stand in the run's folder: the one that is
+/// there, if it says the same.
+FitFile exact_fit_file(const Case& c, const RunFolder& run, const Provenance& provenance) {
+  const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
+  if (fs::is_regular_file(run.fit()))
+    if (auto there = read_file(run.fit()); without_provenance(there) == text)
+      return {run.fit(), std::move(there)};
+  return {run.fit(), output_text(run.fit(), TextKind::kJson, text, provenance)};
+}
+
+}  // namespace
+
+void simulate_stage(const Case& c, const SimulateRequest& request) {
+  const RunFolder run{request.folder};
+  (void)required_motion(c);
+  fs::path path = request.fit;
+  if (path.empty() && c.fit && c.fit->file) path = *c.fit->file;
+  const bool exact = path.empty() && c.fit && c.fit->exact;
+  const bool of_folder = path.empty() && !exact && fs::is_regular_file(run.fit());
+  if (of_folder) path = run.fit();
+  if (path.empty() && !exact)
+    throw Error(ExitCode::kWrongUsage,
+                fmt::format("the case names no drag to run with (file or exact in its section "
+                            "[fit]) and there is no {}; give a fit with --fit",
+                            run.fit().string()));
+  std::vector<fs::path> inputs = {c.path};
+  inputs.insert(inputs.end(), c.force_files.begin(), c.force_files.end());
+  if (!exact) inputs.push_back(path);
+  auto provenance = provenance_of({inputs, {}});
+  // The command repeated for another folder finds no fit there.
+  if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
+  if (request.fit.empty())
+    say(fmt::format("simulate: the drag is {}",
+                    exact ? "the exact one near a plane" : "that of " + path.string()));
+  const FitFile fit = exact ? exact_fit_file(c, run, provenance) : FitFile{path, read_file(path)};
+  check_case_copies(run, c);
+  check_fit_copy(run, fit.text);
+  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  for (const auto& model : models_to_run(c, request.models))
+    refuse_other_kind(run.trajectory(model), "", "trajectory");
+  const auto simulated = simulate_case(c, fit, request.models, request.outside);
+  write_simulated(run, c, simulated, provenance);
+  if (!simulated.failed.empty())
+    throw error_of(simulated.failed, simulated.trajectories.size(), c.path);
+}
+
+}  // namespace viscontact

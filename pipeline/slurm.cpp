@@ -1,0 +1,163 @@
+#include "viscontact/pipeline/slurm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viscontact/terminal/progress.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Slurm's MaxArraySize is 1001 unless its configuration says otherwise; task numbers are below it.
+constexpr std::size_t kMostTasks = 1000;
+
+fs::path absolute_output(const fs::path& output) {
+  const fs::path whole = fs::absolute(output).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();  // "folder/" is "folder"
+}
+
+/// The same for each submission with that output, so that an earlier job is found.
+std::string job_name(const fs::path& output) {
+  constexpr std::size_t kDigits = 12;
+  return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
+}
+
+/// What a program of Slurm answers, without the last line's end.
+std::string ask_slurm(const std::vector<std::string>& command) {
+  auto result = run_process(command);
+  while (!result.output.empty() && result.output.back() == '\n') result.output.pop_back();
+  std::string said;
+  for (const char character : result.output)
+    said += character == '\n' ? " | " : std::string(1, character);
+  if (!result.started)
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
+                            "install slurm-client), or tabulate here without --launcher slurm",
+                            command.front(), said));
+  if (result.exit_status != 0)
+    throw Error(ExitCode::kExternalProgram,
+                fmt::format("{} failed (exit status {}): {}; nothing was submitted; see "
+                            "--slurm-options, --tasks",
+                            command.front(), result.exit_status, said));
+  return result.output;
+}
+
+void refuse_second_job(const fs::path& output) {
+  std::string jobs =
+      ask_slurm({"squeue", "--noheader", "--format=%F", "--states=PENDING,RUNNING,SUSPENDED",
+                 "--name=" + job_name(output)});
+  if (jobs.empty()) return;
+  const std::string job = jobs.substr(0, jobs.find('\n'));
+  throw_bad_input({output.string()},
+                  fmt::format("is being tabulated by Slurm job {0}; wait until it "
+                              "is over (squeue -j {0}), or end it (scancel {0})",
+                              job));
+}
+
+/// The numbers of the tasks that have rows to compute.
+std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
+  std::vector<RowRecord> records;
+  records.reserve(tables.size());
+  for (const auto& one : tables) records.push_back(read_row_record(one.table, one.hash()));
+  std::vector<std::size_t> tasks;
+  for (std::size_t task = 0; task < count; ++task) {
+    const auto points = points_of(tables, {task, count});
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      if (!missing_points(records[i], points[i]).empty()) {
+        tasks.push_back(task);
+        break;
+      }
+  }
+  return tasks;
+}
+
+/// "0-3,7": what sbatch's --array takes, without a needless word, for it has a longest length.
+std::string array_of(const std::vector<std::size_t>& tasks) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < tasks.size(); first = last + 1) {
+    for (last = first; last + 1 < tasks.size() && tasks[last + 1] == tasks[last] + 1;) ++last;
+    text += (text.empty() ? "" : ",") + std::to_string(tasks[first]);
+    if (last > first) text += fmt::format("-{}", tasks[last]);
+  }
+  return text;
+}
+
+/// The script of a task: this program with the cases as submitted.
+std::string task_script(const std::vector<CaseTable>& tables, const SlurmRequest& request,
+                        std::size_t count) {
+  std::string command = shell_word(fs::read_symlink("/proc/self/exe").string()) + " tabulate";
+  for (const auto& one : tables)
+    command += " " + shell_word((slurm_folder(request.output) / one.c.path.filename()).string());
+  return fmt::format(
+      "#!/bin/sh\n# One task of the array; made by viscontact.\nexec {} -o {} --jobs {} --task "
+      "\"$SLURM_ARRAY_TASK_ID/{}\"\n",
+      command, shell_word(absolute_output(request.output).string()), request.jobs.value_or(1),
+      count);
+}
+
+/// sbatch puts numbers in place of %x in the name of a log; a % of ours is %%.
+std::string log_pattern(const fs::path& folder) {
+  std::string pattern;
+  for (const char character : folder.string())
+    pattern += character == '%' ? "%%" : std::string(1, character);
+  return pattern + "/%A_%a.log";
+}
+
+std::string gather_command(const std::vector<CaseTable>& tables, const fs::path& output) {
+  std::string command = "viscontact tabulate";
+  for (const auto& one : tables) command += " " + shell_word(one.c.path.string());
+  return command + " -o " + shell_word(output.string()) + " --gather";
+}
+
+}  // namespace
+
+fs::path slurm_folder(const fs::path& output) {
+  return absolute_output(output).string() + ".slurm";
+}
+
+void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& request) {
+  std::size_t rows = 0;
+  for (const auto& one : tables) {
+    check_output_file(one.table);
+    rows += grid_of(one.tabulation()).size();
+  }
+  const std::size_t count = request.tasks.value_or(std::min(rows, kMostTasks));
+  const auto options = split_words(request.options);
+  refuse_second_job(request.output);
+  const auto tasks = tasks_with_rows(tables, count);
+  const std::string gather = gather_command(tables, request.output);
+  if (tasks.empty()) {
+    say(fmt::format("tabulate: no row is missing; the tables: {}", gather));
+    return;
+  }
+  const auto folder = slurm_folder(request.output);
+  for (const auto& one : tables) write_file(folder / one.c.path.filename(), one.c.text);
+  const auto script = folder / "task.sh";
+  write_file(script, task_script(tables, request, count));
+
+  // A task that a dying node takes along is to be run again, unless the user's options say no.
+  std::vector<std::string> command = {"sbatch", "--requeue"};
+  command.insert(command.end(), options.begin(), options.end());
+  command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),
+                                 "--array=" + array_of(tasks), "--open-mode=append",
+                                 "--output=" + log_pattern(folder)});
+  if (request.jobs) command.push_back(fmt::format("--cpus-per-task={}", *request.jobs));
+  command.push_back(script.string());
+  std::string job = ask_slurm(command);
+  job = job.substr(0, job.find(';'));  // "number;cluster" where there are several
+  say(
+      fmt::format("tabulate: Slurm job {} of {} tasks; logs in {}; when it is over (squeue -j {}):"
+                  "\n  {}",
+                  job, tasks.size(), folder.string(), job, gather));
+  fmt::print("{}\n", job);
+}
+
+}  // namespace viscontact

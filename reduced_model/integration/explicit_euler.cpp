@@ -1,0 +1,33 @@
+#include "viscontact/reduced_model/integration/explicit_euler.hpp"
+
+namespace viscontact {
+
+Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce& force) {
+  const double end = motion.end_time;
+  const int steps = step_count(end, motion.contact_time_step);
+  Trajectory trajectory;
+  double q = motion.initial_gap;
+  double u = motion.initial_velocity;
+  for (int n = 0;; ++n) {
+    const double t = step_time(n, steps, end, motion.contact_time_step);
+    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
+    const double drag = -force.resistance(q) * u;
+    trajectory.rows.push_back({t, q, u, drag, motion.external_force.value(t), {}});
+    if (n == steps) break;
+    const double next = step_time(n + 1, steps, end, motion.contact_time_step);
+    const double h = next - t;
+    const double fall = -h * u;
+    ++trajectory.steps;
+    if (!(q - fall > 0)) {
+      // Where the straight line of this step crosses the plane; there the drag has no value.
+      const double crossing = t + q / fall * h;
+      trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
+      break;
+    }
+    u += h / motion.mass * (drag + motion.external_force.mean(t, next));
+    q -= fall;
+  }
+  return trajectory;
+}
+
+}  // namespace viscontact

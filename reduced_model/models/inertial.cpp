@@ -1,0 +1,142 @@
+// Drives CVODE through the equation of inertial_equation.hpp: restarts where the force jumps, rows at
+// the times that are asked for, and rows where the velocity changes its sign.
+#include "viscontact/reduced_model/models/inertial.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/bisection.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/integration/cvode.hpp"
+#include "viscontact/reduced_model/models/inertial_equation.hpp"
+
+namespace viscontact {
+namespace {
+
+class InertialRun {
+ public:
+  InertialRun(const Motion& motion, const LubricationForce& force)
+      : motion_(motion),
+        equation_(motion, force),
+        cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
+        times_(row_times(motion)),
+        next_row_(times_.begin() + 1) {
+    trajectory_.rows.reserve(times_.size() + 16);  // some more where the velocity changes its sign
+    add_row(0, {motion.initial_gap, motion.initial_velocity, 0,
+                force.resistance(motion.initial_gap)});
+  }
+
+  Trajectory run() {
+    auto stops = motion_.external_force.jumps();
+    std::erase_if(stops, [&](double t) { return t >= motion_.end_time; });
+    stops.push_back(motion_.end_time);
+    for (const double stop : stops) {
+      stop_ = stop;
+      restart(equation_.first_step(last_stop_, gap()));
+      while (now_ < stop_) {
+        check_in(motion_, now_);
+        if (!step()) continue;
+        const auto now = instant_of(cvode_.time(), cvode_.state()[0]);
+        add_rows_of_step(now);
+        now_ = cvode_.time();
+        double film = 0;
+        if (now_ < stop_ && equation_.lands_at_once(now_, now, film)) {
+          cvode_.set_state(std::array{equation_.state_of(film)});
+          restart(InertialEquation::kTimeResolution * now_);
+        }
+      }
+      last_stop_ = stop_;
+    }
+    trajectory_.steps = cvode_.steps();
+    return std::move(trajectory_);
+  }
+
+ private:
+  double gap() const { return equation_.gap_of(cvode_.state()[0]); }
+
+  void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
+
+  /// One step of CVODE; false if it failed and begins afresh.
+  bool step() {
+    try {
+      cvode_.step();
+      return true;
+    } catch (const Error&) {
+      // If the state is off the balance with the film by more than its tolerance, however little
+      // that is, CVODE would have to follow how it comes back, at the rate R/m. It gets one chance
+      // at each time to begin afresh, from the balance.
+      if (now_ <= given_up_at_) throw;
+      given_up_at_ = now_;
+      const double q = gap();
+      if (equation_.first_step(now_, q) > 0)
+        cvode_.set_state(std::array{equation_.balanced_state(now_, q)});
+      restart(equation_.first_step(now_, gap()));
+      return false;
+    }
+  }
+
+  InertialInstant instant_of(double t, double s) const {
+    // At the stop the force has jumped already; the velocity has not.
+    const double force_time = t == stop_ ? std::nextafter(stop_, last_stop_) : t;
+    return equation_.instant(t, equation_.gap_of(s), force_time);
+  }
+
+  /// The rows within the step that has just been made, whose end is `now`.
+  void add_rows_of_step(const InertialInstant& now) {
+    const double end = cvode_.time();
+    // An expansion of s in powers of t - end pays where many rows lie in the step.
+    constexpr std::ptrdiff_t kManyRows = 8;
+    const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
+    const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
+    const auto instant = [&](double t) {
+      if (!many) return instant_of(t, cvode_.at(t));
+      double s = 0;
+      for (std::size_t k = expansion.size(); k-- > 0;) s = s * (t - end) + expansion[k];
+      return instant_of(t, s);
+    };
+    const auto add_rows_before = [&](double time) {
+      for (; next_row_ != times_.end() && *next_row_ < time; ++next_row_)
+        add_row(*next_row_, instant(*next_row_));
+    };
+    const double sign =
+        std::abs(now.velocity) > now.velocity_error ? std::copysign(1.0, now.velocity) : 0;
+    if (sign * last_sign_ < 0) {
+      const double turn =
+          beginning_of(now_, end, [&](double t) { return instant(t).velocity * sign > 0; });
+      add_rows_before(turn);
+      if (next_row_ == times_.end() || *next_row_ != turn) add_row(turn, instant(turn));
+    }
+    if (sign != 0) last_sign_ = sign;
+    add_rows_before(end);
+    if (next_row_ != times_.end() && *next_row_ == end) {
+      add_row(end, now);
+      ++next_row_;
+    }
+  }
+
+  void add_row(double t, const InertialInstant& at) {
+    trajectory_.rows.push_back({t, at.gap, at.velocity, -at.resistance * at.velocity,
+                                motion_.external_force.value(t)});
+  }
+
+  const Motion& motion_;
+  InertialEquation equation_;
+  double now_ = 0;  // end of the last step, or where CVODE restarts
+  Cvode cvode_;
+  double stop_ = 0, last_stop_ = 0;  // the next and the last jump of f_ext
+  double given_up_at_ = -1;
+  double last_sign_ = 0;  // of the velocity where it was last beyond its error
+  std::vector<double> times_;
+  std::vector<double>::const_iterator next_row_;
+  Trajectory trajectory_;
+};
+
+}  // namespace
+
+Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force) {
+  return InertialRun(motion, force).run();
+}
+
+}  // namespace viscontact

@@ -1,0 +1,104 @@
+#include "viscontact/reduced_model/models/inertial_equation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace viscontact {
+
+InertialEquation::InertialEquation(const Motion& motion, const LubricationForce& force)
+    : motion_(motion),
+      force_(force),
+      momentum_at_start_(motion.mass * motion.initial_velocity +
+                         force.impulse(motion.initial_gap)) {}
+
+double InertialEquation::gap_of(double s) const { return force_.radius() * std::exp(s); }
+
+double InertialEquation::state_of(double gap) const { return std::log(gap / force_.radius()); }
+
+double InertialEquation::momentum(double t) const {
+  return momentum_at_start_ + motion_.external_force.impulse(t);
+}
+
+double InertialEquation::slope(double t, double gap) const {
+  return (momentum(t) - force_.impulse(gap)) / (motion_.mass * gap);
+}
+
+StiffSystem InertialEquation::system(const double& step_begin) const {
+  StiffSystem system;
+  system.dimension = 1;
+  system.derivative = [this, &step_begin](double t, std::span<const double> y,
+                                            std::span<double> derivative) {
+    const double q = gap_of(y[0]);
+    // CVODE chooses its first step by the slope at its beginning, which must not be rounding.
+    derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
+  };
+  system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {
+    const double q = gap_of(y[0]);
+    jacobian[0] = -force_.resistance(q) / motion_.mass - slope(t, q);
+  };
+  // s is a logarithm: its absolute error is the relative error of the gap. A tenth of the tolerance
+  // that the user asks for leaves room for the sum of the steps' errors. In flight the film damps
+  // errors too slowly to forget them before the motion ends, and a landing, in which ln q changes
+  // fast, multiplies errors of time: there only the fraction kFlightShare is allowed.
+  system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
+    constexpr double kShare = 0.1, kFlightShare = 3e-4;
+    constexpr double kManyDampings = 10;  // within the motion
+    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+    const double q = gap_of(y[0]);
+    const double damping = force_.resistance(q) / motion_.mass + slope(t, q);
+    const double share = damping * motion_.end_time > kManyDampings ? 1 : kFlightShare;
+    allowed[0] =
+        share * (kShare * motion_.inertial_relative_tolerance) + kRounding * std::abs(y[0]);
+  };
+  return system;
+}
+
+InertialInstant InertialEquation::instant(double t, double gap, double force_time) const {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const double m = motion_.mass, q = gap;
+  const double absorbed = force_.impulse(q);
+  const double by_momentum = (momentum(t) - absorbed) / m;
+  const double resistance = force_.resistance(q);
+  const double momentum_error =
+      (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
+       motion_.inertial_relative_tolerance * resistance * q) /
+      m;
+  // With so much inertia the balance below has fewer digits than the momentum, whatever the tolerance.
+  constexpr double kMuchInertia = 1e-2;
+  if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
+      std::abs(by_momentum) > 1e3 * momentum_error)
+    return {q, by_momentum, momentum_error, resistance};
+  // With little inertia the velocity follows the force; what remains of earlier times shows in the
+  // momentum.
+  const double balance = motion_.external_force.value(force_time) / resistance;
+  const double rate = (motion_.external_force.slope(force_time) -
+                       balance * balance * force_.resistance_log_slope(q) / q) /
+                      resistance;
+  const double correction = -m / resistance * rate;
+  const double neglected =
+      std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
+  if (neglected < momentum_error &&
+      std::abs(balance + correction - by_momentum) < 4 * momentum_error)
+    return {q, balance + correction, neglected, resistance};
+  return {q, by_momentum, momentum_error, resistance};
+}
+
+double InertialEquation::first_step(double t, double gap) const {
+  const double step = kTimeResolution * t;
+  return motion_.mass < step * force_.resistance(gap) ? step : 0;
+}
+
+double InertialEquation::balanced_state(double t, double gap) const {
+  const double inertia = motion_.mass * instant(t, gap, t).velocity;
+  return state_of(force_.gap_of_impulse(momentum(t) - inertia));
+}
+
+bool InertialEquation::lands_at_once(double t, const InertialInstant& now, double& film) const {
+  if (!(-now.velocity * kTimeResolution * t > now.gap)) return false;
+  film = force_.gap_of_impulse(momentum(t));
+  return film < now.gap && motion_.mass < kTimeResolution * t * force_.resistance(film);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,37 @@
+#include "viscontact/reduced_model/models/reference.hpp"
+
+#include <fmt/format.h>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact {
+
+Trajectory simulate_reference(const Motion& motion, const LubricationForce& force) {
+  const double h = motion.reference_time_step;
+  const double end = motion.end_time;
+  const int steps = step_count(end, h);
+
+  Trajectory trajectory;
+  trajectory.steps = steps;
+  trajectory.rows.reserve(static_cast<std::size_t>(steps) + 1);
+  double q = motion.initial_gap;
+  for (int n = 0; n <= steps; ++n) {
+    const double t = step_time(n, steps, end, h);
+    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
+    const double next = n < steps ? step_time(n + 1, steps, end, h) : t + h;
+    const double f = motion.external_force.mean(t, next);
+    const double u = f / force.resistance(q);
+    trajectory.rows.push_back({t, q, u, -f, f, {}});
+    q += (next - t) * u;
+    if (n < steps && !(q > 0))
+      throw Error(
+          ExitCode::kNotConverged,
+          fmt::format(
+              "the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
+              "reference.time_step than {}",
+              t, q, h));
+  }
+  return trajectory;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,25 @@
+// The viscous contact model.
+#pragma once
+
+#include "viscontact/reduced_model/models/contact_model.hpp"
+
+namespace viscontact {
+
+/// The limit mu -> 0 of (M) with R = k/q: problem (P) (Maury 2007, "A gluey particle model";
+/// Lefebvre 2009, "Numerical simulation of gluey particles"),
+///
+///     q >= 0,  gamma <= 0,  q gamma = 0,
+///     m d^2q/dt^2 = f_ext + lambda,  supp lambda in {q = 0},  dgamma/dt = -lambda,
+///     u+ = projection of u- on {0} if gamma- < 0,  on R+ if gamma- = 0 and q = 0,  on R otherwise.
+///
+/// No force but f_ext acts at a distance. The scheme is that of contact_step.hpp with free velocity
+/// u^n + h f^n / m, f^n the mean of f_ext over the step, h = motion.contact_time_step. Solid
+/// contact at the roughness heights: gamma >= gamma_min = k ln((r1 + r2)/r) (Vinogradova & Yakubov
+/// 2006). The film that the model does not resolve is q0 exp(gamma/k) thick, q0 the initial gap.
+/// Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+ContactModel viscous_contact(const Motion& motion, const LubricationForce& force);
+
+/// Runs it (run_contact_model).
+Trajectory simulate_viscous_contact(const Motion& motion, const LubricationForce& force);
+
+}  // namespace viscontact

@@ -1,0 +1,121 @@
+#include "viscontact/report/flow/pressure_colours.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "viscontact/report/flow/colour_scale.hpp"
+
+namespace viscontact {
+namespace {
+
+/// Red, green, blue of a place from -1 to 1 (ColorBrewer's RdBu, which colour-blind readers tell apart), linear in between.
+std::string colour(double place) {
+  static const std::vector<ColourNode> kRedBlue = {
+      {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
+      {0, {250, 250, 250}}, {0.3, {253, 219, 199}},   {0.66, {239, 138, 98}},
+      {1, {178, 24, 43}}};
+  return colour_between(kRedBlue, place);
+}
+
+/// Shorter than the library's: 1e6, not 1e+06.
+std::string short_number(double value) {
+  std::string text = fmt::format("{:.3g}", value);
+  if (const auto e = text.find("e+"); e != std::string::npos)
+    text.erase(e + 1, text[e + 2] == '0' ? 2 : 1);
+  return text;
+}
+
+/// 1, 2 or 5 times a power of ten.
+double rounded_up(double value) {
+  const double decade = std::pow(10, std::floor(std::log10(value)));
+  for (const double mantissa : {1.0, 2.0, 5.0})
+    if (value <= mantissa * decade) return mantissa * decade;
+  return 10 * decade;
+}
+
+std::vector<double> sorted_finite(const std::vector<double>& values) {
+  std::vector<double> sorted;
+  std::ranges::copy_if(values, std::back_inserter(sorted),
+                       [](double v) { return std::isfinite(v); });
+  std::ranges::sort(sorted);
+  if (sorted.empty()) sorted.push_back(0);
+  return sorted;
+}
+
+/// A bar needs two ends.
+PressureColours widened(PressureColours colours) {
+  if (colours.high > colours.low) return colours;
+  const double half = colours.high == 0 ? 1 : std::abs(colours.high);
+  colours.low -= half;
+  colours.high += half;
+  return colours;
+}
+
+}  // namespace
+
+double PressureColours::at(double pressure) const {
+  return linear_below > 0 ? std::asinh(pressure / linear_below) / std::numbers::ln10 : pressure;
+}
+
+std::vector<std::string> PressureColours::settings() const {
+  constexpr int kSteps = 40;
+  const double from = at(low), to = at(high), full = std::max(std::abs(from), std::abs(to));
+  std::string palette;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double place = std::lerp(from, to, static_cast<double>(i) / kSteps);
+    palette += fmt::format("{}{:.9g} '{}'", i == 0 ? "" : ", ", place, colour(place / full));
+  }
+  std::string words = "pressure (unit: viscosity x velocity / length)";
+  std::string ticks = "set cbtics autofreq format '%.3g'";
+  if (linear_below > 0) {
+    constexpr int kMost = 4;  // of either sign
+    const int decades = static_cast<int>(
+        std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
+    const int every = decades / (kMost + 1) + 1;
+    ticks = "'0' 0";
+    for (int i = 0; i <= decades; i += every) {
+      const double pressure = linear_below * std::pow(10, i);
+      const auto number = short_number(pressure);
+      ticks += fmt::format(", '{0}' {1:.6g}, '-{0}' -{1:.6g}", number, at(pressure));
+    }
+    ticks = "set cbtics (" + ticks + ")";
+    words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
+  }
+  constexpr double kWorthAWord = 1.2;  // times the end of the bar
+  if (largest > kWorthAWord * high && largest > 0)
+    words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",
+                         short_number(high), short_number(largest));
+  if (smallest < kWorthAWord * low && smallest < 0)
+    words += fmt::format("\\nbelow {} one colour (smallest {})", short_number(low),
+                         short_number(smallest));
+  return {"set palette defined (" + palette + ")",
+          fmt::format("set cbrange [{:.9g}:{:.9g}]", from, to), ticks,
+          "set cblabel \"" + words + "\" offset 1.2"};
+}
+
+PressureColours proportional_colours(const std::vector<double>& pressures) {
+  const auto sorted = sorted_finite(pressures);
+  return widened({sorted.front(), sorted.back(), sorted.front(), sorted.back(), 0});
+}
+
+PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
+  constexpr double kBeyond = 0.005;    // of the pixels
+  constexpr double kMuchFarther = 3;   // times
+  constexpr double kLogarithmic = 10;  // times the usual pressure
+  const auto sorted = sorted_finite(pixels);
+  const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
+  auto colours = proportional_colours(sorted);
+  const double low = sorted[few], high = sorted[sorted.size() - 1 - few];
+  if (high > 0 && colours.high > kMuchFarther * high) colours.high = rounded_up(high);
+  if (low < 0 && colours.low < kMuchFarther * low) colours.low = -rounded_up(-low);
+  const bool cut = colours.high < sorted.back() || colours.low > sorted.front();
+  if (cut || std::max(std::abs(colours.low), std::abs(colours.high)) > kLogarithmic * usual)
+    colours.linear_below = std::pow(10, std::round(std::log10(usual)));
+  return widened(colours);
+}
+
+}  // namespace viscontact

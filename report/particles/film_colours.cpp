@@ -1,0 +1,48 @@
+#include "viscontact/report/particles/film_colours.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/report/flow/colour_scale.hpp"
+
+namespace viscontact {
+
+double lowest_gamma(const particles::Playback& playback) {
+  double lowest = 0;
+  for (const auto& frame : playback.frames)
+    for (const auto& contact : frame.contacts)
+      if (std::isfinite(contact.gamma)) lowest = std::min(lowest, contact.gamma);
+  return lowest;
+}
+
+std::string film_colour(double share) {
+  // Viridis, which colour-blind readers tell apart, and prints in grey.
+  static const std::vector<ColourNode> kViridis = {
+      {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
+      {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
+      {0.75, {59, 82, 139}},   {0.875, {71, 45, 123}},  {1, {68, 1, 84}}};
+  return colour_between(kViridis, share);
+}
+
+std::vector<double> film_ticks(double lowest) {
+  constexpr double kAbout = 4;
+  const double rough = -lowest / kAbout, decade = std::pow(10, std::floor(std::log10(rough)));
+  double step = 10 * decade;
+  if (rough < 1.5 * decade)
+    step = decade;
+  else if (rough < 3 * decade)
+    step = 2 * decade;
+  else if (rough < 7 * decade)
+    step = 5 * decade;
+  std::vector<double> ticks;
+  for (int i = 0; i * step <= -lowest * (1 + 1e-9); ++i) ticks.push_back(i == 0 ? 0 : -i * step);
+  return ticks;
+}
+
+std::string film_tick_text(double tick) {
+  return fmt::format("{}{:.3g}", tick < 0 ? "−" : "", std::abs(tick));
+}
+
+}  // namespace viscontact

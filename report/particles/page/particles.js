@@ -1,0 +1,607 @@
+// Plays the motion of particles that the page holds (report/particles/particles_page.cpp).
+'use strict';
+(() => {
+  const kSeconds = 10;        // for the whole motion at speed 1
+  const kLargestSprite = 512; // device pixels
+  const kThemes = {
+    light: {paper: '#fbfbf9', solid: '#d8d8d4', edge: '#333', patch: 'rgba(120,120,105,.16)', grid: 'rgba(90,90,80,.35)', mark: '#d55e00'},
+    dark: {paper: '#1f2326', solid: '#3b4044', edge: '#c8c8c4', patch: 'rgba(200,200,190,.10)', grid: 'rgba(200,200,190,.25)', mark: '#ffb000'},
+  };
+  const kDisc = {fill: '#a9c3da', edge: '#4f728f'};
+  const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];  // from where the light falls to the rim
+
+  // ---- The motion
+
+  const text = id => document.getElementById(id).textContent;
+  function bytes(id) {
+    const binary = atob(text(id)), array = new Uint8Array(binary.length);
+    for (let i = 0; i < array.length; ++i) array[i] = binary.charCodeAt(i);
+    return array.buffer;
+  }
+  const motion = JSON.parse(text('motion'));
+  const dim = motion.dimension, flat = dim === 2;
+  const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
+  // The names of the particles in the files; without this block, particle k of the simulation is named k.
+  const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
+  const written = motion.bytes === 2 ? new Uint16Array(bytes('positions')) : new Float32Array(bytes('positions'));
+  const planeNumbers = new Float32Array(bytes('planes'));
+  const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets')), contactBytes = new Uint8Array(bytes('contacts'));
+  const count = radii.length, frames = times.length, planeCount = frames ? planeNumbers.length / 6 / frames : 0;
+  const low = flat ? [...motion.roomLow, 0] : motion.roomLow, high = flat ? [...motion.roomHigh, 0] : motion.roomHigh;
+  const middle = low.map((l, d) => (l + high[d]) / 2);
+  const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
+  const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
+
+  const positions = new Float32Array(count * dim);  // of now
+  let planes = [];                                  // of now: {point, normal}
+  const lines = {frame: -1, count: 0, pair: new Int32Array(pairs.length / 2), level: new Uint8Array(pairs.length / 2)};
+
+  /** The frame at or before a time, and how far it is to the next: 0 to 1. */
+  function placeOf(time) {
+    let a = 0, b = frames - 1;
+    while (b - a > 1) {
+      const c = (a + b) >> 1;
+      if (times[c] <= time) a = c; else b = c;
+    }
+    const length = times[b] - times[a];
+    return {frame: a, share: length > 0 ? Math.min(1, Math.max(0, (time - times[a]) / length)) : 0};
+  }
+
+  /** Positions and planes lie between those of two frames; contacts are those of the nearer one. */
+  function setTime(time) {
+    const {frame, share} = placeOf(time), n = count * dim;
+    const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
+    for (let d = 0; d < dim; ++d)
+      for (let i = d; i < n; i += dim)
+        positions[i] = motion.low[d] + motion.step[d] * ((1 - share) * written[from + i] + share * written[to + i]);
+    const m = planeCount * 6, fromPlane = frame * m, toPlane = Math.min(frame + 1, frames - 1) * m;
+    planes = [];
+    for (let i = 0; i < m; i += 6) {
+      const x = [0, 1, 2, 3, 4, 5].map(j => (1 - share) * planeNumbers[fromPlane + i + j] + share * planeNumbers[toPlane + i + j]);
+      const length = Math.hypot(x[3], x[4], x[5]) || 1;
+      planes.push({point: x.slice(0, 3), normal: x.slice(3).map(v => v / length)});
+    }
+    readContacts(Math.min(frames - 1, frame + Math.round(share)));
+  }
+
+  /** Each: steps in the list of pairs, seven bits a byte, and the level of gamma. */
+  function readContacts(frame) {
+    if (lines.frame === frame) return;
+    lines.frame = frame;
+    lines.count = 0;
+    let pair = 0;
+    for (let at = offsets[frame]; at < offsets[frame + 1];) {
+      let step = 0, shift = 0, byte;
+      do {
+        byte = contactBytes[at++];
+        step |= (byte & 127) << shift;
+        shift += 7;
+      } while (byte & 128);
+      pair += step;
+      lines.pair[lines.count] = pair;
+      lines.level[lines.count++] = contactBytes[at++];
+    }
+  }
+
+  // ---- The view: device pixels, y down
+
+  const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
+  const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
+  let axes;  // right, up, towards the reader
+  let dots = 1;  // device pixels of a CSS pixel
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+
+  function setAxes() {
+    const c = Math.cos(view.turn), s = Math.sin(view.turn), ca = Math.cos(view.above), sa = Math.sin(view.above);
+    axes = flat ? [[1, 0, 0], [0, 1, 0], [0, 0, 1]] : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
+  }
+
+  /** Mild perspective: the reader is a few rooms away. 0: behind him. */
+  function nearness(depth) {
+    if (flat) return 1;
+    const distance = 4 * diagonal;
+    return depth < 0.8 * distance ? distance / (distance - depth) : 0;
+  }
+
+  const onPage = {x: 0, y: 0, near: 0};  // filled by each call of project: none is kept
+  function project(px, py, pz) {
+    const x = px - middle[0], y = py - middle[1], z = pz - middle[2], [r, u, t] = axes;
+    onPage.near = nearness(t[0] * x + t[1] * y + t[2] * z);
+    const s = view.scale * onPage.near;
+    onPage.x = canvas.width / 2 + view.x + s * (r[0] * x + r[1] * y + r[2] * z);
+    onPage.y = canvas.height / 2 + view.y - s * (u[0] * x + u[1] * y + u[2] * z);
+    return onPage;
+  }
+
+  /** The room fills the canvas. */
+  function showAll() {
+    setAxes();
+    Object.assign(view, {scale: 1, x: 0, y: 0, moved: false});
+    let left = Infinity, right = -Infinity, top = Infinity, bottom = -Infinity;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = project(...low.map((l, d) => (corner >> d & 1 ? high[d] : l)));
+      left = Math.min(left, p.x - canvas.width / 2);
+      right = Math.max(right, p.x - canvas.width / 2);
+      top = Math.min(top, p.y - canvas.height / 2);
+      bottom = Math.max(bottom, p.y - canvas.height / 2);
+    }
+    view.scale = Math.min(canvas.width / (right - left), canvas.height / (bottom - top));
+    view.x = -view.scale * (left + right) / 2;
+    view.y = -view.scale * (top + bottom) / 2;
+  }
+
+  function zoom(factor, x = canvas.width / 2, y = canvas.height / 2) {
+    const most = 1e6 * Math.max(canvas.width, canvas.height) / diagonal, next = Math.min(most, Math.max(1e-9 * most, view.scale * factor));
+    factor = next / view.scale;
+    view.scale = next;
+    view.x = x - canvas.width / 2 + factor * (view.x - (x - canvas.width / 2));
+    view.y = y - canvas.height / 2 + factor * (view.y - (y - canvas.height / 2));
+    view.moved = true;
+    redraw();
+  }
+
+  function resize() {
+    const box = canvas.getBoundingClientRect();
+    dots = window.devicePixelRatio || 1;
+    const width = Math.max(1, Math.round(box.width * dots)), height = Math.max(1, Math.round(box.height * dots));
+    if (width === canvas.width && height === canvas.height) return;
+    const factor = Math.min(width / canvas.width, height / canvas.height);
+    canvas.width = width;
+    canvas.height = height;
+    if (view.moved) { view.scale *= factor; view.x *= factor; view.y *= factor; } else showAll();
+    draw();
+  }
+
+  // ---- Drawing
+
+  let theme = kThemes.light, hovered = -1, withContacts = true;
+
+  function paintParticle(p, x, y, r) {
+    const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
+    if (flat) {
+      p.fillStyle = kDisc.fill;
+      p.strokeStyle = kDisc.edge;
+    } else {
+      const light = p.createRadialGradient(x - 0.28 * r, y - 0.36 * r, 0, x - 0.28 * r, y - 0.36 * r, 1.44 * r);
+      for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, kBall[i]);
+      p.fillStyle = light;
+      p.strokeStyle = kBall[3];
+    }
+    p.lineWidth = rim;
+    p.beginPath();
+    p.arc(x, y, Math.max(0, r - rim / 2), 0, 2 * Math.PI);
+    p.fill();
+    p.stroke();
+  }
+
+  // Thousands of like pictures are copied faster than drawn. One for each power of two: none is shrunk to less than half.
+  const sprites = new Map();
+  function spriteFor(size) {
+    const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
+    if (!sprites.has(side)) {
+      const sprite = document.createElement('canvas');
+      sprite.width = sprite.height = side;
+      paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2);
+      sprites.set(side, sprite);
+    }
+    return sprites.get(side);
+  }
+
+  function particle(x, y, r) {
+    if (r < 1) pen.fillRect(x - Math.max(r, 0.35), y - Math.max(r, 0.35), 2 * Math.max(r, 0.35), 2 * Math.max(r, 0.35));
+    else if (2 * r > kLargestSprite) paintParticle(pen, x, y, r);
+    else pen.drawImage(spriteFor(2 * r), x - r, y - r, 2 * r, 2 * r);
+  }
+
+  /** What of a polygon (or of a line: two corners) has normal.(x - point) >= -slack. */
+  function clip(polygon, point, normal, slack = 0) {
+    const kept = [];
+    polygon.forEach((a, i) => {
+      const b = polygon[(i + 1) % polygon.length];
+      const u = dot(normal, plus(a, -1, point)) + slack, v = dot(normal, plus(b, -1, point)) + slack;
+      if (u >= 0) kept.push(a);
+      if ((u >= 0) !== (v >= 0)) kept.push(plus(a, u / (u - v), plus(b, -1, a)));
+    });
+    return kept;
+  }
+
+  function clipByPlanes(polygon, own) {
+    planes.forEach((plane, i) => { if (i !== own) polygon = clip(polygon, plane.point, plane.normal, 1e-4 * diagonal); });
+    return polygon;
+  }
+
+  function clipByRoom(polygon) {
+    for (let d = 0; d < 3; ++d) {
+      const axis = [0, 1, 2].map(e => (e === d ? 1 : 0));
+      polygon = clip(clip(polygon, low, axis), high, axis.map(v => -v));
+    }
+    return polygon;
+  }
+
+  function trace(polygon) {
+    polygon.forEach((x, i) => {
+      const p = project(...x);
+      if (i) pen.lineTo(p.x, p.y); else pen.moveTo(p.x, p.y);
+    });
+  }
+
+  /** What of the plane the canvas shows, as a polygon. */
+  function seen() {
+    const at = (x, y) => [middle[0] + (x - canvas.width / 2 - view.x) / view.scale, middle[1] - (y - canvas.height / 2 - view.y) / view.scale, 0];
+    return [at(0, 0), at(canvas.width, 0), at(canvas.width, canvas.height), at(0, canvas.height)];
+  }
+
+  function drawSolids() {
+    const all = seen();
+    pen.fillStyle = theme.solid;
+    for (const {point, normal} of planes) {
+      pen.beginPath();
+      trace(clip(all, point, normal.map(v => -v)));
+      pen.fill();
+    }
+  }
+
+  function drawLines() {
+    const all = seen(), far = corner => Math.hypot(...plus(corner, -1, middle));
+    pen.strokeStyle = theme.edge;
+    pen.lineWidth = 2 * dots;
+    planes.forEach(({point, normal}, i) => {
+      const reach = Math.max(...all.map(far)) + Math.hypot(...plus(point, -1, middle)), along = [-normal[1], normal[0], 0];
+      pen.beginPath();
+      trace(clipByPlanes([plus(point, -reach, along), plus(point, reach, along)], i));
+      pen.stroke();
+    });
+  }
+
+  /** In space: patches with a grid where we look at the free side, edges alone where we look through from behind. */
+  function drawPatches(fromFreeSide) {
+    const step = 10 ** Math.round(Math.log10(diagonal / 8));
+    planes.forEach(({point, normal}, i) => {
+      if ((dot(normal, axes[2]) > 0) !== fromFreeSide) return;
+      const size = normal.map(Math.abs), least = size.indexOf(Math.min(...size));
+      const axis = [0, 1, 2].map(d => (d === least ? 1 : 0) - normal[least] * normal[d]), length = Math.hypot(...axis);
+      const u = axis.map(v => v / length);
+      const v = [normal[1] * u[2] - normal[2] * u[1], normal[2] * u[0] - normal[0] * u[2], normal[0] * u[1] - normal[1] * u[0]];
+      const foot = plus(middle, -dot(normal, plus(middle, -1, point)), normal), reach = diagonal;
+      const at = (a, b) => plus(plus(foot, a, u), b, v);
+      const patch = clipByPlanes(clipByRoom([at(-reach, -reach), at(reach, -reach), at(reach, reach), at(-reach, reach)]), i);
+      if (patch.length < 3) return;
+      pen.lineWidth = dots;
+      pen.strokeStyle = theme.grid;
+      pen.fillStyle = theme.patch;
+      pen.beginPath();
+      trace(patch);
+      pen.closePath();
+      if (fromFreeSide) {
+        pen.fill();
+        for (let k = Math.ceil(-reach / step); k * step < reach; ++k)
+          for (const line of [[at(k * step, -reach), at(k * step, reach)], [at(-reach, k * step), at(reach, k * step)]])
+            trace(clipByPlanes(clipByRoom(line), i));
+      }
+      pen.stroke();
+    });
+  }
+
+  const pageX = new Float32Array(count), pageY = new Float32Array(count), pageRadius = new Float32Array(count), depths = new Float32Array(count);
+  const order = new Uint32Array(count);  // from far to near
+
+  function placeParticles() {
+    for (let k = 0; k < count; ++k) {
+      const x = positions[k * dim], y = positions[k * dim + 1], z = flat ? 0 : positions[k * dim + 2];
+      const p = project(x, y, z);
+      pageX[k] = p.x;
+      pageY[k] = p.y;
+      pageRadius[k] = p.near * view.scale * radii[k];
+      if (!flat) depths[k] = axes[2][0] * x + axes[2][1] * y + axes[2][2] * z;
+    }
+    if (!flat) sortByDepth();
+  }
+
+  /** Into a few thousand layers, each in the order of the particles: what overlaps is farther apart than a layer, but for dust. */
+  function sortByDepth() {
+    const layers = 4096, start = new Uint32Array(layers + 1), half = diagonal / 2, centre = dot(axes[2], middle);
+    const layerOf = k => Math.min(layers - 1, Math.max(0, Math.floor(layers * ((depths[k] - centre) / half + 1) / 2))) || 0;
+    for (let k = 0; k < count; ++k) ++start[layerOf(k) + 1];
+    for (let i = 0; i < layers; ++i) start[i + 1] += start[i];
+    for (let k = 0; k < count; ++k) order[start[layerOf(k)]++] = k;
+  }
+
+  const isSeen = k => {
+    const r = pageRadius[k];
+    return r > 0 && pageX[k] > -r && pageX[k] < canvas.width + r && pageY[k] > -r && pageY[k] < canvas.height + r;
+  };
+
+  // A contact's colour: 0 is touching without film, then the film's from light to dark.
+  const colours = [motion.touching, ...motion.colours];
+  const colourOf = level => (level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1)));
+
+  /** The line of a contact, from centre to centre or foot. */
+  function traceContact(i) {
+    const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+    if (first < 0) {
+      const {point, normal} = planes[-1 - first];
+      const x = [0, 1, 2].map(d => (d < dim ? positions[second * dim + d] : 0));
+      const p = project(...plus(x, -dot(normal, plus(x, -1, point)), normal));
+      pen.moveTo(p.x, p.y);
+    } else {
+      pen.moveTo(pageX[first], pageY[first]);
+    }
+    pen.lineTo(pageX[second], pageY[second]);
+  }
+
+  function widthOf(i) {
+    const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+    const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
+    return lines.level[i] === 0 ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r)) : Math.min(9 * dots, Math.max(1, 0.3 * r));
+  }
+
+  const contactSeen = i => {
+    const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+    return isSeen(second) || (first >= 0 && isSeen(first));
+  };
+
+  /** Of one colour at a time; the width is that of a particle of usual size. */
+  function drawContacts() {
+    for (let c = 0; c < colours.length; ++c) {
+      let width = 0, drawn = 0;
+      pen.beginPath();
+      for (let i = 0; i < lines.count; ++i)
+        if (colourOf(lines.level[i]) === c && contactSeen(i)) {
+          traceContact(i);
+          width += widthOf(i);
+          ++drawn;
+        }
+      if (!drawn) continue;
+      pen.strokeStyle = colours[c];
+      pen.lineWidth = width / drawn;
+      pen.stroke();
+    }
+  }
+
+  const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count), chained = new Int32Array(flat ? 0 : lines.pair.length);
+
+  /** From far to near; a contact with the nearer of its particles: over both, under what is in front. */
+  function drawSpheres() {
+    chain.fill(-1);
+    if (withContacts) {
+      order.forEach((k, i) => { rank[k] = i; });
+      for (let i = 0; i < lines.count; ++i) {
+        const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
+        const k = first >= 0 && rank[first] > rank[second] ? first : second;
+        chained[i] = chain[k];
+        chain[k] = i;
+      }
+    }
+    for (let j = 0; j < count; ++j) {
+      const k = order[j];
+      if (isSeen(k)) {
+        pen.fillStyle = kBall[1];
+        particle(pageX[k], pageY[k], pageRadius[k]);
+      }
+      for (let i = chain[k]; i >= 0; i = chained[i]) {
+        if (!contactSeen(i)) continue;
+        pen.strokeStyle = colours[colourOf(lines.level[i])];
+        pen.lineWidth = widthOf(i);
+        pen.beginPath();
+        traceContact(i);
+        pen.stroke();
+      }
+    }
+  }
+
+  function drawDiscs() {
+    pen.fillStyle = kDisc.fill;
+    for (let k = 0; k < count; ++k)
+      if (isSeen(k)) particle(pageX[k], pageY[k], pageRadius[k]);
+  }
+
+  function draw() {
+    pen.fillStyle = theme.paper;
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    if (!frames) return;
+    setAxes();
+    pen.lineCap = 'round';
+    placeParticles();
+    if (flat) {
+      drawSolids();
+      drawDiscs();
+      drawLines();
+      if (withContacts) drawContacts();
+    } else {
+      drawPatches(true);
+      drawSpheres();
+      drawPatches(false);
+    }
+    if (hovered >= 0) {
+      pen.strokeStyle = theme.mark;
+      pen.lineWidth = 2.5 * dots;
+      pen.beginPath();
+      pen.arc(pageX[hovered], pageY[hovered], pageRadius[hovered], 0, 2 * Math.PI);
+      pen.stroke();
+    }
+    canvas.dataset.time = player.time;
+    canvas.dataset.contacts = withContacts ? lines.count : 0;
+  }
+
+  let asked = false;
+  function redraw() {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => { asked = false; readPointer(); draw(); });
+  }
+
+  // ---- What the pointer reads off
+
+  const readout = document.getElementById('readout');
+  const pointer = {x: 0, y: 0, inside: false};
+  const number = x => String(Number(x.toPrecision(4))).replace('-', '\u2212');
+
+  function readPointer() {
+    hovered = -1;
+    if (pointer.inside && frames) {
+      placeParticles();
+      const reach = 3 * dots;  // small ones can be hit, too
+      for (let j = count - 1; j >= 0 && hovered < 0; --j) {
+        const k = flat ? j : order[j], r = Math.max(reach, pageRadius[k]);
+        if (pageRadius[k] > 0 && (pageX[k] - pointer.x) ** 2 + (pageY[k] - pointer.y) ** 2 <= r * r) hovered = k;
+      }
+    }
+    if (hovered < 0) { readout.textContent = ''; return; }
+    let contacts = 0;
+    for (let i = 0; i < lines.count; ++i)
+      if (pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered) ++contacts;
+    const place = [...positions.subarray(hovered * dim, hovered * dim + dim)].map(number).join(', ');
+    readout.textContent = `particle ${ids ? ids[hovered] : hovered * motion.every}: radius ${number(radii[hovered])}, at (${place}), ` +
+        `${contacts} contact${contacts === 1 ? '' : 's'}`;
+  }
+
+  // ---- Time
+
+  const slider = document.getElementById('time'), clock = document.getElementById('clock'), button = document.getElementById('play');
+  const speed = document.getElementById('speed');
+  const digits = Math.min(9, Math.max(0, 2 - Math.floor(Math.log10((lastTime - firstTime) || 1))));
+  let lastTick = 0;
+
+  const player = {
+    time: firstTime,
+    playing: false,
+    seek(time) {
+      player.time = Math.min(lastTime, Math.max(firstTime, time));
+      slider.value = player.time;
+      clock.textContent = `t = ${player.time.toFixed(digits).replace('-', '\u2212')}`;
+      slider.setAttribute('aria-valuetext', clock.textContent);
+      if (frames) setTime(player.time);
+      redraw();
+    },
+    play() {
+      if (frames < 2 || player.playing) return;
+      if (player.time >= lastTime) player.seek(firstTime);
+      player.playing = true;
+      lastTick = performance.now();
+      button.textContent = 'Pause';
+      requestAnimationFrame(tick);
+    },
+    pause() {
+      player.playing = false;
+      button.textContent = 'Play';
+    },
+    draw,
+    first: firstTime,
+    last: lastTime,
+  };
+
+  function tick(now) {
+    if (!player.playing) return;
+    // A page that was hidden goes on where it was.
+    const seconds = Math.min(0.25, Math.max(0, (now - lastTick) / 1000));
+    lastTick = now;
+    player.seek(player.time + seconds * Number(speed.value) * (lastTime - firstTime) / kSeconds);
+    if (player.time >= lastTime) player.pause(); else requestAnimationFrame(tick);
+  }
+
+  function stepFrame(by) {
+    player.pause();
+    const {frame, share} = placeOf(player.time);
+    const next = by > 0 ? frame + (share >= 1 ? 2 : 1) : share > 0 ? frame : frame - 1;
+    player.seek(times[Math.min(frames - 1, Math.max(0, next))]);
+  }
+
+  slider.min = firstTime;
+  slider.max = lastTime;
+  slider.disabled = button.disabled = frames < 2;
+  slider.addEventListener('input', () => player.seek(Number(slider.value)));
+  button.addEventListener('click', () => (player.playing ? player.pause() : player.play()));
+  document.getElementById('films').addEventListener('change', event => { withContacts = event.target.checked; redraw(); });
+  document.getElementById('whole').addEventListener('click', () => {
+    Object.assign(view, {turn: Math.PI / 6, above: Math.PI / 9});
+    showAll();
+    redraw();
+  });
+
+  const kKeys = {
+    ' ': () => (player.playing ? player.pause() : player.play()),
+    ArrowLeft: () => stepFrame(-1),
+    ArrowRight: () => stepFrame(1),
+    Home: () => player.seek(firstTime),
+    End: () => player.seek(lastTime),
+    '+': () => zoom(1.25),
+    '-': () => zoom(0.8),
+  };
+  document.addEventListener('keydown', event => {
+    // Buttons, boxes and lists have keys of their own.
+    const own = event.target.closest('button, select, input:not([type=range])');
+    if (own || event.ctrlKey || event.metaKey || event.altKey || !frames || !kKeys[event.key]) return;
+    event.preventDefault();
+    kKeys[event.key]();
+  });
+
+  // ---- Pointer: one drags or turns, two zoom
+
+  const held = new Map();
+  const onCanvas = event => {
+    const box = canvas.getBoundingClientRect();
+    return {x: (event.clientX - box.left) * canvas.width / box.width, y: (event.clientY - box.top) * canvas.height / box.height};
+  };
+
+  canvas.addEventListener('pointerdown', event => {
+    // A pointer that a script made cannot be captured.
+    if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
+    held.set(event.pointerId, onCanvas(event));
+    Object.assign(pointer, onCanvas(event), {inside: true});
+    redraw();
+  });
+
+  canvas.addEventListener('pointermove', event => {
+    const now = onCanvas(event), before = held.get(event.pointerId);
+    Object.assign(pointer, now, {inside: true});
+    if (before) {
+      const dx = now.x - before.x, dy = now.y - before.y;
+      const others = [...held].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+      if (others.length) {
+        const gap = (a, b) => Math.hypot(a.x - b.x, a.y - b.y) || 1;
+        zoom(gap(now, others[0]) / gap(before, others[0]), (before.x + others[0].x) / 2, (before.y + others[0].y) / 2);
+        view.x += dx / 2;
+        view.y += dy / 2;
+      } else if (flat || event.shiftKey) {
+        view.x += dx;
+        view.y += dy;
+      } else {
+        const quarter = Math.PI / 2, full = 300 * dots;
+        view.turn -= dx / full * quarter;
+        view.above = Math.min(quarter, Math.max(-quarter, view.above + dy / full * quarter));
+      }
+      view.moved = true;
+      held.set(event.pointerId, now);
+    }
+    redraw();
+  });
+
+  const letGo = event => {
+    held.delete(event.pointerId);
+    // A finger that is lifted leaves what it has read off.
+    if (event.type === 'pointerleave' && event.pointerType === 'mouse') pointer.inside = false;
+    redraw();
+  };
+  for (const name of ['pointerup', 'pointercancel', 'pointerleave']) canvas.addEventListener(name, letGo);
+  canvas.addEventListener('wheel', event => {
+    event.preventDefault();
+    const at = onCanvas(event), lineHeight = event.deltaMode === 1 ? 16 : 1;
+    zoom(Math.exp(-0.0015 * Math.max(-400, Math.min(400, event.deltaY * lineHeight))), at.x, at.y);
+  }, {passive: false});
+  canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
+
+  // ---- Light and dark; paper is light
+
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const setTheme = isDark => { theme = isDark ? kThemes.dark : kThemes.light; draw(); };
+  dark.addEventListener('change', () => setTheme(dark.matches));
+  window.addEventListener('beforeprint', () => setTheme(false));
+  window.addEventListener('afterprint', () => setTheme(dark.matches));
+
+  player.seek(firstTime);
+  theme = dark.matches ? kThemes.dark : kThemes.light;
+  resize();
+  new ResizeObserver(() => { if (!matchMedia('print').matches) resize(); }).observe(canvas);
+  window.viscontactPlayer = player;
+})();

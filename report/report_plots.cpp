@@ -1,0 +1,323 @@
+#include "viscontact/report/report_plots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/stokes_drag.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr const char* kBlack = "#000000";
+constexpr const char* kBlue = "#0072B2";
+constexpr const char* kOrange = "#D55E00";
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
+
+/// The model of that name; nothing for a user's own.
+std::optional<ModelChoice> known_model(std::string_view name) {
+  try {
+    return find_model(name);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of
+/// models; curves that lie on each other differ in dash and width too.
+CurveStyle line_style(std::string_view model, bool film = false) {
+  constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73",
+                                   "#CC79A7", "#D55E00", "#7F7F7F", "#8C564B", "#B8A100"};
+  constexpr std::array kWidths = {5.0, 2.0, 1.6, 3.4, 2.2, 2.2, 1.4, 2.0, 1.6, 2.0};
+  const auto choice = known_model(model);
+  const auto place =
+      choice ? static_cast<std::size_t>(choice->model - all_models().data()) : kColours.size() - 1;
+  const auto i = std::min(place, kColours.size() - 1);
+  std::vector<double> dash;
+  if (film && choice && choice->smooth)
+    dash = {8, 3, 2, 3};
+  else if (film)
+    dash = {8, 5};
+  else if (choice && choice->exact_drag)
+    dash = {2, 4};
+  else if (choice && choice->smooth)
+    dash = {12, 3, 2, 3};
+  else if (place == 2)
+    dash = {10, 4};
+  return {kColours[i], kWidths[i], dash};
+}
+
+std::string legend_of(std::string_view model) {
+  const auto choice = known_model(model);
+  return choice ? description_of(*choice) : std::string(model);
+}
+
+/// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
+/// that no minimum is lost.
+std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows,
+                                          std::size_t trajectories,
+                                          double (*value)(const TrajectoryRow&)) {
+  constexpr std::size_t kRuns = 400,
+                        kRunsOfAll = 3200;  // of many models fewer: the page stays small
+  std::vector<const TrajectoryRow*> kept;
+  const std::size_t run =
+      std::max<std::size_t>(1, rows.size() / std::min(kRuns, 1 + kRunsOfAll / trajectories));
+  const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) {
+    return value(a) < value(b);
+  };
+  for (std::size_t i = 0; i < rows.size(); i += run) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), i + run));
+    const auto [low, high] = std::minmax_element(begin, end, less);
+    kept.push_back(&*begin);
+    for (const auto extreme : {std::min(low, high), std::max(low, high)})
+      if (&*extreme != kept.back()) kept.push_back(&*extreme);
+  }
+  if (kept.back() != &rows.back()) kept.push_back(&rows.back());
+  return kept;
+}
+
+double gap_of(const TrajectoryRow& row) { return row.gap; }
+
+}  // namespace
+
+Plot plot_fit(const ForceTable& table, const Fit& fit) {
+  PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
+  PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
+  PlotCurve residual{"fit - table, in size", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
+  PlotCurve estimate{"table's own error estimate", {kOrange, 0, {}, PointKind::kSquare, 0.6}, {}};
+  const LubricationForce force(fit);
+  const double stokes = stokes_resistance(fit.viscosity, fit.radius);
+  for (const auto& row : table.rows) {
+    points.points.emplace_back(row.gap, row.drag_factor);
+    if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;  // another table
+    residual.points.emplace_back(
+        row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
+    if (row.relative_error_estimate > 0)
+      estimate.points.emplace_back(row.gap, row.relative_error_estimate);
+  }
+  constexpr int kSamples = 300;
+  const auto [low, high] = fit.gap_interval;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double gap = std::clamp(
+        std::exp(std::lerp(std::log(low), std::log(high), static_cast<double>(i) / kSamples)), low,
+        high);
+    line.points.emplace_back(gap, force.resistance(gap) / stokes);
+  }
+  // Rows of several velocities start again at the smallest gap.
+  for (auto* curve : {&points, &residual, &estimate})
+    std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
+  // Nothing to see of a zero on a logarithmic axis.
+  for (auto& [gap, value] : residual.points)
+    if (value == 0) value = kGap;
+  PlotPanel residuals{"Relative residual of the fit",
+                      {"gap q", true},
+                      {"relative", true},
+                      {residual},
+                      KeyPlace::kBottomRight};
+  if (!estimate.points.empty()) residuals.curves.push_back(estimate);
+  return {"fit",
+          720,
+          {{"Drag factor: force over Stokes drag",
+            {"gap q", true},
+            {"lambda", true},
+            {line, points},
+            KeyPlace::kTopRight},
+           residuals}};
+}
+
+Plot plot_gaps(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{"Gap between sphere and plane", {"time t"}, {"gap q"}, {}};
+  for (const auto& trajectory : trajectories) {
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), gap_of))
+      curve.points.emplace_back(row->time, row->gap);
+    panel.curves.push_back(curve);
+  }
+  return {"gap", 520, {panel}};
+}
+
+Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
+                           const LubricationForce& force) {
+  PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
+  std::vector<std::pair<double, double>> through;
+  double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a
+                                                              // released sphere's first step
+  for (const auto& trajectory : trajectories) {
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    PlotCurve film{"", line_style(trajectory.model, true), {}};
+    const auto choice = known_model(trajectory.model);
+    const LubricationForce own_force = choice ? drag_of(*choice, force) : force;
+    const auto contact = choice && choice->model->contact != nullptr
+                             ? std::optional(choice->model->contact(motion, own_force))
+                             : std::nullopt;
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), gap_of)) {
+      const bool in_contact = row->gamma && *row->gamma < 0;
+      curve.points.emplace_back(row->time, row->gap > 0 && !in_contact ? row->gap : kGap);
+      if (!contact) continue;
+      double thickness = kGap;
+      try {
+        if (in_contact && contact->film_thickness) thickness = contact->film_thickness(*row->gamma);
+      } catch (const Error&) {
+        // Thinner than the fit knows: not drawn.
+      }
+      film.points.emplace_back(row->time, thickness);
+      if (thickness > 0) thinnest = std::min(thinnest, thickness);
+    }
+    if (!contact)
+      for (const auto& row : trajectory.rows)
+        if (row.gap > 0) thinnest = std::min(thinnest, row.gap);
+    // A model without contact that goes through the plane all the same: a cross at the lower edge.
+    if (!contact && trajectory.rows.back().gap == 0)
+      through.emplace_back(trajectory.rows.back().time, 0);
+    panel.curves.push_back(curve);
+    if (std::ranges::any_of(film.points,
+                            [](const auto& point) { return std::isfinite(point.second); })) {
+      panel.curves.push_back(film);
+      panel.title = "Gap, logarithmic; broken lines: film recovered from gamma";
+    }
+  }
+  if (thinnest > 0 && std::isfinite(thinnest)) {
+    panel.y.low = thinnest / 2;
+    for (auto& [time, gap] : through) gap = thinnest;
+  }
+  std::ranges::sort(through);
+  if (!through.empty())
+    panel.curves.push_back(
+        {"goes through the plane", {"#D00000", 0, {}, PointKind::kCross, 1.6}, through});
+  return {"gap_logarithmic", 560, {panel}};
+}
+
+Plot plot_gamma(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{
+      "Adhesion potential: the impulse that the film has absorbed", {"time t"}, {"gamma"}, {}};
+  for (const auto& trajectory : trajectories) {
+    if (!trajectory.rows.back().gamma) continue;
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(),
+                                   [](const TrajectoryRow& r) { return r.gamma ? *r.gamma : 0; }))
+      curve.points.emplace_back(row->time, row->gamma ? *row->gamma : kGap);
+    panel.curves.push_back(curve);
+  }
+  return {"gamma", 440, {panel}};
+}
+
+Plot plot_solid_force(const std::vector<Trajectory>& trajectories) {
+  PlotPanel panel{
+      "What the solid carries; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
+  double load = 0;
+  const auto solid_of = [](const TrajectoryRow& row) {
+    return row.solid_force ? *row.solid_force : 0;
+  };
+  for (const auto& trajectory : trajectories) {
+    if (std::ranges::none_of(trajectory.rows, [&](const auto& row) { return solid_of(row) > 0; }))
+      continue;
+    PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
+    for (const auto* row : thinned(trajectory.rows, trajectories.size(), solid_of))
+      curve.points.emplace_back(row->time, solid_of(*row));
+    panel.curves.push_back(curve);
+    for (const auto& row : trajectory.rows)
+      if (row.external_force) load = std::max(load, std::abs(*row.external_force));
+  }
+  panel.y.low = 0;
+  if (load > 0) panel.y.high = 1.3 * load;
+  return {"solid_force", 440, {panel}};
+}
+
+Plot plot_external_force(const ExternalForce& force, double end_time) {
+  // Steps are drawn as such: two points at each jump.
+  PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
+  PlotCurve curve{"external force", {kBlack}, {}};
+  auto stops = force.jumps();
+  std::erase_if(stops, [&](double t) { return t >= end_time; });
+  stops.push_back(end_time);
+  constexpr int kPoints = 2000;
+  double from = 0;
+  for (const double to : stops) {
+    const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);
+    for (int i = 0; i <= points; ++i) {
+      const double t = from + (to - from) * i / points;
+      curve.points.emplace_back(t, force.value(i == points ? std::nextafter(to, from) : t));
+    }
+    from = to;
+  }
+  double low = 0, high = 0;
+  for (const auto& [t, f] : curve.points) {
+    low = std::min(low, f);
+    high = std::max(high, f);
+  }
+  const double margin = 0.08 * std::max(high - low, 1e-300);
+  panel.y.low = low - margin;
+  panel.y.high = high + margin;
+  panel.curves.push_back(curve);
+  return {"external_force", 340, {panel}};
+}
+
+Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
+  // A row a model, from the top down.
+  const auto rows = comparison.models.size();
+  PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
+  PlotCurve computed{"smallest gap computed", {kBlue, 0, {}, PointKind::kDisc, 1.2}, {}};
+  PlotCurve recovered{"recovered from gamma", {kBlue, 0, {}, PointKind::kCircle, 1.2}, {}};
+  panel.rows.resize(rows);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto& model = comparison.models[i];
+    const double gap = model.recovered_minimal_gap.value_or(model.minimal_gap);
+    panel.rows[rows - 1 - i] = model.model + (gap > 0 ? "" : " (0)");
+    if (!(gap > 0)) continue;
+    all.push_back(gap);
+    (model.recovered_minimal_gap ? recovered : computed)
+        .points.emplace_back(gap, static_cast<double>(rows - i));
+  }
+  const double top = static_cast<double>(rows) + 0.6, bottom = 0.4;
+  for (auto* curve : {&computed, &recovered}) {
+    std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
+    if (!curve->points.empty()) panel.curves.push_back(*curve);
+  }
+  if (published) {
+    all.push_back(published->minimal_gap);
+    panel.curves.push_back({fmt::format("{}: {:.4g}", published->source, published->minimal_gap),
+                            {kOrange, 2, {8, 5}},
+                            {{published->minimal_gap, bottom}, {published->minimal_gap, top}}});
+  }
+  if (all.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(all);
+  constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
+  constexpr double kClose = 1.3;       // an axis from 0 would hide the difference
+  const double span = std::max(high - low, 0.05 * high);
+  panel.x.logarithmic = high / low > kManyDecades;
+  panel.x.low = panel.x.logarithmic ? low / 3 : high < kClose * low ? low - span : 0;
+  panel.x.high = panel.x.logarithmic ? high * 3 : high < kClose * low ? high + span : high * 1.15;
+  panel.y.low = bottom;
+  panel.y.high = top;
+  return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
+}
+
+Plot plot_uncertainty(const FitUncertainty& uncertainty) {
+  PlotPanel panel{"Gap without inertia: intervals around the fit's, relative",
+                  {"time t"},
+                  {"q / q of the fit - 1"},
+                  {}};
+  const auto curve = [&](const char* legend, const CurveStyle& style,
+                         std::array<double, 2> UncertainGap::*interval, std::size_t end) {
+    PlotCurve result{legend, style, {}};
+    for (const auto& gap : uncertainty.gaps)
+      result.points.emplace_back(gap.time, (gap.*interval)[end] / gap.gap - 1);
+    panel.curves.push_back(result);
+  };
+  const CurveStyle random{kBlue}, misfit{kOrange, 2, {8, 5}};
+  curve("95 % of the draws of coefficients", random, &UncertainGap::random, 0);
+  curve("", random, &UncertainGap::random, 1);
+  curve("drag off by the largest misfit everywhere", misfit, &UncertainGap::misfit, 0);
+  curve("", misfit, &UncertainGap::misfit, 1);
+  return {"uncertainty", 440, {panel}};
+}
+
+}  // namespace viscontact

@@ -1,0 +1,201 @@
+#include "viscontact/report/report_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact {
+namespace {
+
+using Warnings = std::vector<ReportWarning>;
+
+std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
+
+/// The model of a trajectory; nothing for a user's own.
+std::optional<ModelChoice> model_of(const Trajectory& trajectory) {
+  try {
+    return find_model(trajectory.model);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Drag, or a film recovered from gamma, where the table has no row.
+void add_extrapolation(Warnings& warnings, const RunResults& run) {
+  if (run.fit.terms.empty()) return;  // exact
+  const auto [low, high] = run.fit.gap_interval;
+  const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->exact_drag) continue;
+    const auto [first, last] =
+        std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
+    const double smallest = first->gap, largest = last->gap;
+    const bool contact = choice->model->contact != nullptr;
+    // What a contact model does at a gap of zero is no drag; its film is.
+    const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
+    if (thinnest > 0 && thinnest < low)
+      warnings.push_back(
+          {fmt::format(
+               "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
+               trajectory.model, contact ? "a film of" : "a gap of", thinnest, low),
+           trajectory_name(trajectory.model)});
+    const bool drag_at_distance =
+        !contact || choice->model->contact(run.c.motion.value(), force).drag.has_value();
+    if (largest > high && drag_at_distance)
+      warnings.push_back(
+          {fmt::format(
+               "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
+               trajectory.model, largest, high),
+           trajectory_name(trajectory.model)});
+  }
+}
+
+void add_failed_models(Warnings& warnings, const RunResults& run) {
+  for (const auto& failed : run.comparison.failed_models)
+    warnings.push_back(
+        {fmt::format("{} failed and has no trajectory: {}", failed.model, failed.reason),
+         "failed_models.json"});
+}
+
+/// A residual is compared with the error estimate of its own row: that of another row may be much
+/// larger. A fit file of an earlier version does not have this comparison.
+void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
+  if (d.misfit != Misfit::kBasis) return;
+  if (const auto& worst = d.worst_to_estimate)
+    warnings.push_back(
+        {fmt::format("The fit is coarser than the table: {} of {} rows have a relative residual "
+                     "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
+                     "which is {:.2g} times its estimate); another basis can do better",
+                     d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
+                     worst->ratio),
+         "fit.json"});
+  else
+    warnings.push_back({fmt::format("The fit is coarser than the table: chi-squared is {:.2g} for "
+                                    "{} degrees of freedom; another basis can do better",
+                                    d.chi_squared.value_or(0), d.degrees_of_freedom),
+                        "fit.json"});
+}
+
+void add_poor_fit(Warnings& warnings, const Fit& fit) {
+  const auto& diagnostics = fit.diagnostics;
+  if (std::abs(fit.largest_relative_residual) > kPoorFit)
+    warnings.push_back(
+        {fmt::format("Poor fit: it misses the table by up to {:.2g} relative{}; "
+                     "called poor beyond {:g}",
+                     fit.largest_relative_residual,
+                     diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
+                     kPoorFit),
+         "fit.json"});
+  if (!diagnostics) return;
+  for (const auto& warning : diagnostics->warnings)
+    warnings.push_back({"Fit: " + warning, "fit.json"});
+  add_coarser_than_table(warnings, *diagnostics);
+}
+
+void add_unmet_accuracy(Warnings& warnings, const RunResults& run) {
+  if (!run.table || !run.c.tabulation) return;
+  const double asked = run.c.tabulation->relative_accuracy;
+  const auto unmet = std::ranges::count_if(
+      run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
+  if (unmet == 0) return;
+  const auto worst =
+      std::ranges::max_element(run.table->rows, {}, &ForceTableRow::relative_error_estimate);
+  warnings.push_back(
+      {fmt::format("Accuracy not met: {} of {} rows of the table have an error estimate above the "
+                   "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
+                   unmet, run.table->rows.size(), asked, worst->relative_error_estimate,
+                   worst->gap),
+       "table.csv"});
+}
+
+void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
+    warnings.push_back(
+        {fmt::format("The sphere of {} goes through the plane at time {:.4g}, which no "
+                     "drag of a film allows: its time step is too long",
+                     trajectory.model, trajectory.rows.back().time),
+         trajectory_name(trajectory.model)});
+  }
+}
+
+/// The gaps of models that do not know the solids, where these would touch.
+void add_roughness(Warnings& warnings, const RunResults& run) {
+  const auto& motion = run.c.motion.value();
+  const double roughness = motion.roughness[0] + motion.roughness[1];
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = model_of(trajectory);
+    if (!choice || choice->model->contact != nullptr) continue;
+    const double smallest = std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
+    if (smallest < roughness)
+      warnings.push_back(
+          {fmt::format("{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
+                       "would touch at {:.4g}",
+                       trajectory.model, smallest, roughness),
+           trajectory_name(trajectory.model)});
+  }
+}
+
+void add_refused_draws(Warnings& warnings, const RunResults& run) {
+  if (!run.uncertainty) return;
+  const auto& u = *run.uncertainty;
+  if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
+    warnings.push_back(
+        {fmt::format("{} of {} draws of the fit's coefficients make no possible drag: "
+                     "the interval from them is too narrow",
+                     u.refused, u.draws),
+         "uncertainty.json"});
+}
+
+/// Files that carry another input's hash than that of the file here.
+void add_other_origin(Warnings& warnings, const RunResults& run) {
+  const auto fit_hash = content_sha256(read_file(run.folder.fit()));
+  const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},
+                                                        {"fit", fit_hash}};
+  for (const auto& trajectory : run.trajectories)
+    for (const auto& [key, hash] : inputs) {
+      const auto found = trajectory.provenance.find(key);
+      if (found == trajectory.provenance.end() || found->second == hash) continue;
+      warnings.push_back({fmt::format("{} was made from another {} than the one in this folder",
+                                      trajectory.model, key),
+                          trajectory_name(trajectory.model)});
+    }
+  if (run.table && !run.fit.table_sha256.empty() &&
+      run.fit.table_sha256 != content_sha256(read_file(run.folder.table())))
+    warnings.push_back(
+        {"The fit was made from another table than the one in this folder", "fit.json"});
+  for (const auto& model : run.comparison.models)
+    if (std::ranges::find(run.trajectories, model.model, &Trajectory::model) ==
+        run.trajectories.end())
+      warnings.push_back(
+          {fmt::format("The trajectory of {} is not in this folder and in no plot; copy it into "
+                       "trajectories/ and compare again",
+                       model.model),
+           "comparison.json"});
+}
+
+}  // namespace
+
+std::vector<ReportWarning> warnings_of(const RunResults& run) {
+  Warnings warnings;
+  add_failed_models(warnings, run);
+  add_extrapolation(warnings, run);
+  add_poor_fit(warnings, run.fit);
+  add_unmet_accuracy(warnings, run);
+  add_passage_through_plane(warnings, run);
+  add_roughness(warnings, run);
+  add_refused_draws(warnings, run);
+  add_other_origin(warnings, run);
+  return warnings;
+}
+
+}  // namespace viscontact

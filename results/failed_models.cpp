@@ -1,0 +1,103 @@
+#include "viscontact/results/failed_models.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kUsualReference = "inertial";
+
+}  // namespace
+
+std::vector<FailedModel> read_failed_models(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    std::vector<FailedModel> failed;
+    const auto json = Json::parse(read_file(path));
+    for (const auto& [name, entry] : json.at("failed_models").items())
+      failed.push_back({name, entry.at("reason"),
+                        static_cast<ExitCode>(entry.at("exit_code").get<int>()),
+                        entry.at("made_from").get<CsvComments>()});
+    return failed;
+  } catch (const Json::exception&) {
+    throw_bad_input({path.string()},
+                    "is not a record of failed models; remove it and simulate again");
+  }
+}
+
+std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from) {
+  try {
+    auto failed = read_failed_models(run.failed_models());
+    std::erase_if(failed, [&](const FailedModel& model) { return model.made_from != made_from; });
+    return failed;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::string write_failed_models(const std::vector<FailedModel>& failed) {
+  Json json;
+  json["failed_models"] = Json::object();
+  for (const auto& model : failed)
+    json["failed_models"][model.model] = {{"reason", model.reason},
+                                          {"exit_code", static_cast<int>(model.exit_code)},
+                                          {"made_from", model.made_from}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
+               const std::filesystem::path& case_path) {
+  std::string others;
+  for (std::size_t i = 1; i < failed.size(); ++i)
+    others += fmt::format("{}{}", i == 1 ? "" : ", ", failed[i].model);
+  if (!others.empty()) others = fmt::format("; {} more failed ({})", failed.size() - 1, others);
+  std::string written;
+  if (computed == 1) written = "; 1 other model is computed and written";
+  if (computed > 1) written = fmt::format("; {} other models are computed and written", computed);
+  return Error(failed.front().exit_code,
+               fmt::format("{}: model {}: {}{}{}", case_path.string(), failed.front().model,
+                           failed.front().reason, others, written));
+}
+
+std::vector<ModelWithoutTrajectory> failures_without(const std::vector<Trajectory>& trajectories,
+                                                     const RunFolder& run) {
+  std::vector<ModelWithoutTrajectory> failed;
+  for (const auto& model : read_failed_models(run.failed_models()))
+    if (std::ranges::find(trajectories, model.model, &Trajectory::model) == trajectories.end())
+      failed.push_back({model.model, model.reason});
+  return failed;
+}
+
+std::string reference_without(const std::vector<std::string>& models,
+                              const std::vector<FailedModel>& failed) {
+  std::vector<std::string> computed;
+  std::ranges::copy_if(models, std::back_inserter(computed), [&](const std::string& model) {
+    return std::ranges::find(failed, model, &FailedModel::model) == failed.end();
+  });
+  const bool has_inertial = std::ranges::find(computed, kUsualReference) != computed.end();
+  if (has_inertial || computed.empty()) return std::string(kUsualReference);
+  return computed.front();
+}
+
+std::string reference_among(const std::vector<Trajectory>& trajectories,
+                            const std::vector<ModelWithoutTrajectory>& failed,
+                            const std::string& asked) {
+  const std::string reference = asked.empty() ? std::string(kUsualReference) : asked;
+  const auto found = std::ranges::find(failed, reference, &ModelWithoutTrajectory::model);
+  if (found == failed.end()) return reference;
+  if (asked.empty()) return trajectories.front().model;
+  throw Error(ExitCode::kBadInput,
+              fmt::format("the reference model '{}' has no trajectory here, because it failed: "
+                          "{}; take another one by --reference",
+                          reference, found->reason));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,276 @@
+#include "viscontact/results/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cassert>
+#include <charconv>
+#include <cstdlib>
+#include <ctime>
+
+#include "viscontact/results/versions.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/json.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact {
+namespace {
+
+// By this a line is known, among those of a user's.
+constexpr std::string_view kName = "provenance";
+constexpr std::string_view kBegin = "{\"command\":[";
+
+std::vector<std::string> own_command() {
+  const std::string words = read_file("/proc/self/cmdline");
+  std::vector<std::string> command;
+  for (std::size_t begin = 0; begin < words.size();) {
+    const auto end = words.find('\0', begin);
+    command.push_back(words.substr(begin, end - begin));
+    begin = end == std::string::npos ? words.size() : end + 1;
+  }
+  return command;
+}
+
+/// Now, or when SOURCE_DATE_EPOCH says (reproducible-builds.org).
+std::string time_of_making() {
+  std::time_t now = std::time(nullptr);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr std::time_t kYear9999 = 253402300799;
+    const std::string_view text = epoch;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
+    if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
+      throw Error(
+          ExitCode::kWrongUsage,
+          fmt::format("SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 "
+                      "to {}",
+                      epoch, kYear9999));
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+/// A pipe can be read but once.
+std::string hash_of(const std::filesystem::path& file) {
+  return std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)
+             ? ""
+             : sha256(read_file(file));
+}
+
+/// On one line.
+std::string as_line(const Provenance& provenance) {
+  Json json;
+  json["command"] = provenance.command;
+  json["folder"] = provenance.folder;
+  json["inputs"] = Json::array();
+  for (const auto& input : provenance.inputs) {
+    json["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}});
+    if (input.intermediate) json["inputs"].back()["intermediate"] = true;
+  }
+  if (!provenance.output.empty()) json["output"] = provenance.output;
+  json["versions"] = provenance.versions;
+  json["made"] = provenance.made;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// JSON without the characters that would end the element, script or comment around it.
+std::string without(std::string_view characters, const std::string& json) {
+  std::string text;
+  for (const char c : json)
+    if (characters.find(c) != std::string_view::npos)
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      text += c;
+  return text;
+}
+
+struct Wrapping {
+  std::string before, after;
+  std::string_view forbidden;  ///< between them
+};
+
+Wrapping wrapping_of(TextKind kind) {
+  switch (kind) {
+    case TextKind::kHashComment:
+      return {"# provenance: ", "", ""};
+    case TextKind::kJson:
+      return {"  \"provenance\": ", ",", ""};
+    case TextKind::kSvg:
+      return {"<metadata id=\"provenance\">", "</metadata>", "<>&"};
+    case TextKind::kHtml:
+      return {"<script type=\"application/json\" id=\"provenance\">", "</script>", "<>&"};
+    case TextKind::kXml:
+      return {"<!-- provenance: ", " -->", "-<>&"};
+    case TextKind::kC:
+      return {"/* provenance: ", " */", "*"};
+    case TextKind::kFortran:
+      return {"! provenance: ", "", ""};
+  }
+  return {};
+}
+
+/// Where a line can be put in: behind the newline that follows `mark`, or at once if none does.
+std::size_t line_after(const std::string& text, std::string_view mark, std::size_t from = 0) {
+  const auto at = text.find(mark, from);
+  assert(at != std::string::npos);
+  const auto end = at + mark.size();
+  return end < text.size() && text[end] == '\n' ? end + 1 : end;
+}
+
+std::size_t place_in(TextKind kind, const std::string& text) {
+  switch (kind) {
+    case TextKind::kHashComment:
+    case TextKind::kC:
+    case TextKind::kFortran:
+      return 0;
+    case TextKind::kJson:
+      return line_after(text, "{");
+    case TextKind::kSvg:
+      return line_after(text, ">", text.find("<svg"));
+    case TextKind::kHtml:
+      return text.find("</head>");
+    case TextKind::kXml:
+      return line_after(text, "?>");
+  }
+  return 0;
+}
+
+/// The line of a text that holds its provenance: where it begins, where the JSON begins, where the line ends.
+struct Line {
+  std::size_t begin = 0, json = 0, end = 0;
+};
+
+std::optional<Line> find_line(const std::string& text) {
+  for (auto at = text.find(kBegin); at != std::string::npos; at = text.find(kBegin, at + 1)) {
+    const auto newline = text.rfind('\n', at);
+    const Line line{newline == std::string::npos ? 0 : newline + 1, at,
+                    std::min(text.find('\n', at), text.size())};
+    const auto before = std::string_view(text).substr(line.begin, at - line.begin);
+    // The longest frame has a few characters between name and object.
+    if (const auto name = before.rfind(kName);
+        name != std::string_view::npos && before.size() - name - kName.size() <= 3)
+      return line;
+  }
+  return {};
+}
+
+}  // namespace
+
+Provenance provenance_of(const Inputs& inputs) {
+  Provenance provenance;
+  provenance.command = own_command();
+  provenance.folder = std::filesystem::current_path().string();
+  for (const auto& file : inputs.given)
+    provenance.inputs.push_back({file.string(), hash_of(file), false});
+  for (const auto& file : inputs.intermediate)
+    provenance.inputs.push_back({file.string(), hash_of(file), true});
+  provenance.versions = library_versions();
+  return provenance;
+}
+
+Provenance without_folders(Provenance provenance) {
+  namespace fs = std::filesystem;
+  const fs::path folder = provenance.folder;
+  const auto shorten = [&](std::string& word, std::size_t begin) {
+    const fs::path path = word.substr(begin);
+    if (!path.is_absolute()) return;
+    const auto relative = path.lexically_normal().lexically_relative(folder);
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    word.replace(begin, std::string::npos, (below ? relative : path.filename()).string());
+  };
+  for (auto& word : provenance.command) shorten(word, path_in_word(word));
+  if (!provenance.command.empty())
+    provenance.command[0] = fs::path(provenance.command[0]).filename();
+  for (auto& input : provenance.inputs) shorten(input.file, 0);
+  shorten(provenance.output, 0);
+  provenance.folder.clear();
+  return provenance;
+}
+
+std::size_t path_in_word(const std::string& word) {
+  const auto value = word.find("=/");  // --output=/...
+  return value != std::string::npos && word.starts_with("--") ? value + 1
+         : word.starts_with("-o/")                            ? 2
+                                                              : 0;
+}
+
+std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
+  const auto place = place_in(kind, text);
+  const auto [before, after, forbidden] = wrapping_of(kind);
+  return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after + "\n" +
+         text.substr(place);
+}
+
+std::string without_provenance(const std::string& text) {
+  const auto line = find_line(text);
+  if (!line) return text;
+  return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
+}
+
+std::string content_sha256(const std::string& text) { return sha256(without_provenance(text)); }
+
+std::optional<Provenance> provenance_in(const std::string& text, const std::string& file) {
+  try {
+    Json json;
+    if (const auto line = find_line(text)) {
+      const auto closing = text.rfind('}', line->end);
+      json = Json::parse(closing == std::string::npos || closing < line->json
+                             ? std::string()
+                             : text.substr(line->json, closing + 1 - line->json));
+    } else {
+      // A JSON file that another program has written out again.
+      const auto whole = Json::parse(text, nullptr, false);
+      if (!whole.is_object() || !whole.contains("provenance")) return {};
+      json = whole.at("provenance");
+    }
+    Provenance provenance;
+    provenance.command = json.at("command").get<std::vector<std::string>>();
+    provenance.folder = json.at("folder").get<std::string>();
+    for (const auto& input : json.at("inputs"))
+      provenance.inputs.push_back({input.at("file").get<std::string>(),
+                                   input.at("sha256").get<std::string>(),
+                                   input.value("intermediate", false)});
+    provenance.versions = json.at("versions").get<std::map<std::string, std::string>>();
+    provenance.output = json.value("output", "");
+    provenance.made = json.at("made").get<std::string>();
+    return provenance;
+  } catch (const Json::exception& error) {
+    throw_bad_input({file},
+                    fmt::format("its line 'provenance' is damaged ({})", cause_in_words(error)));
+  }
+}
+
+std::optional<Provenance> read_provenance(const std::filesystem::path& path) {
+  return provenance_in(read_file(path), path.string());
+}
+
+std::string change_of(const InputFile& input, const std::filesystem::path& folder) {
+  const auto path = folder / input.file;
+  if (!std::filesystem::exists(path)) return fmt::format("{} is not there any more", path.string());
+  if (input.sha256.empty()) return fmt::format("{} was no file, but a pipe", path.string());
+  if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
+  return "";
+}
+
+std::string provenance_line(Provenance provenance, const std::filesystem::path& path) {
+  provenance.output = path.string();
+  provenance.made = time_of_making();
+  return with_provenance(TextKind::kHashComment, "", provenance);
+}
+
+std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                        Provenance provenance) {
+  provenance.output = path.string();
+  provenance.made = time_of_making();
+  if (provenance.folder.empty()) {  // without_folders: the name of the output is shortened, too
+    provenance.folder = std::filesystem::current_path().string();
+    provenance = without_folders(provenance);
+  }
+  return with_provenance(kind, text, provenance);
+}
+
+void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
+                  Provenance provenance) {
+  write_file(path, output_text(path, kind, text, std::move(provenance)));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,53 @@
+#include "viscontact/results/run_results.hpp"
+
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+/// True if the table in the folder is the run's own: the fit was made from it; or the case asks for
+/// a fit of a table, so that another table in its place deserves a warning. A case with `exact` or
+/// `file` in [fit] needs no table: then table.csv is what an earlier case has left there, or a file
+/// of the user's, and may be anything.
+bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
+  if (!std::filesystem::is_regular_file(run.table())) return false;
+  const bool needs_none = fit.basis == kExactPlane || (c.fit && (c.fit->exact || c.fit->file));
+  return !needs_none || content_sha256(read_file(run.table())) == fit.table_sha256;
+}
+
+}  // namespace
+
+RunResults read_run(const std::filesystem::path& folder) {
+  const RunFolder run{folder};
+  RunResults results{run,
+                     read_case(run.case_file()),
+                     read_fit(run.fit()),
+                     read_comparison(run.comparison()),
+                     {},
+                     {},
+                     {}};
+  for (const auto& model : results.comparison.models)
+    if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
+      results.trajectories.push_back(read_trajectory(file));
+  if (results.trajectories.empty())
+    throw_bad_input({run.trajectories().string()},
+                    "has no trajectory of the models that the comparison names");
+  if (has_table(run, results.c, results.fit)) results.table = read_force_table(run.table());
+  if (std::filesystem::exists(run.uncertainty()))
+    results.uncertainty = read_uncertainty(run.uncertainty());
+  return results;
+}
+
+std::vector<std::filesystem::path> files_of(const RunResults& results) {
+  const auto& run = results.folder;
+  std::vector<std::filesystem::path> files = {run.case_file(), run.fit(), run.comparison()};
+  for (const auto& trajectory : results.trajectories)
+    files.push_back(run.trajectory(trajectory.model));
+  if (results.table) files.push_back(run.table());
+  if (results.uncertainty) files.push_back(run.uncertainty());
+  return files;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,31 @@
+#include "viscontact/results/versions.hpp"
+
+#include <ceres/version.h>
+#include <fmt/format.h>
+#include <sundials/sundials_config.h>
+
+#include <Eigen/Core>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
+
+namespace viscontact {
+
+std::map<std::string, std::string> library_versions() {
+  return {{"Viscontact", VISCONTACT_VERSION},
+          {"Ceres", CERES_VERSION_STRING},
+          {"SUNDIALS", SUNDIALS_VERSION},
+          {"Eigen",
+           fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+}
+
+std::string freefem_version_or_not_found() {
+  try {
+    return freefem_version(default_freefem());
+  } catch (const Error& error) {
+    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    return "not found";
+  }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,53 @@
+#include "viscontact/terminal/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace viscontact {
+namespace {
+
+constexpr const char* kEraseLine = "\r\033[K";
+
+bool understands_escapes(int descriptor) {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(descriptor) != 0 && (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
+}  // namespace
+
+void show_progress(const std::string& text) {
+  if (!understands_escapes(STDERR_FILENO)) return;
+  std::fputs((kEraseLine + text).c_str(), stderr);
+  std::fflush(stderr);
+}
+
+void clear_progress() { show_progress(""); }
+
+// Nobody may be listening (a closed or full standard error): then the words are lost, not the work.
+void say(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
+
+void warn(const std::string& text) {
+  constexpr std::string_view kWord = "warning:";
+  const auto at = text.find(kWord);
+  if (at == std::string::npos) return say(text);
+  say(text.substr(0, at) + coloured(kWord, Colour::kYellow, STDERR_FILENO) +
+      text.substr(at + kWord.size()));
+}
+
+void complain(const std::string& text) {
+  const auto end = text.find(' ');
+  if (end == std::string::npos) return say(text);
+  say(coloured(text.substr(0, end), Colour::kRed, STDERR_FILENO) + text.substr(end));
+}
+
+std::string coloured(std::string_view word, Colour colour, int descriptor) {
+  const char* refused = std::getenv("NO_COLOR");
+  if ((refused != nullptr && *refused != '\0') || !understands_escapes(descriptor))
+    return std::string(word);
+  return fmt::format("\033[{}m{}\033[0m", static_cast<int>(colour), word);
+}
+
+}  // namespace viscontact
