@@ -28,11 +28,11 @@ void check_outputs(const std::vector<std::string>& paths) {
   namespace fs = std::filesystem;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty())
-      throw Error(ExitCode::kWrongUsage, "an output has an empty name; give it one");
+      throw Error(ErrorKind::kWrongUsage, "an output has an empty name; give it one");
     for (std::size_t j = 0; j < i; ++j)
       if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
         throw Error(
-            ExitCode::kWrongUsage,
+            ErrorKind::kWrongUsage,
             fmt::format("{} would be written twice; give each output its own name", paths[i]));
   }
 }

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/results/foreign_files.hpp"
 
 namespace viscontact {
 
@@ -39,8 +39,8 @@ auto from_option(std::string_view option, const Read& read) {
   try {
     return read();
   } catch (const Error& error) {
-    if (error.exit_code() != ExitCode::kBadInput) throw;
-    throw Error(ExitCode::kWrongUsage, std::string(option) + ": " + error.what());
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    throw Error(ErrorKind::kWrongUsage, std::string(option) + ": " + error.what());
   }
 }
 

@@ -10,27 +10,28 @@
 #include <new>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/app/help/completion.hpp"
 #include "viscontact/app/commands/doctor.hpp"
 #include "viscontact/app/commands/fit_command.hpp"
 #include "viscontact/app/commands/init_command.hpp"
-#include "viscontact/app/help/manual.hpp"
-#include "viscontact/app/optional_values.hpp"
 #include "viscontact/app/commands/particles_command.hpp"
-#include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/report/report.hpp"
-#include "viscontact/pipeline/rerun.hpp"
-#include "viscontact/results/run_folder.hpp"
-#include "viscontact/pipeline/simulate_stage.hpp"
 #include "viscontact/app/commands/sweep_command.hpp"
 #include "viscontact/app/commands/tabulate_command.hpp"
-#include "viscontact/results/versions.hpp"
+#include "viscontact/app/help/completion.hpp"
+#include "viscontact/app/help/manual.hpp"
+#include "viscontact/app/optional_values.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/pipeline/pipeline.hpp"
+#include "viscontact/pipeline/rerun.hpp"
+#include "viscontact/pipeline/simulate_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/report.hpp"
+#include "viscontact/results/exit_code.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -251,7 +252,7 @@ int run(int argc, char** argv) {
       known = known || command->get_name() == argv[1];
     }
     if (!known)
-      throw Error(ExitCode::kWrongUsage,
+      throw Error(ErrorKind::kWrongUsage,
                   fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names));
   }
   try {
@@ -261,16 +262,17 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));
-    return static_cast<int>(ExitCode::kWrongUsage);
+    return exit_code_of(ErrorKind::kWrongUsage);
   }
-  return static_cast<int>(healthy ? ExitCode::kDone : ExitCode::kExternalProgram);
+  return healthy ? 0 : exit_code_of(ErrorKind::kExternalProgram);
 }
 
 }  // namespace
 }  // namespace viscontact
 
 int main(int argc, char** argv) {
-  using viscontact::ExitCode;
+  using viscontact::ErrorKind;
+  using viscontact::exit_code_of;
   viscontact::catch_interrupts();
   try {
     const int exit_code = viscontact::run(argc, argv);
@@ -279,16 +281,16 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const viscontact::Error& error) {
     viscontact::clear_progress();
-    const bool wrong_usage = error.exit_code() == ExitCode::kWrongUsage;
+    const bool wrong_usage = error.kind() == ErrorKind::kWrongUsage;
     viscontact::complain(fmt::format("viscontact: {}{}", error.what(),
                                      wrong_usage ? "; see viscontact --help" : ""));
-    return static_cast<int>(error.exit_code());
+    return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
     viscontact::complain("viscontact: there is not enough memory for this");
-    return static_cast<int>(ExitCode::kNotConverged);
+    return exit_code_of(ErrorKind::kNotConverged);
   } catch (const std::exception& error) {
     // The file system or a library, in a way that no check foresaw.
     viscontact::complain(fmt::format("viscontact: {}", error.what()));
-    return static_cast<int>(ExitCode::kBadInput);
+    return exit_code_of(ErrorKind::kBadInput);
   }
 }

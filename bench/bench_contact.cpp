@@ -7,9 +7,9 @@
 
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/integration/contact_step.hpp"
-#include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "viscontact/reduced_model/models/viscous_contact.hpp"
+#include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact {
 namespace {

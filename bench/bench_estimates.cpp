@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "viscontact/common/error.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/oracles/inertial_motion.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
-#include "tests/oracles/inertial_motion.hpp"
 
 namespace viscontact {
 namespace {

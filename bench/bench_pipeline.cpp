@@ -2,11 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 namespace {

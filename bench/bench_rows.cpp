@@ -9,10 +9,10 @@
 #include <sstream>
 #include <string>
 
-#include "viscontact/common/error.hpp"
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/sphere_in_cylinder.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {

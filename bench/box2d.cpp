@@ -11,8 +11,8 @@
 #include <map>
 #include <string>
 
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/box2d_case.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace {
 

@@ -82,7 +82,7 @@ void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation
 }
 
 /// `container`: { radius, height } that hold sphere and neighbour at every gap, or "unbounded".
-void read_container(const TomlSection& section, const RoomNeeded& room, Tabulation& tabulation) {
+void read_container(const TomlSection& section, const RequiredSpace& room, Tabulation& tabulation) {
   if (!find_geometry(tabulation.geometry).takes_container) {
     if (section.has("container"))
       section.fail("container", fmt::format("must be left out, because a {} is its own container",

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/reduced_model/motion.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 

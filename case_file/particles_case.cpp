@@ -13,8 +13,8 @@
 #include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/neighbours/neighbours.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/neighbours/neighbours.hpp"
 
 namespace viscontact {
 namespace {
@@ -133,9 +133,10 @@ void add_id(Particles& p, const TomlSection& section) {
 }
 
 /// How messages name a particle.
-class Names {
+class ParticleNames {
  public:
-  Names(const ParticlesCase& c, std::vector<int> lines) : case_(c), lines_(std::move(lines)) {}
+  ParticleNames(const ParticlesCase& c, std::vector<int> lines)
+      : case_(c), lines_(std::move(lines)) {}
   std::string operator()(std::size_t k) const {
     const auto x = case_.particles.position(k);
     const auto place = case_.particles.dimension == 2 ? fmt::format("{}, {}", x[0], x[1])
@@ -154,7 +155,7 @@ class Names {
   std::vector<int> lines_;
 };
 
-void check_start(const ParticlesCase& c, const Names& names) {
+void check_start(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const double tolerance = c.setting.solver.tolerance;
   const double allowed = tolerance * particles::mean_radius(p);
@@ -166,7 +167,8 @@ void check_start(const ParticlesCase& c, const Names& names) {
                                 "the mean radius is {:.3g}; it must be at most a hundredth of each "
                                 "radius",
                                 names(smallest), tolerance, allowed));
-  const double farthest = particles::farthest(tolerance, particles::mean_radius(p));
+  const double farthest =
+      particles::largest_resolved_distance(tolerance, particles::mean_radius(p));
   for (std::size_t k = 0; k < p.count(); ++k)
     for (const double x : p.position(k))
       if (std::abs(x) > farthest)
@@ -175,9 +177,9 @@ void check_start(const ParticlesCase& c, const Names& names) {
                                     "solver.tolerance; each coordinate must be at most {:.3g} in "
                                     "magnitude",
                                     names(k), farthest));
-  particles::Team team(1);
+  ThreadPool pool(1);
   for (const auto& [first, second] :
-       particles::close_pairs(p.dimension, p.positions, p.radii, team)) {
+       particles::close_pairs(p.dimension, p.positions, p.radii, pool)) {
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const double overlap = p.radii[i] + p.radii[j] - particles::norm(p.position(j) - p.position(i));
     if (overlap > allowed)
@@ -321,7 +323,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
                     "has no particle; name a file in [particles] or add a [[particle]]");
   if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
   root.finish();
-  check_start(c, Names(c, std::move(lines)));
+  check_start(c, ParticleNames(c, std::move(lines)));
   return c;
 }
 

@@ -8,7 +8,7 @@
 
 namespace viscontact {
 
-/// What a user asked for (interfaces.md, "Many particles").
+/// What a user asked for (case-file.md, "Many particles").
 struct ParticlesCase {
   std::filesystem::path path;
   std::string text;  ///< of the file
@@ -22,7 +22,7 @@ struct ParticlesCase {
 
 /// Reads and checks it. Throws Error(kBadInput) with file, line, key, value and what is allowed: among others for no particle, two that overlap or one
 /// on the wrong side of a plane at the start, by more than solver.tolerance mean radii; a particle smaller than a hundred times that, or further away than
-/// particles::farthest.
+/// particles::largest_resolved_distance.
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 }  // namespace viscontact

@@ -6,7 +6,7 @@ namespace viscontact {
 /// The number at which a condition begins to hold that does not at `from` but does at `to`, to neighbouring numbers; `to` if it holds there alone. If it changes
 /// more than once in between, one of the places.
 template <class Condition>
-double beginning_of(double from, double to, const Condition& holds) {
+double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
        middle = from + (to - from) / 2)
     (holds(middle) ? to : from) = middle;

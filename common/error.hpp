@@ -7,27 +7,24 @@
 
 namespace viscontact {
 
-/// What the process reports to its caller when an Error ends it (interfaces of the command line,
-/// docs/interfaces.md).
-enum class ExitCode {
-  kDone = 0,
-  kWrongUsage = 2,       ///< the command line itself
-  kBadInput = 3,         ///< a file or a value in it
-  kNotConverged = 4,     ///< a computation did not reach what was asked
-  kExternalProgram = 5,  ///< FreeFEM or gnuplot failed or is missing
-  kInterrupted = 130,    ///< Ctrl-C; everything finished so far is kept
+/// What kind of fault ends a computation; results/exit_code.hpp says which exit code each becomes.
+enum class ErrorKind {
+  kWrongUsage,       ///< what was asked for: an option, or a combination of them
+  kBadInput,         ///< a file or a value in it
+  kNotConverged,     ///< a computation did not reach what was asked
+  kExternalProgram,  ///< FreeFEM or gnuplot failed or is missing
+  kInterrupted,      ///< by the user; everything finished so far is kept
 };
 
 /// An error fit for a user: `what()` reads "FILE:LINE: what is wrong (the value); what is allowed
 /// or what to do".
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode exit_code, const std::string& message)
-      : std::runtime_error(message), exit_code_(exit_code) {}
-  ExitCode exit_code() const { return exit_code_; }
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
 
  private:
-  ExitCode exit_code_;
+  ErrorKind kind_;
 };
 
 /// A place in an input file; `line` 0 means the file as a whole.
@@ -39,7 +36,7 @@ struct FilePosition {
 /// Bad input at a place: throws Error(kBadInput, "FILE:LINE: message").
 [[noreturn]] inline void throw_bad_input(const FilePosition& at, const std::string& message) {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
-  throw Error(ExitCode::kBadInput, at.file + line + ": " + message);
+  throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);
 }
 
 }  // namespace viscontact

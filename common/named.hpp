@@ -28,8 +28,8 @@ auto find_named(const Table& table, std::string_view name) -> decltype(&*table.b
 template <class Table>
 const auto& require_named(const Table& table, std::string_view name, const std::string& kind) {
   if (const auto* row = find_named(table, name)) return *row;
-  throw Error(ExitCode::kBadInput, "no " + kind + " is named '" + std::string(name) +
-                                       "'; there are: " + names_of(table));
+  throw Error(ErrorKind::kBadInput, "no " + kind + " is named '" + std::string(name) +
+                                        "'; there are: " + names_of(table));
 }
 
 }  // namespace viscontact

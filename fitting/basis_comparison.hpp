@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {

@@ -24,7 +24,7 @@ void check_linearity(const ForceTable& table) {
     const double ratio =
         (row.force / row.reference_velocity) / (first->force / first->reference_velocity);
     if (allowed > 0 && std::abs(ratio - 1) > allowed)
-      throw Error(ExitCode::kBadInput,
+      throw Error(ErrorKind::kBadInput,
                   fmt::format("at gap {} the force is not linear in the velocity: force over "
                               "velocity differs by {:.2g} relative between the velocities {} and "
                               "{}; the rows' error estimates allow {:.2g}",
@@ -36,11 +36,11 @@ void check_linearity(const ForceTable& table) {
 /// The coefficient to hold. Throws Error(kBadInput) if neither settings nor table have one.
 double held_leading(const ForceTable& table, const FitSettings& settings) {
   if (find_named(settings.basis.terms, kLeadingTerm) == nullptr)
-    throw Error(ExitCode::kBadInput, "the basis has no term 1/q whose coefficient could be held");
+    throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be held");
   if (settings.leading_value) return *settings.leading_value;
   if (!table.leading_coefficient)
     throw Error(
-        ExitCode::kBadInput,
+        ErrorKind::kBadInput,
         "the table does not say what theory's coefficient of 1/q is; give the value to hold, "
         "or write the k of R = k/q into the table's header (# leading_coefficient: k)");
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
@@ -48,14 +48,14 @@ double held_leading(const ForceTable& table, const FitSettings& settings) {
 
 void check_gaps(const ForceTable& table, const FitSettings& settings) {
   if (settings.hold_leading && settings.basis.terms.size() == 1)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 "the only coefficient is held, so that there is nothing to fit; give more terms");
   std::set<double> gaps;
   for (const auto& row : table.rows) gaps.insert(row.gap);
   const std::size_t needed =
       std::max<std::size_t>(2, settings.basis.terms.size() - (settings.hold_leading ? 1 : 0));
   if (gaps.size() < needed)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the table has {} different gap(s); the basis {} needs at least {}",
                             gaps.size(), settings.basis.name, needed));
 }
@@ -165,7 +165,7 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
         return !std::isfinite(term.coefficient) || !std::isfinite(term.standard_error);
       }))
     throw Error(
-        ExitCode::kBadInput,
+        ErrorKind::kBadInput,
         "the forces are too large, or differ too much in size, to be fitted in double precision");
   fit.diagnostics = diagnose(table, system, fit);
   return fit;

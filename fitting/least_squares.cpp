@@ -81,12 +81,12 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   assert(matrix.rows() >= matrix.cols() && matrix.cols() > 0 &&
          matrix.rows() == right_hand_side.size());
   if (!matrix.allFinite() || !right_hand_side.allFinite())
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 "a gap or a force is too small or too large: a term of the fit overflows");
   // Ceres starts at x = 0, where the cost is |b|^2 / 2. Ceres 2.2 fails if this is infinite, 2.1 goes
   // on to coefficients that are not finite.
   if (!std::isfinite(right_hand_side.squaredNorm()))
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 "the forces are too large or too different to be fitted in double precision");
   const Eigen::VectorXd scale = binary_scale(matrix);
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
@@ -100,7 +100,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   const double smallest = singular(singular.size() - 1);
   if (!(smallest >
         singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
-    throw Error(ExitCode::kNotConverged,
+    throw Error(ErrorKind::kNotConverged,
                 "the fit's terms cannot be told apart on this table; give more or wider spread "
                 "gaps, or fewer terms");
   solution.condition_number = singular(0) / smallest;
@@ -127,7 +127,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable() || !x.allFinite())
-    throw Error(ExitCode::kNotConverged, "the least squares failed: " + summary.message);
+    throw Error(ErrorKind::kNotConverged, "the least squares failed: " + summary.message);
   refine(scaled, right_hand_side, x);
   solution.coefficients = x.cwiseQuotient(scale);
 
@@ -143,7 +143,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
     const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
     if (!covariance.Compute(blocks, &problem) ||
         !covariance.GetCovarianceBlock(x.data(), x.data(), unit.data()))
-      throw Error(ExitCode::kNotConverged, "the covariance of the fit cannot be computed");
+      throw Error(ErrorKind::kNotConverged, "the covariance of the fit cannot be computed");
     const double variance =
         (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(freedom);
     solution.covariance =

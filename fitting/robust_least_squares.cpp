@@ -67,7 +67,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
     residual = next;
     if (step >= kStepsWithScale && moved <= std::max(round_off, kSettled * solution.scale)) return;
   }
-  throw Error(ExitCode::kNotConverged, "the robust fit does not converge; try another loss");
+  throw Error(ErrorKind::kNotConverged, "the robust fit does not converge; try another loss");
 }
 
 /// From that of least squares, s^2 (A^T A)^-1 with s^2 = |r|^2 / (n - p).

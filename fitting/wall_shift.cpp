@@ -17,7 +17,7 @@ double smooth_gap_of(const LubricationForce& smooth, double resistance, const Fo
   auto [low, high] = smooth.interval();
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
     throw Error(
-        ExitCode::kBadInput,
+        ErrorKind::kBadInput,
         fmt::format(
             "no gap in the fit's interval [{1}, {2}] has the drag that the table has at gap {0}",
             row.gap, low, high));
@@ -32,7 +32,7 @@ double smooth_gap_of(const LubricationForce& smooth, double resistance, const Fo
 
 WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth) {
   if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the table is of viscosity {} and radius {} and the fit of viscosity "
                             "{} and radius {}; both "
                             "must be equal",
@@ -55,7 +55,7 @@ WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth
   constexpr double kTolerance = 1e-14;  // of the smallest shifted gap: round-off
   for (int step = 0;; ++step) {
     if (step == kMostSteps)
-      throw Error(ExitCode::kNotConverged, "no common shift of the wall fits the table");
+      throw Error(ErrorKind::kNotConverged, "no common shift of the wall fits the table");
     double slope2 = 0, slope_residual = 0;
     for (const auto& row : rough.rows) {
       const double gap = row.gap + shift;

@@ -27,7 +27,7 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
   int seconds = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
   if (error != std::errc() || end != word.data() + word.size() || seconds < 1 || seconds > kLongest)
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} is '{}'; must be a whole number of seconds from 1 to {}",
                             kTimeLimit, word, kLongest));
   return std::chrono::seconds(seconds);
@@ -47,7 +47,7 @@ FreeFem default_freefem() {
     freefem.script_folder = folder;
     return freefem;
   }
-  throw Error(ExitCode::kExternalProgram,
+  throw Error(ErrorKind::kExternalProgram,
               fmt::format("the FreeFEM scripts are not in share/viscontact/freefem_axi beside {}; "
                           "build or install again",
                           program_folder.string()));
@@ -72,7 +72,7 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                    "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"},
                   {}, scripts.string(), time_limit.value_or(freefem.row_limit));
   if (!result.started || result.exit_status == 127)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or "
                             "set VISCONTACT_FREEFEM to it",
                             freefem.executable, result.output));
@@ -97,12 +97,12 @@ std::string line_after(const std::string& output, std::string_view prefix) {
 std::string freefem_version(const FreeFem& freefem) {
   const auto result = run_freefem(freefem, "version.edp", {}, freefem.version_limit);
   if (result.timed_out)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} does not say which version it is: {}", freefem.executable,
                             timed_out_in_words(freefem.version_limit)));
   const std::string version = line_after(result.output, "viscontact-version");
   if (result.exit_status != 0 || version.empty())
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} does not answer as FreeFEM does (exit status {})",
                             freefem.executable, result.exit_status));
   return version;

@@ -22,17 +22,17 @@ constexpr std::array kRoughPlaneParameters = {
     GeometryParameter{"wavelength", "-wavelength", kPositive, {}},
 };
 
-RoomNeeded room_above_floor(double radius, double gap, Parameters) {
+RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
 
 /// Two radii of ripples lie around the axis.
-RoomNeeded room_above_ripples(double radius, double gap, Parameters) {
+RequiredSpace room_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
 /// The middle of the gap is at mid-height.
-RoomNeeded room_of_pair(double radius, double gap, Parameters parameters) {
+RequiredSpace room_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};
 }
@@ -40,7 +40,7 @@ RoomNeeded room_of_pair(double radius, double gap, Parameters parameters) {
 bool has_velocity(Parameters parameters) { return parameters[1] != 0; }
 
 /// The gap is that to the nearest wall: up to concentric.
-RoomNeeded room_in_cavity(double radius, double, Parameters parameters) {
+RequiredSpace room_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
@@ -58,14 +58,14 @@ double leading_in_cavity(double radius, Parameters parameters) {
 }
 
 constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, room_above_floor},
+    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, space_above_floor},
     Geometry{"free_surface",
              "free_surface.edp",
              {},
              true,
              nullptr,
              leading_of_free_surface,
-             room_above_floor},
+             space_above_floor},
     Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
              room_of_pair},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,

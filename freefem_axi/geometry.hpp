@@ -20,7 +20,7 @@ struct GeometryParameter {
 };
 
 /// What a sphere at some gap and its neighbour need around them [L].
-struct RoomNeeded {
+struct RequiredSpace {
   double container_radius = 0;  ///< a closed cylinder must be wider than this
   double container_height = 0;  ///< and higher than this
   double largest_gap = std::numeric_limits<double>::infinity();  ///< inclusive
@@ -37,7 +37,7 @@ struct Geometry {
   /// Theory's coefficient k of R ~ k/q near contact over that of a plane, 6 pi mu r^2: the relative curvature and velocity; null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
   /// For a sphere of radius r [L], a gap [L] and the parameters in the order above.
-  RoomNeeded (*room)(double radius, double gap, std::span<const double> parameters);
+  RequiredSpace (*room)(double radius, double gap, std::span<const double> parameters);
 };
 
 /// The geometry of that name. Throws Error(kBadInput) that lists the names there are.

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/common/on_one_line.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

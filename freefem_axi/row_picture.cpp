@@ -46,7 +46,7 @@ class PictureReader {
 
  private:
   [[noreturn]] static void fail() {
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/freefem_axi/row_journal.hpp"

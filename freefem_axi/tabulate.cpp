@@ -21,7 +21,7 @@ std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& p
   try {
     return freefem_version(worker.freefem);
   } catch (const Error& error) {
-    if (!worker.name.empty() && error.exit_code() == ExitCode::kExternalProgram) {
+    if (!worker.name.empty() && error.kind() == ErrorKind::kExternalProgram) {
       RowJournal journal(journal_file, hash);
       for (const auto& point : points) journal.append(FailedRow{point, error.what()});
     }
@@ -36,7 +36,7 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
     return FinishedRow{solve_row(freefem, tabulation, point.gap, point.reference_velocity),
                        version};
   } catch (const Error& error) {
-    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    if (error.kind() != ErrorKind::kExternalProgram) throw;
     return FailedRow{point, error.what()};
   }
 }
@@ -93,7 +93,7 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
   if (fatal) std::rethrow_exception(fatal);
   throw_if_interrupted();
   if (!failures.empty())
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
                             points.size(), fmt::join(failures, "; ")));
 }

@@ -9,9 +9,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {
@@ -57,7 +57,7 @@ Answer read_answer(const ProcessResult& result, double gap, double reference_vel
   if (result.exit_status == 0 && force && estimate && unknowns && order)
     return {*force, *estimate, *unknowns, *order};
   const std::string said = line_after(result.output, "viscontact-error");
-  throw Error(ExitCode::kExternalProgram,
+  throw Error(ErrorKind::kExternalProgram,
               fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
                           format_number(gap), format_number(reference_velocity), result.exit_status,
                           result.timed_out ? timed_out_in_words(time_limit)
@@ -161,7 +161,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   row.reference_velocity = reference_velocity;
   row.force = force * scale.viscosity * scale.speed;
   if (!std::isnormal(row.force))
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the force at gap {}, velocity {} is {} * {} * {}, which a double "
                             "cannot hold; choose units in which viscosity and velocity are nearer "
                             "to 1",

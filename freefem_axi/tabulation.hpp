@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 
@@ -23,7 +23,7 @@ struct Tabulation {
   std::vector<double> gaps;                  ///< q [L], > 0
   std::vector<double> reference_velocities;  ///< u0 [L/T], none 0
   std::optional<Container>
-      container;  ///< larger than the geometry's RoomNeeded; none: unbounded fluid, or the geometry is its own
+      container;  ///< larger than the geometry's RequiredSpace; none: unbounded fluid, or the geometry is its own
   double relative_accuracy = 0;             ///< asked of every row, in (0, 1)
   std::string geometry = "plane";           ///< name of a Geometry
   std::vector<double> geometry_parameters;  ///< in the order of Geometry::parameters

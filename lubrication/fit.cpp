@@ -29,7 +29,7 @@ std::string_view to_string(Weights weights) {
 Weights parse_weights(std::string_view word) {
   if (word == "relative") return Weights::kRelative;
   if (word == "absolute") return Weights::kAbsolute;
-  throw Error(ExitCode::kBadInput,
+  throw Error(ErrorKind::kBadInput,
               fmt::format("the weights are '{}'; they must be relative or absolute", word));
 }
 

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-
 #include "viscontact/lubrication/fit_diagnostics.hpp"
 
 namespace viscontact {

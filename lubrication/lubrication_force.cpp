@@ -51,7 +51,7 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
   // A drag that changes sign has no Gamma to invert; such a fit is of no use to any model.
   for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
-      throw Error(ExitCode::kBadInput,
+      throw Error(ErrorKind::kBadInput,
                   fmt::format("the fit's resistance is {:.6g} at gap {:.6g}, "
                               "inside its interval; a drag must be positive and finite: "
                               "fit again with another basis or other weights",
@@ -65,7 +65,7 @@ void LubricationForce::set_limits(const Fit& fit) {
     limit_ = {leading_, regular_resistance(smallest)};
   if (below_ == BelowInterval::kTheoryLimit) {
     if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
-      throw Error(ExitCode::kBadInput,
+      throw Error(ErrorKind::kBadInput,
                   "the fit does not say what theory's coefficient k of k/q is (its key "
                   "leading_coefficient must be > 0); fit a table that says it, or use the fitted "
                   "coefficient");
@@ -88,10 +88,10 @@ void LubricationForce::check_gap(double gap) const {
   if (allowed) return;
   const char* remedy = "";
   if (exact_ && gap >= 0 && gap < smallest)
-    throw Error(ExitCode::kNotConverged,
+    throw Error(ErrorKind::kNotConverged,
                 "the film is thinner than the smallest number that a double can hold");
   if (exact_)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("gap {} is outside [{}, {}], the gaps at which the exact drag can be "
                             "computed",
                             gap, smallest, largest));
@@ -104,17 +104,17 @@ void LubricationForce::check_gap(double gap) const {
         ", or let the drag tend to Stokes' drag above it (above = \"stokes_limit\" in the section "
         "[fit] of the case)";
   throw Error(
-      ExitCode::kBadInput,
+      ErrorKind::kBadInput,
       fmt::format("gap {} is outside the fitted interval [{}, {}]; tabulate and fit further{}", gap,
                   smallest, largest, remedy));
 }
 
 double LubricationForce::leading_coefficient() const {
   if (!(leading_ > 0))
-    throw Error(ExitCode::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
-                                                 "is {}; it must be > 0 for a contact model and "
-                                                 "for the lubrication limit",
-                                                 leading_));
+    throw Error(ErrorKind::kBadInput, fmt::format("the fit's coefficient of 1/q in the resistance "
+                                                  "is {}; it must be > 0 for a contact model and "
+                                                  "for the lubrication limit",
+                                                  leading_));
   return leading_;
 }
 
@@ -154,7 +154,7 @@ double LubricationForce::resistance(double gap) const {
   if (gap < fitted_interval_[0]) {
     const double resistance = limit().k / gap + limit().constant;
     if (!std::isfinite(resistance))
-      throw Error(ExitCode::kNotConverged,
+      throw Error(ErrorKind::kNotConverged,
                   fmt::format("the resistance at gap {} is larger than a double can hold", gap));
     return resistance;
   }
@@ -189,7 +189,7 @@ double LubricationForce::impulse(double gap) const {
 
 std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted) const {
   if (!std::isfinite(impulse_wanted))
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the film would have to absorb an impulse of {}; it must be finite",
                             impulse_wanted));
   const auto [smallest, largest] = fitted_interval_;
@@ -203,11 +203,11 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   }
   if (impulse_wanted < impulse(smallest)) {
     if (exact_)
-      throw Error(ExitCode::kNotConverged,
+      throw Error(ErrorKind::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
     if (below_ == BelowInterval::kError)
       throw Error(
-          ExitCode::kBadInput,
+          ErrorKind::kBadInput,
           fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
                       "{:.6g}]; tabulate and fit further, or let the drag follow the lubrication "
                       "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
@@ -220,14 +220,14 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
     const double above = std::min(low, by_leading_term + std::max(0.0, by_constant));
     const double thinnest = std::log(std::numeric_limits<double>::min()) - std::log(radius_);
     if (!(above >= thinnest))
-      throw Error(ExitCode::kNotConverged,
+      throw Error(ErrorKind::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
     return {std::max(thinnest, by_leading_term + std::min(0.0, by_constant)), above};
   }
   const double beyond = impulse_wanted - impulse(largest);
   if (!(beyond > 0)) return {low, high};
   if (above_ == AboveInterval::kError)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
                             "tabulate and fit further, or let the drag tend to Stokes' drag above "
                             "it (above = \"stokes_limit\" in the section [fit] of the case)",

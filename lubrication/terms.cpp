@@ -45,7 +45,7 @@ std::string_view trimmed(std::string_view text) {
 /// Adds the term of that name. Throws Error(kBadInput).
 void add_term(Basis& basis, std::string_view name) {
   if (find_named(basis.terms, name) != nullptr)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the term '{}' is named twice; name it once", name));
   basis.terms.push_back(require_named(kTerms, name, "term"));
 }

@@ -13,8 +13,8 @@ Vector turned(const Vector& a, const Vector& axis, double angle) {
 
 }  // namespace
 
-PlanePlace Plane::at(double t) const {
-  PlanePlace place = start;
+PlanePosition Plane::at(double t) const {
+  PlanePosition place = start;
   if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
     const Vector axis = (1 / speed) * angular_velocity;
     place.point = pivot + turned(start.point - pivot, axis, speed * t);
@@ -24,8 +24,8 @@ PlanePlace Plane::at(double t) const {
   return place;
 }
 
-std::vector<PlanePlace> places_of(const std::vector<Plane>& planes, double t) {
-  std::vector<PlanePlace> places;
+std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
+  std::vector<PlanePosition> places;
   for (const auto& plane : planes) places.push_back(plane.at(t));
   return places;
 }

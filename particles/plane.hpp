@@ -9,7 +9,7 @@
 namespace viscontact::particles {
 
 /// Where a plane is: x with normal.(x - point) >= 0 is the free side.
-struct PlanePlace {
+struct PlanePosition {
   Vector point;   ///< [L]
   Vector normal;  ///< unit, into the free side
 };
@@ -17,20 +17,20 @@ struct PlanePlace {
 /// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it. Viscous contact has no friction: of the motion
 /// only what is normal to the plane acts on a particle.
 struct Plane {
-  PlanePlace start;            ///< at time 0
+  PlanePosition start;         ///< at time 0
   PiecewiseConstant velocity;  ///< [L/T]
   Vector angular_velocity{};   ///< constant [1/T]; for discs (0, 0, omega)
   Vector pivot{};              ///< at time 0 [L]
 
   /// At time t >= 0.
-  PlanePlace at(double t) const;
+  PlanePosition at(double t) const;
 };
 
 /// Those of planes at time t, in their order.
-std::vector<PlanePlace> places_of(const std::vector<Plane>& planes, double t);
+std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
 /// Distance of a sphere's surface from the plane [L], < 0 if they overlap: physics.md (5), D of a plane.
-inline double gap(const PlanePlace& plane, const Vector& centre, double radius) {
+inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   return dot(plane.normal, centre - plane.point) - radius;
 }
 

@@ -9,16 +9,16 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/block_results.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/neighbours/candidates.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
-#include "viscontact/common/system/team.hpp"
 
 namespace viscontact::particles {
 
 /// Arrays of a step that are kept for the next, for their memory only.
-struct Simulation::Work {
-  explicit Work(int threads) : team(threads) {}
-  Team team;
+struct Simulation::StepBuffers {
+  explicit StepBuffers(int threads) : pool(threads) {}
+  ThreadPool pool;
   std::vector<double> displacements;  // h u*, later h v
   std::vector<double> mobilities;     // h/m
   // Of a step that is divided: the sums of the impulses of its parts, by the films' particles.
@@ -29,36 +29,38 @@ struct Simulation::Work {
 namespace {
 
 /// The particles within `margin` of a plane, its place that of the step's end, and those that its films hold.
-void find_walls(State& state, std::span<const PlanePlace> planes, double margin, Team& team) {
+void find_walls(State& state, std::span<const PlanePosition> planes, double margin,
+                ThreadPool& pool) {
   const auto& p = state.particles;
-  Joined<Film> walls;
+  ConcatenatedBlocks<Film> walls;
   for (std::size_t w = 0; w < planes.size(); ++w) {
     const auto plane = -1 - static_cast<std::int32_t>(w);
     const auto& place = planes[w];
-    walls += team.sum_of_blocks<Joined<Film>>(p.count(), [&](std::size_t begin, std::size_t end) {
-      Joined<Film> films;
-      // Planes are in falling order of their numbers.
-      auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
-        return film.first > plane ||
-               (film.first == plane && film.second < static_cast<std::int32_t>(begin));
-      });
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto particle = static_cast<std::int32_t>(k);
-        const bool known =
-            old != state.walls.end() && old->first == plane && old->second == particle;
-        if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < margin)
-          films.values.push_back(known ? *old : Film{plane, particle});
-        if (known) ++old;
-      }
-      return films;
-    });
+    walls += pool.sum_of_blocks<ConcatenatedBlocks<Film>>(
+        p.count(), [&](std::size_t begin, std::size_t end) {
+          ConcatenatedBlocks<Film> films;
+          // Planes are in falling order of their numbers.
+          auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
+            return film.first > plane ||
+                   (film.first == plane && film.second < static_cast<std::int32_t>(begin));
+          });
+          for (std::size_t k = begin; k < end; ++k) {
+            const auto particle = static_cast<std::int32_t>(k);
+            const bool known =
+                old != state.walls.end() && old->first == plane && old->second == particle;
+            if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < margin)
+              films.values.push_back(known ? *old : Film{plane, particle});
+            if (known) ++old;
+          }
+          return films;
+        });
   }
   state.walls = std::move(walls.values);
 }
 
 /// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within the
 /// rounding error of this difference is spent. Returns how many films hold.
-std::size_t remember(const Particles& p, const Projected& projected, const ContactLaw& law) {
+std::size_t remember(const Particles& p, const ProjectionResult& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
   };
@@ -84,7 +86,7 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   const Vector x = p.position(k), w = point_of(displacements.data(), k, p.dimension);
   for (std::size_t d = 0; d < 3; ++d)
     if (!(std::abs(x[d]) <= largest && std::abs(w[d]) <= largest))
-      throw Error(ExitCode::kNotConverged,
+      throw Error(ErrorKind::kNotConverged,
                   fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
                               "what can be computed with; check its forces and the time step",
                               p.id(k), x[d], w[d], time));
@@ -97,7 +99,7 @@ Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
       mean_radius_(mean_radius(state_.particles)),
-      work_(std::make_unique<Work>(threads)) {}
+      work_(std::make_unique<StepBuffers>(threads)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
@@ -108,7 +110,7 @@ void Simulation::move_freely(double h, double next) {
   auto& mobilities = work_->mobilities;
   displacements.resize(p.count() * D);
   mobilities.resize(p.count());
-  work_->team.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
+  work_->pool.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       mobilities[k] = h / p.masses[k];
       for (std::size_t d = 0; d < D; ++d)
@@ -126,7 +128,7 @@ template <int D>
 void Simulation::move(double h) {
   auto& p = state_.particles;
   const auto& displacements = work_->displacements;
-  work_->team.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
+  work_->pool.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin * D; k < end * D; ++k) {
       p.positions[k] += displacements[k];
       p.velocities[k] = displacements[k] / h;
@@ -135,43 +137,45 @@ void Simulation::move(double h) {
 }
 
 template <int D>
-Projected Simulation::project(double h, double next) {
+ProjectionResult Simulation::project(double h, double next) {
   auto& displacements = work_->displacements;
-  auto& team = work_->team;
-  const auto planes = places_of(setting_.planes, next);
-  const double largest = farthest(setting_.solver.tolerance, mean_radius_);
+  auto& pool = work_->pool;
+  const auto planes = positions_of(setting_.planes, next);
+  const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const auto length_of = [&](std::size_t k) {
     return checked_length(state_.particles, displacements, k, largest, next);
   };
   const auto longest_of = [&](std::size_t begin, std::size_t end) {
-    Largest longest;
+    MaximumOfBlocks longest;
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
   // Who is further from a plane than anybody goes does not meet it.
-  const double longest = team.sum_of_blocks<Largest>(state_.particles.count(), longest_of).value;
+  const double longest =
+      pool.sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);
-  if (!list_holds(state_, displacements, team)) {
+  if (!neighbour_list_is_valid(state_, displacements, pool)) {
     state_.reaches.clear();
-    make_list(state_, displacements, team);
+    rebuild_neighbour_list(state_, displacements, pool);
   }
   for (;;) {
-    find_walls(state_, planes, margin, team);
-    auto projected = StepProjection<D>(state_, h, planes, displacements, work_->mobilities, team)
+    find_walls(state_, planes, margin, pool);
+    auto projected = StepProjection<D>(state_, h, planes, displacements, work_->mobilities, pool)
                          .solve(setting_.solver, mean_radius_);
     double gone = 0;
     for (const auto body : projected.bodies)
       gone = std::max(gone, length_of(static_cast<std::size_t>(body)));
-    if (gone <= margin && list_holds(state_, displacements, team)) return projected;
+    if (gone <= margin && neighbour_list_is_valid(state_, displacements, pool)) return projected;
     // Impulses threw particles further than was looked. Reaches and margin only grow, which ends this.
     margin = std::max(margin, 2 * gone);
-    make_list(state_, displacements, team);
+    rebuild_neighbour_list(state_, displacements, pool);
     move_freely<D>(h, next);
   }
 }
 
 template <int D>
-void Simulation::accept(const Projected& projected, double h, double next, StepReport& report) {
+void Simulation::accept(const ProjectionResult& projected, double h, double next,
+                        StepReport& report) {
   report.glued = remember(state_.particles, projected, setting_.law);
   move<D>(h);
   state_.time = next;
@@ -191,7 +195,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   move_freely<D>(h, next);
   const auto projected = project<D>(h, next);
   if (!projected.converged && -projected.smallest_gap > mean_radius_)
-    throw_impossible(projected, next);
+    throw_step_without_solution(projected, next);
   if (projected.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
     if (halvings == 0) work_->before_division = state_;
     const double middle = state_.time + h / 2;
@@ -254,15 +258,15 @@ StepReport Simulation::step(double end) {
   return report;
 }
 
-void Simulation::throw_impossible(const Projected& projected, double next) const {
+void Simulation::throw_step_without_solution(const ProjectionResult& projected, double next) const {
   const auto& film = projected.narrowest;
   std::string moving;
   std::vector<char> presses(setting_.planes.size(), 0);  // on a particle in this step
   for (const auto* wall : projected.films)
     if (wall->first < 0 && wall->impulse > 0)
       presses[static_cast<std::size_t>(-1 - wall->first)] = 1;
-  const auto before = places_of(setting_.planes, state_.time);
-  const auto after = places_of(setting_.planes, next);
+  const auto before = positions_of(setting_.planes, state_.time);
+  const auto after = positions_of(setting_.planes, next);
   for (std::size_t w = 0; w < before.size(); ++w)
     if (presses[w] != 0 &&
         (before[w].point != after[w].point || before[w].normal != after[w].normal))
@@ -272,7 +276,7 @@ void Simulation::throw_impossible(const Projected& projected, double next) const
                         ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
                         : fmt::format("particles {} and {}", id(film.first), id(film.second));
   throw Error(
-      ExitCode::kNotConverged,
+      ErrorKind::kNotConverged,
       fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "
                   "mean radii{}",
                   next, pair, -projected.smallest_gap / mean_radius_,
@@ -282,7 +286,7 @@ void Simulation::throw_impossible(const Projected& projected, double next) const
                                                moving)));
 }
 
-double farthest(double tolerance, double mean_radius) {
+double largest_resolved_distance(double tolerance, double mean_radius) {
   // Squares of distances must be finite, and positions finer than the gaps that are asked for.
   constexpr double kFinite = 1e120;
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());

@@ -15,7 +15,7 @@
 
 namespace viscontact::particles {
 
-struct Projected;
+struct ProjectionResult;
 
 /// What moves the particles, and how it is computed: as a case file has it (case_file/particles_case.hpp checks it); forces name particles that are there.
 struct Setting {
@@ -41,7 +41,7 @@ struct StepReport {
   bool converged = true;       ///< both residuals of each contact are within the tolerances
   double largest_overlap = 0;  ///< of linearised gaps, which no gap is below, over the mean radius
   int parts = 0;               ///< that the step was divided into, a power of 2
-  /// Contacts that turn further than kLargestTurn (film_geometry.hpp) in the smallest part.
+  /// Contacts that turn further than kLargestTurn (contact_geometry.hpp) in the smallest part.
   std::size_t unresolved = 0;
 };
 
@@ -78,34 +78,35 @@ class Simulation {
   const Setting& setting() const { return setting_; }
 
  private:
-  struct Work;
+  struct StepBuffers;
   template <int D>
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
   template <int D>
-  void accept(const Projected& projected, double h, double next, StepReport& report);
+  void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
   template <class Visit>
   void for_films(const Visit& visit) {
     for (auto* films : {&state_.pairs, &state_.walls})
       for (auto& film : *films) visit(film);
   }
-  [[noreturn]] void throw_impossible(const Projected& projected, double next) const;
+  [[noreturn]] void throw_step_without_solution(const ProjectionResult& projected,
+                                                double next) const;
   template <int D>
   void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
   template <int D>
-  Projected project(double h, double next);  // displacements h u* become h v
+  ProjectionResult project(double h, double next);  // displacements h u* become h v
   template <int D>
   void move(double h);
 
   Setting setting_;
   State state_;
   double mean_radius_;
-  std::unique_ptr<Work> work_;
+  std::unique_ptr<StepBuffers> work_;
 };
 
 /// How far from the origin a particle may be, and how far it may go in a step [L]: beyond, double precision does not hold its gaps to the tolerance (of
 /// SolverSettings).
-double farthest(double tolerance, double mean_radius);
+double largest_resolved_distance(double tolerance, double mean_radius);
 
 }  // namespace viscontact::particles

@@ -31,8 +31,8 @@ struct State {
   std::vector<Film> pairs;  ///< all that may touch soon, in order of first, second
   std::vector<Film> walls;  ///< particles at planes, in order of plane, particle
   // When `pairs` was made: pairs that are not in it cannot touch while no particle is further than its reach from where it was.
-  std::vector<double> listed_positions;  ///< flat [L]; empty: no list yet
-  std::vector<double> reaches;           ///< [L]
+  std::vector<double> positions_at_listing;  ///< flat [L]; empty: no list yet
+  std::vector<double> reaches;               ///< [L]
 };
 
 }  // namespace viscontact::particles

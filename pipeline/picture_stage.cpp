@@ -7,13 +7,13 @@
 #include <sstream>
 #include <string_view>
 
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/report/flow/flow_plots.hpp"
 #include "viscontact/results/foreign_files.hpp"
-#include "viscontact/terminal/progress.hpp"
 #include "viscontact/results/provenance.hpp"
-#include "viscontact/common/error.hpp"
-#include "viscontact/common/system/interrupt.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -57,13 +57,13 @@ std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::str
     const auto gap = parse_number(word);
     if (!gap)
       throw Error(
-          ExitCode::kWrongUsage,
+          ErrorKind::kWrongUsage,
           fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
                       word));
     const double nearest =
         *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
     if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
-      throw Error(ExitCode::kBadInput,
+      throw Error(ErrorKind::kBadInput,
                   fmt::format("--plot: {} is not one of the case's gaps; the nearest of them is {}",
                               word, format_number(nearest)));
     gaps.push_back(nearest);

@@ -5,28 +5,28 @@
 #include <algorithm>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/report/comparison_table.hpp"
-#include "viscontact/results/failed_models.hpp"
-#include "viscontact/report/fit_summary.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
-#include "viscontact/report/report.hpp"
-#include "viscontact/pipeline/run_checks.hpp"
-#include "viscontact/pipeline/run_copies.hpp"
-#include "viscontact/results/run_folder.hpp"
-#include "viscontact/report/flow/shift_plot.hpp"
-#include "viscontact/pipeline/simulate_stage.hpp"
-#include "viscontact/pipeline/tabulate_stage.hpp"
-#include "viscontact/results/versions.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/number.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/pipeline/run_checks.hpp"
+#include "viscontact/pipeline/run_copies.hpp"
+#include "viscontact/pipeline/simulate_stage.hpp"
+#include "viscontact/pipeline/tabulate_stage.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/report/comparison_table.hpp"
+#include "viscontact/report/fit_summary.hpp"
+#include "viscontact/report/flow/shift_plot.hpp"
+#include "viscontact/report/report.hpp"
+#include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -112,7 +112,7 @@ Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSetti
     fit.versions = library_versions();
     return fit;
   } catch (const Error& error) {
-    throw Error(error.exit_code(), fmt::format("{}: {}", table_path.string(), error.what()));
+    throw Error(error.kind(), fmt::format("{}: {}", table_path.string(), error.what()));
   }
 }
 
@@ -154,7 +154,7 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   try {
     shift = fit_wall_shift(rough, LubricationForce(read_fit(fit_path)));
   } catch (const Error& error) {
-    throw Error(error.exit_code(),
+    throw Error(error.kind(),
                 fmt::format("{}, {}: {}", table_path.string(), fit_path.string(), error.what()));
   }
   std::string text = write_csv_comments(

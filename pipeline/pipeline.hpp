@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 

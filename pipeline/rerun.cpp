@@ -12,11 +12,11 @@
 #include <optional>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
-#include "viscontact/common/shell_words.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -91,21 +91,21 @@ std::vector<std::string> with_output(const RerunOptions& o, const Provenance& pr
       return command;
     }
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format("the command that made {} ('{}') can write to its own place only; leave out -o",
                     o.file, command[1]));
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
   if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format(
             "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
             "its pictures are drawn beside it",
             o.file));
   if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must be "
                     "a folder for all of them, but it is '{}'",
                     o.file, command[1], value_at(command, *output), o.output));
@@ -202,7 +202,7 @@ void rerun(const RerunOptions& o) {
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   ::execv("/proc/self/exe", arguments.data());
-  throw Error(ExitCode::kExternalProgram,
+  throw Error(ErrorKind::kExternalProgram,
               fmt::format("viscontact cannot be started again ({})", std::strerror(errno)));
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "viscontact/terminal/progress.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/reached_gaps.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 
@@ -39,7 +39,7 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
     try {
       check_model(choice, motion, exact);
     } catch (const Error& error) {
-      throw Error(error.exit_code(), fmt::format("{}: {}", c.path.string(), error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", c.path.string(), error.what()));
     }
     if (choice.exact_drag || choice.model->contact != nullptr) continue;
     if (motion.initial_gap < smallest && request.below == BelowInterval::kError)

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "viscontact/results/foreign_files.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,8 +1,8 @@
 // The copies of its inputs that a run's folder holds.
 #pragma once
 
-#include "viscontact/results/run_folder.hpp"
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/results/run_folder.hpp"
 
 namespace viscontact {
 

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 
-#include "viscontact/results/foreign_files.hpp"
-#include "viscontact/pipeline/model_progress.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/pipeline/run_copies.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/number.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/pipeline/model_progress.hpp"
+#include "viscontact/pipeline/run_copies.hpp"
 #include "viscontact/reduced_model/fewer_rows.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/reached_gaps.hpp"
-#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -70,7 +70,7 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
   try {
     return write_uncertainty(propagate_fit(motion, fit, kTimes, outside.below, outside.above));
   } catch (const Error& error) {
-    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    if (error.kind() == ErrorKind::kInterrupted) throw;
     warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
                      error.what()));
     return "";
@@ -108,9 +108,9 @@ FailedModel failure_of(const ModelChoice& choice, const Error& error, const Moti
   std::string reason = error.what();
   const std::string prefix = fmt::format("model {}: ", choice.name);
   if (reason.starts_with(prefix)) reason.erase(0, prefix.size());
-  if (error.exit_code() == ExitCode::kBadInput)
+  if (error.kind() == ErrorKind::kBadInput)
     reason += estimate_of_gaps(choice, motion, fit, outside);
-  return {choice.name, reason, error.exit_code(), {}};
+  return {choice.name, reason, error.kind(), {}};
 }
 
 /// Throws Error(kBadInput) naming the case if a parameter of a model is wrong, whatever the drag is.
@@ -119,7 +119,7 @@ void check_parameters(const Case& c, const std::vector<std::string>& models) {
   for (const auto& name : models) try {
       check_model(find_model(name), required_motion(c), exact);
     } catch (const Error& error) {
-      throw Error(error.exit_code(), fmt::format("{}: {}", c.path.string(), error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", c.path.string(), error.what()));
     }
 }
 
@@ -151,7 +151,7 @@ Simulated simulate_case(const Case& c, const FitFile& fit_file,
     try {
       return LubricationForce(fit, outside.below, outside.above);
     } catch (const Error& error) {
-      throw Error(error.exit_code(), fmt::format("{}: {}", fit_path.string(), error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", fit_path.string(), error.what()));
     }
   }();
   const auto names = models_to_run(c, models);
@@ -165,7 +165,7 @@ Simulated simulate_case(const Case& c, const FitFile& fit_file,
     try {
       simulated.trajectories.push_back(simulate(choice, motion, force));
     } catch (const Error& error) {
-      if (error.exit_code() == ExitCode::kInterrupted) throw;
+      if (error.kind() == ErrorKind::kInterrupted) throw;
       simulated.failed.push_back(failure_of(choice, error, motion, fit, outside));
       simulated.failed.back().made_from = simulated.made_from;
       continue;
@@ -268,7 +268,7 @@ void simulate_stage(const Case& c, const SimulateRequest& request) {
   const bool of_folder = path.empty() && !exact && fs::is_regular_file(run.fit());
   if (of_folder) path = run.fit();
   if (path.empty() && !exact)
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 fmt::format("the case names no drag to run with (file or exact in its section "
                             "[fit]) and there is no {}; give a fit with --fit",
                             run.fit().string()));

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/results/failed_models.hpp"
-#include "viscontact/results/provenance.hpp"
-#include "viscontact/results/run_folder.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
+#include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
 
 namespace viscontact {
 

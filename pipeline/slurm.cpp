@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/common/shell_words.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -38,12 +38,12 @@ std::string ask_slurm(const std::vector<std::string>& command) {
   for (const char character : result.output)
     said += character == '\n' ? " | " : std::string(1, character);
   if (!result.started)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
                             "install slurm-client), or tabulate here without --launcher slurm",
                             command.front(), said));
   if (result.exit_status != 0)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} failed (exit status {}): {}; nothing was submitted; see "
                             "--slurm-options, --tasks",
                             command.front(), result.exit_status, said));

@@ -7,14 +7,14 @@
 #include <charconv>
 #include <map>
 
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/common/on_one_line.hpp"
+#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/freefem_axi/tabulate.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -103,8 +103,8 @@ std::string words_for(const GridPoint& point) {
   if (const auto submitted = slurm_folder / one.c.path.filename();
       fs::exists(submitted) && read_file(submitted) != one.c.text)
     text += fmt::format("; the case was edited since {} was submitted", submitted.string());
-  if (reasons.empty()) throw Error(ExitCode::kNotConverged, text);
-  throw Error(ExitCode::kExternalProgram,
+  if (reasons.empty()) throw Error(ErrorKind::kNotConverged, text);
+  throw Error(ErrorKind::kExternalProgram,
               fmt::format("{}:\n{} failed: {}", text, reasons.size(), fmt::join(reasons, "; ")));
 }
 
@@ -121,25 +121,24 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
 template <class Work>
 void for_each_table(const std::vector<CaseTable>& tables, const Work& work) {
   if (tables.size() == 1) return work(0);
-  ExitCode exit_code = ExitCode::kDone;
+  auto kind = ErrorKind::kBadInput;  // the lower of those that may be gathered here
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     throw_if_interrupted();
     try {
       work(i);
     } catch (const Error& error) {
-      if (error.exit_code() != ExitCode::kExternalProgram &&
-          error.exit_code() != ExitCode::kNotConverged)
+      if (error.kind() != ErrorKind::kExternalProgram && error.kind() != ErrorKind::kNotConverged)
         throw;
       clear_progress();
-      exit_code = std::max(exit_code, error.exit_code());
+      kind = std::max(kind, error.kind());
       failures.push_back(
           fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
     }
   }
   if (!failures.empty())
-    throw Error(exit_code, fmt::format("{} of {} tables are not finished:\n{}", failures.size(),
-                                       tables.size(), fmt::join(failures, "; ")));
+    throw Error(kind, fmt::format("{} of {} tables are not finished:\n{}", failures.size(),
+                                  tables.size(), fmt::join(failures, "; ")));
 }
 
 }  // namespace
@@ -153,7 +152,7 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
                                            : output / (fs::path(file).stem().string() + ".csv"));
     const auto [other, is_new] = case_of.insert({names.back(), file});
     if (!is_new)
-      throw Error(ExitCode::kWrongUsage,
+      throw Error(ErrorKind::kWrongUsage,
                   fmt::format("{} and {} would both be tabulated to {}; rename one of them",
                               other->second, file, names.back().string()));
   }
@@ -173,7 +172,7 @@ Share parse_share(const std::string& text) {
     const auto count = std::from_chars(number.ptr + 1, end, share.count);
     if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
   }
-  throw Error(ExitCode::kWrongUsage,
+  throw Error(ErrorKind::kWrongUsage,
               fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
 }
 

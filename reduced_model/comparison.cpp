@@ -48,7 +48,7 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   const double from = std::max(trajectory.rows.front().time, reference.rows.front().time);
   const double to = std::min(trajectory.rows.back().time, reference.rows.back().time);
   if (from > to)
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("trajectories {} and {} have no time in common (they are from {} to {} "
                             "and from {} to {})",
                             trajectory.model, reference.model, trajectory.rows.front().time,
@@ -102,7 +102,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     std::string names;
     for (const auto& trajectory : trajectories)
       names += fmt::format("{}{}", names.empty() ? "" : ", ", trajectory.model);
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("the reference model '{}' has no trajectory here; there are: {}",
                             reference_model, names));
   }
@@ -111,7 +111,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   for (const auto& trajectory : trajectories) {
     if (!seen.insert(trajectory.model).second)
       throw Error(
-          ExitCode::kBadInput,
+          ErrorKind::kBadInput,
           fmt::format("two trajectories have the name '{}'; rename one of them", trajectory.model));
     ModelComparison result;
     result.model = trajectory.model;
@@ -145,7 +145,7 @@ std::string write_comparison(const Comparison& comparison) {
     entry["l1_velocity_distance"] = model.l1_velocity_distance;
     entry["books"] = Json();
     if (model.books)
-      for (const auto& book : kBookEntries)
+      for (const auto& book : kBudgetEntries)
         entry["books"][std::string(book.name)] = (*model.books).*book.value;
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
@@ -176,7 +176,7 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();
       if (entry.contains("books") && !entry.at("books").is_null()) {
         model.books.emplace();
-        for (const auto& book : kBookEntries)
+        for (const auto& book : kBudgetEntries)
           (*model.books).*book.value = entry.at("books").at(std::string(book.name)).get<double>();
       }
       model.steps = entry.at("steps").get<long>();

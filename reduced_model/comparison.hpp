@@ -20,10 +20,10 @@ struct ModelComparison {
   std::optional<double> recovered_minimal_gap;  ///< from gamma, where the model has one [L]
   std::optional<std::array<double, 2>>
       contact_interval;  ///< first landing and last release [T]; of a user's own, first and last row with gamma < 0
-  std::optional<Books> books;       ///< impulses and works; not of a user's own
-  double sup_gap_distance = 0;      ///< max |q - q_ref| [L]
-  double l1_gap_distance = 0;       ///< int |q - q_ref| dt [L T]
-  double l1_velocity_distance = 0;  ///< int |u - u_ref| dt [L]
+  std::optional<MomentumEnergyBudget> books;  ///< impulses and works; not of a user's own
+  double sup_gap_distance = 0;                ///< max |q - q_ref| [L]
+  double l1_gap_distance = 0;                 ///< int |q - q_ref| dt [L T]
+  double l1_velocity_distance = 0;            ///< int |u - u_ref| dt [L]
   long steps = 0;
   double seconds = 0;
 };

@@ -81,7 +81,7 @@ std::vector<double> turning_points(const std::vector<double>& coefficients, doub
   for (std::size_t n = 1; n < stops.size(); ++n) {
     const double before = at(derivative, stops[n - 1]), after = at(derivative, stops[n]);
     if (before * after < 0)
-      turns.push_back(beginning_of(stops[n - 1], stops[n], [&](double tau) {
+      turns.push_back(bisect_first_true(stops[n - 1], stops[n], [&](double tau) {
         return (at(derivative, tau) > 0) == (after > 0);
       }));
     else if (after == 0 && n + 1 < stops.size())
@@ -117,11 +117,11 @@ double sine_mean(const ExternalForce::Sinusoid& s, double a, double b) {
 
 ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
   if (pieces.empty())
-    throw Error(ExitCode::kBadInput, "external_force has no piece; it needs at least one");
+    throw Error(ErrorKind::kBadInput, "external_force has no piece; it needs at least one");
   double from = 0;
   for (const auto& piece : pieces) {
     if (!(piece.until > from))
-      throw Error(ExitCode::kBadInput,
+      throw Error(ErrorKind::kBadInput,
                   fmt::format("until is {}; it must be greater than {}, where the piece begins",
                               piece.until, from));
     Polynomial polynomial{from, {piece.value}};
@@ -135,7 +135,7 @@ ExternalForce::ExternalForce(const std::vector<Piece>& pieces) {
 
 ExternalForce ExternalForce::sinusoidal(const Sinusoid& sinusoid) {
   if (!(sinusoid.angular_frequency > 0))
-    throw Error(ExitCode::kBadInput,
+    throw Error(ErrorKind::kBadInput,
                 fmt::format("angular_frequency is {}; it must be > 0", sinusoid.angular_frequency));
   ExternalForce force({{1, 0}});
   force.sinusoids_.push_back(sinusoid);
@@ -265,7 +265,7 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
   double fastest = 0;
   for (const auto& s : sinusoids_) fastest = std::max(fastest, s.angular_frequency);
   double last_sign = 0;
-  const auto look_at = [&](double time, double value) {
+  const auto add_extremum_of = [&](double time, double value) {
     const double sign = value > 0 ? 1 : value < 0 ? -1 : 0;
     if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
     if (sign != 0) last_sign = sign;
@@ -273,7 +273,7 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
   constexpr double kMostSamples = 1e6;  // each costs about 50 ns
   if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
     throw Error(
-        ExitCode::kNotConverged,
+        ErrorKind::kNotConverged,
         fmt::format("the external force has an angular frequency of {}, which makes more "
                     "periods until time {} than can be followed; at most {:.0e} are allowed",
                     fastest, end, kMostSamples / kSamplesPerPeriod));
@@ -297,16 +297,16 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
       for (int n = 1; n < samples; ++n) stops.push_back(from + (to - from) * n / samples);
     }
     stops.push_back(to);
-    look_at(from, value_at(from));
+    add_extremum_of(from, value_at(from));
     for (std::size_t n = 1; n < stops.size(); ++n) {
       const double before = value_at(stops[n - 1]), after = value_at(stops[n]);
       if (before * after < 0) {
         const bool rises = after > 0;
-        look_at(beginning_of(stops[n - 1], stops[n],
-                             [&](double t) { return (value_at(t) > 0) == rises; }),
-                after);
+        add_extremum_of(bisect_first_true(stops[n - 1], stops[n],
+                                          [&](double t) { return (value_at(t) > 0) == rises; }),
+                        after);
       }
-      look_at(stops[n], after);
+      add_extremum_of(stops[n], after);
     }
   }
   std::erase_if(changes, [&](double t) { return t >= end; });

@@ -32,7 +32,7 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
 /// The two ends of the 95 % in the middle; sorts.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
-    throw Error(ExitCode::kNotConverged,
+    throw Error(ErrorKind::kNotConverged,
                 "no random draw of the fit's coefficients gives a positive drag");
   std::ranges::sort(values);
   const auto at = [&](double share) {

@@ -11,7 +11,7 @@
 
 namespace viscontact {
 
-void check_in(const Motion& motion, double time) {
+void report_progress(const Motion& motion, double time) {
   throw_if_interrupted();
   if (motion.progress) motion.progress(time);
 }
@@ -21,7 +21,7 @@ int step_count(double end, double step) {
   const double steps = std::ceil(end / step - 1e-6);
   if (!(steps <= kMostSteps))
     throw Error(
-        ExitCode::kBadInput,
+        ErrorKind::kBadInput,
         fmt::format("the time step {} makes {:.3g} steps to time {}; at most {:.0e} are allowed",
                     step, steps, end, kMostSteps));
   return std::max(1, static_cast<int>(steps));

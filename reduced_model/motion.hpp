@@ -29,16 +29,16 @@ struct Motion {
 
   int output_rows =
       0;  ///< about how many rows a trajectory file has (fewer_rows.hpp), at least 2; 0: all
-  /// Told the time [T] that a model has reached, now and then, by check_in(); may be empty.
+  /// Told the time [T] that a model has reached, now and then, by report_progress(); may be empty.
   std::function<void(double time)> progress{};
 };
 
 /// What a model calls now and then with the time that it has reached: tells motion.progress, and
 /// throws Error(kInterrupted) after Ctrl-C.
-void check_in(const Motion& motion, double time);
+void report_progress(const Motion& motion, double time);
 
-/// How many cheap steps a model takes between two calls of check_in(): some 0.1 ms.
-inline constexpr int kStepsBetweenLooks = 4096;
+/// How many cheap steps a model takes between two calls of report_progress(): some 0.1 ms.
+inline constexpr int kStepsBetweenProgressReports = 4096;
 
 /// Number of steps of size `step` that cover [0, end]; the last one may be shorter, and one that
 /// would be shorter than a millionth of a step is left to round-off.

@@ -19,7 +19,7 @@ std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion&
       reached.smallest = trajectory.recovered_minimal_gap.value_or(low->gap);
     return reached;
   } catch (const Error& error) {
-    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    if (error.kind() == ErrorKind::kInterrupted) throw;
     return {};
   }
 }

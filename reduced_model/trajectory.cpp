@@ -15,7 +15,9 @@ const std::array<std::string, 7> kColumns = {
 const std::array<std::string, 2> kContactKeys = {"contact_from", "contact_until"};
 constexpr std::size_t kRequiredColumns = 3;
 
-std::string optional_number(const Maybe& value) { return value ? format_number(*value) : ""; }
+std::string optional_number(const OptionalDouble& value) {
+  return value ? format_number(*value) : "";
+}
 
 long steps_of(const CsvComments& comments, const std::string& file) {
   constexpr double kMost = 1e15;  // whole numbers up to there are doubles
@@ -48,7 +50,7 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     trajectory.contact_interval = {csv_comment_number(csv.comments, kContactKeys[0], file),
                                    csv_comment_number(csv.comments, kContactKeys[1], file)};
   for (const auto& key : kContactKeys) take(key);
-  for (const auto& entry : kBookEntries) {
+  for (const auto& entry : kBudgetEntries) {
     const std::string key(entry.name);
     if (!csv.comments.contains(key)) continue;
     if (!trajectory.books) trajectory.books.emplace();
@@ -92,7 +94,7 @@ std::string write_trajectory(const Trajectory& trajectory) {
     for (std::size_t i = 0; i < kContactKeys.size(); ++i)
       comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
   if (trajectory.books)
-    for (const auto& entry : kBookEntries)
+    for (const auto& entry : kBudgetEntries)
       comments[std::string(entry.name)] = format_number((*trajectory.books).*entry.value);
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));

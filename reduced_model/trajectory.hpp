@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/maybe.hpp"
-#include "viscontact/reduced_model/books.hpp"
+#include "viscontact/common/optional_double.hpp"
+#include "viscontact/reduced_model/momentum_energy_budget.hpp"
 
 namespace viscontact {
 
@@ -18,10 +18,10 @@ struct TrajectoryRow {
   double time = 0;
   double gap = 0;       ///< q, >= 0
   double velocity = 0;  ///< dq/dt
-  Maybe lubrication_force{};
-  Maybe external_force{};
-  Maybe gamma{};        ///< adhesion potential of a contact model, <= 0
-  Maybe solid_force{};  ///< of the solids on each other, a contact model's, >= 0
+  OptionalDouble lubrication_force{};
+  OptionalDouble external_force{};
+  OptionalDouble gamma{};        ///< adhesion potential of a contact model, <= 0
+  OptionalDouble solid_force{};  ///< of the solids on each other, a contact model's, >= 0
 };
 
 /// Raised when the numbers of a model change: trajectories of another revision are made again.
@@ -35,9 +35,9 @@ struct Trajectory {
                                                 ///< lowest [L]; contact models only
   std::optional<std::array<double, 2>>
       contact_interval;  ///< first landing, last release (or the end) [T]; contact models only
-  std::optional<Books> books;  ///< not of a user's own
-  long steps = 0;              ///< of the integrator
-  double seconds = 0;          ///< wall time
+  std::optional<MomentumEnergyBudget> books;  ///< not of a user's own
+  long steps = 0;                             ///< of the integrator
+  double seconds = 0;                         ///< wall time
   std::map<std::string, std::string>
       provenance;  ///< further "# key: value" lines: fit, case, time step
 };

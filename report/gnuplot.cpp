@@ -113,18 +113,18 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
        "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
       {"LC_ALL=C"}, script, {}, kLongest);
   if (result.timed_out)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("gnuplot had not ended after {} s and was stopped", kLongest.count()));
   constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw GnuplotMissing(
-        ExitCode::kExternalProgram,
+        ErrorKind::kExternalProgram,
         fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
                     result.output));
   const auto start = result.output.find("<svg");
   const auto end = result.output.rfind("</svg>");
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
-    throw Error(ExitCode::kExternalProgram,
+    throw Error(ErrorKind::kExternalProgram,
                 fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
                             last_part(result.output)));
   return result.output.substr(start, end + 6 - start) + "\n";

@@ -6,20 +6,20 @@
 #include <exception>
 #include <future>
 
-#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/on_one_line.hpp"
 #include "viscontact/report/gnuplot.hpp"
 #include "viscontact/report/html.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/report/report_origin.hpp"
 #include "viscontact/report/report_page_texts.hpp"
 #include "viscontact/report/report_plots.hpp"
 #include "viscontact/report/report_tables.hpp"
 #include "viscontact/report/report_warnings.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_results.hpp"
-#include "viscontact/common/error.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/on_one_line.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -63,7 +63,7 @@ std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure) 
   try {
     for (auto& drawing : drawings) drawn.push_back(drawing.get());
   } catch (const Error& error) {
-    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    if (error.kind() != ErrorKind::kExternalProgram) throw;
     failure = std::current_exception();
     drawn.assign(plots.size(), "");
   }
@@ -151,7 +151,7 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
   page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
   page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
   page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
-  page += section("Impulse and work", books_table(run));
+  page += section("Impulse and work", budget_table(run));
   page += section("Lubrication force and fit", figures(pictures, {"fit"}) + fit_table(run));
   page += section("What the fit does to the answer",
                   uncertainty_words(run) + figures(pictures, {"uncertainty"}));
@@ -174,7 +174,7 @@ void warn_or_throw(const std::exception_ptr& failure) {
   } catch (const GnuplotMissing& missing) {
     warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
   } catch (const Error& error) {
-    throw Error(error.exit_code(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
+    throw Error(error.kind(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
   }
 }
 

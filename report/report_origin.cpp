@@ -4,13 +4,13 @@
 
 #include <filesystem>
 
-#include "viscontact/report/html.hpp"
-#include "viscontact/results/provenance.hpp"
-#include "viscontact/common/shell_words.hpp"
-#include "viscontact/results/versions.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/report/html.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/versions.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "viscontact/report/report_plot.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
+#include "viscontact/report/report_plot.hpp"
 
 namespace viscontact {
 

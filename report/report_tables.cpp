@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "viscontact/report/html.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/html.hpp"
 
 namespace viscontact {
 namespace {
@@ -119,12 +119,12 @@ std::string models_table(const RunResults& run) {
       escaped(run.comparison.reference_model), rows, link_to(run.folder, "comparison.json"));
 }
 
-std::string books_table(const RunResults& run) {
+std::string budget_table(const RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models) {
     if (!model.books) continue;
     rows += "<tr><td>" + model_link(run, model.model) + "</td>";
-    for (const auto& entry : kBookEntries)
+    for (const auto& entry : kBudgetEntries)
       rows += fmt::format("<td>{:.5g}</td>", (*model.books).*entry.value);
     rows += "</tr>\n";
   }

@@ -14,7 +14,7 @@ std::string parameters_table(const RunResults& run);
 std::string models_table(const RunResults& run);
 
 /// Impulses and works of each model; empty if there are none.
-std::string books_table(const RunResults& run);
+std::string budget_table(const RunResults& run);
 
 /// The fit's coefficients and how far to trust them.
 std::string fit_table(const RunResults& run);

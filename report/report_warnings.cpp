@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 namespace {

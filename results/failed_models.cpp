@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -23,11 +24,10 @@ std::vector<FailedModel> read_failed_models(const std::filesystem::path& path) {
     std::vector<FailedModel> failed;
     const auto json = Json::parse(read_file(path));
     for (const auto& [name, entry] : json.at("failed_models").items())
-      failed.push_back({name, entry.at("reason"),
-                        static_cast<ExitCode>(entry.at("exit_code").get<int>()),
+      failed.push_back({name, entry.at("reason"), kind_of_exit_code(entry.at("exit_code")),
                         entry.at("made_from").get<CsvComments>()});
     return failed;
-  } catch (const Json::exception&) {
+  } catch (const std::exception&) {  // no JSON of this form, or no exit code of ours
     throw_bad_input({path.string()},
                     "is not a record of failed models; remove it and simulate again");
   }
@@ -48,7 +48,7 @@ std::string write_failed_models(const std::vector<FailedModel>& failed) {
   json["failed_models"] = Json::object();
   for (const auto& model : failed)
     json["failed_models"][model.model] = {{"reason", model.reason},
-                                          {"exit_code", static_cast<int>(model.exit_code)},
+                                          {"exit_code", exit_code_of(model.kind)},
                                           {"made_from", model.made_from}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -62,7 +62,7 @@ Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
   std::string written;
   if (computed == 1) written = "; 1 other model is computed and written";
   if (computed > 1) written = fmt::format("; {} other models are computed and written", computed);
-  return Error(failed.front().exit_code,
+  return Error(failed.front().kind,
                fmt::format("{}: model {}: {}{}{}", case_path.string(), failed.front().model,
                            failed.front().reason, others, written));
 }
@@ -94,7 +94,7 @@ std::string reference_among(const std::vector<Trajectory>& trajectories,
   const auto found = std::ranges::find(failed, reference, &ModelWithoutTrajectory::model);
   if (found == failed.end()) return reference;
   if (asked.empty()) return trajectories.front().model;
-  throw Error(ExitCode::kBadInput,
+  throw Error(ErrorKind::kBadInput,
               fmt::format("the reference model '{}' has no trajectory here, because it failed: "
                           "{}; take another one by --reference",
                           reference, found->reason));

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/results/run_folder.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/results/run_folder.hpp"
 
 namespace viscontact {
 
 struct FailedModel {
   std::string model;   ///< its name, with suffixes
   std::string reason;  ///< the message of its Error, without the name of the model
-  ExitCode exit_code = ExitCode::kBadInput;
+  ErrorKind kind = ErrorKind::kBadInput;
   CsvComments made_from;  ///< what identifies case, fit and version, as in a trajectory file
 };
 

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "viscontact/results/versions.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/json.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/json.hpp"
+#include "viscontact/results/versions.hpp"
 
 namespace viscontact {
 namespace {
@@ -41,7 +41,7 @@ std::string time_of_making() {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
     if (error != std::errc() || end != text.data() + text.size() || now < 0 || now > kYear9999)
       throw Error(
-          ExitCode::kWrongUsage,
+          ErrorKind::kWrongUsage,
           fmt::format("SOURCE_DATE_EPOCH is '{}'; it must be a whole number of seconds from 0 "
                       "to {}",
                       epoch, kYear9999));

@@ -1,8 +1,8 @@
 #include "viscontact/results/run_results.hpp"
 
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 namespace {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "viscontact/results/run_folder.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
+#include "viscontact/results/run_folder.hpp"
 
 namespace viscontact {
 

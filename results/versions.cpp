@@ -23,7 +23,7 @@ std::string freefem_version_or_not_found() {
   try {
     return freefem_version(default_freefem());
   } catch (const Error& error) {
-    if (error.exit_code() != ExitCode::kExternalProgram) throw;
+    if (error.kind() != ErrorKind::kExternalProgram) throw;
     return "not found";
   }
 }

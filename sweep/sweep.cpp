@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/common/number.hpp"
+#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -67,7 +67,7 @@ void refuse_doubles(const Names& names, std::string_view kind) {
   std::set<std::string> seen;
   for (const auto& name : names)
     if (!seen.insert(name).second)
-      throw Error(ExitCode::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
+      throw Error(ErrorKind::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
 }
 
 /// Refuses a key of a case that changes no row: one that a sweep does not read, or on which none of
@@ -78,7 +78,7 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
     return std::ranges::find(names, section) != names.end();
   };
   if (is_one_of({"tabulation", "fit", "published", "sweep"}))
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because a sweep tabulates and fits nothing: it "
                             "varies keys of [fluid], [sphere], [motion], [reference], [inertial] "
                             "and [viscous_contact]",
@@ -95,7 +95,7 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
   if (std::ranges::find(kKeys, key.substr(0, key.find('['))) == kKeys.end()) return;
   if (std::ranges::none_of(models,
                            [&](const auto& model) { return depends_on(find_model(model), key); }))
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because none of the models that are run depends "
                             "on it ({}); leave it out, or add a model that does to --models",
                             key, fmt::join(models, ", ")));
@@ -148,10 +148,10 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan) {
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
   if (plan_.variations.empty())
-    throw Error(ExitCode::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan_.fit.basis.empty())
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         "the case names no drag to run with (file or exact in its section [fit]); give a fit "
         "with --fit");
   if (plan_.reference.empty()) plan_.reference = default_reference(plan_.models);
@@ -163,7 +163,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
   for (const auto& key : keys) refuse_useless(key, plan_.models);
   if (std::ranges::find(plan_.models, plan_.reference) == plan_.models.end())
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
                     plan_.reference, fmt::join(plan_.models, ", ")));
   for (const std::uint64_t index : {std::uint64_t{0}, sweep_size(plan_) - 1})
@@ -189,7 +189,7 @@ Case Sweep::case_at(std::uint64_t index) const {
   } catch (const Error& error) {
     std::string values;
     for (const auto& [key, value] : numbers) values += fmt::format(" {} = {}", key, value);
-    throw Error(error.exit_code(), fmt::format("{}, with{}", error.what(), values));
+    throw Error(error.kind(), fmt::format("{}, with{}", error.what(), values));
   }
 }
 
@@ -213,12 +213,12 @@ std::string Sweep::row(std::uint64_t index) const {
       try {
         trajectories.push_back(simulate(find_model(model), required_motion(c), force));
       } catch (const Error& error) {
-        if (error.exit_code() == ExitCode::kInterrupted) throw;
+        if (error.kind() == ErrorKind::kInterrupted) throw;
         failure += fmt::format("{}{}", failure.empty() ? "" : " | ", error.what());
       }
     }
   } catch (const Error& error) {
-    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    if (error.kind() == ErrorKind::kInterrupted) throw;
     failure = error.what();
   }
   const auto of_model = [](const Comparison& comparison, std::string_view name) {

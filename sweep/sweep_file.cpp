@@ -14,9 +14,9 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {
@@ -132,7 +132,7 @@ std::uint64_t write_sweep(
   }
   write();
   if (taken < size)
-    throw Error(ExitCode::kInterrupted,
+    throw Error(ErrorKind::kInterrupted,
                 fmt::format("interrupted; {} of {} rows are kept in {}: the same command goes on",
                             taken, size, part.string()));
   sync_file(file, part);

@@ -15,7 +15,7 @@ constexpr double kMostValues = 1e9;
 constexpr double kMostPoints = 1e12;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
-  throw Error(ExitCode::kWrongUsage,
+  throw Error(ErrorKind::kWrongUsage,
               fmt::format("--vary {}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
                           "KEY=VALUE,VALUE,...",
                           text, what));
@@ -121,7 +121,7 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
   for (const auto& variation : variations) size *= static_cast<double>(variation.count);
   if (size > kMostPoints)
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format("the grid has {:.3g} points; at most {:.0e} are allowed", size, kMostPoints));
   std::uint64_t points = 1;
   for (const auto& variation : variations) points *= variation.count;

@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/versions.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -50,7 +50,7 @@ void examine_freefem(const Report& report) {
                               freefem.executable, freefem.script_folder.string())});
     report(solve_known_row(freefem));
   } catch (const Error& error) {
-    if (error.exit_code() == ExitCode::kInterrupted) throw;
+    if (error.kind() == ErrorKind::kInterrupted) throw;
     report({false, error.what()});
   }
 }

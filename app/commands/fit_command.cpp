@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/pipeline/pipeline.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 namespace {
@@ -28,7 +28,7 @@ void read_fix(const std::string& word, FitSettings& settings) {
       word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
   if (!settings.leading_value)
     throw Error(
-        ExitCode::kWrongUsage,
+        ErrorKind::kWrongUsage,
         fmt::format("--fix is '{}'; it must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
 }
 
@@ -88,9 +88,10 @@ void add_fit(CLI::App& app) {
     settings.loss = from_option("--loss", [&] { return parse_loss(o->loss); });
     if (fix->count() > 0) read_fix(o->fix, settings);
     if (output->count() == 0 && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--output is required where --compare-bases is not given");
+      throw Error(ErrorKind::kWrongUsage,
+                  "--output is required where --compare-bases is not given");
     if (!o->plot.empty() && !o->compare_bases)
-      throw Error(ExitCode::kWrongUsage, "--plot needs --compare-bases");
+      throw Error(ErrorKind::kWrongUsage, "--plot needs --compare-bases");
     std::filesystem::path plot = o->plot;
     if (plot.empty() && output->count() > 0)
       plot = std::filesystem::path(o->fit).replace_extension(".bases.svg");
@@ -106,7 +107,7 @@ void add_fit(CLI::App& app) {
       if (o->compare_bases) compare_bases_stage(o->table, settings, plot, o->json);
     } catch (const Error& error) {
       // The fit does not need gnuplot: it is written first.
-      if (error.exit_code() != ExitCode::kExternalProgram) throw;
+      if (error.kind() != ErrorKind::kExternalProgram) throw;
       without_picture = error;
     }
     if (output->count() > 0) fit_stage(o->table, o->fit, settings, provenance_of({{o->table}, {}}));
@@ -143,7 +144,7 @@ void add_export(CLI::App& app) {
     try {
       text = export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
     } catch (const Error& error) {
-      throw Error(error.exit_code(), fmt::format("{}: {}", o->fit, error.what()));
+      throw Error(error.kind(), fmt::format("{}: {}", o->fit, error.what()));
     }
     if (output->count() > 0)
       write_output(o->output, find_named(export_targets(), o->target)->kind, text,

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "viscontact/app/commands/case_template.hpp"
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/common/shell_words.hpp"
+#include "viscontact/app/commands/case_template.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/shell_words.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/pipeline/dry_run.hpp"
-#include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
-#include "viscontact/report/flow/sweep_plot.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/pipeline/pipeline.hpp"
+#include "viscontact/report/flow/sweep_plot.hpp"
+#include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/sweep_file.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -79,7 +79,7 @@ SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan
       picture.y = other->key;
   }
   if (!picture.y.empty() && plan.samples > 0)
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 "a map can be drawn of a grid only, not of random samples; leave out --y");
   if (picture.columns.empty())
     for (const auto& model : plan.models) picture.columns.push_back(model + ".minimal_gap");
@@ -90,7 +90,7 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   const auto columns = sweep_columns(plan);
   const auto check = [&](const std::string& name) {
     if (std::ranges::find(columns, name) != columns.end()) return;
-    throw Error(ExitCode::kWrongUsage,
+    throw Error(ErrorKind::kWrongUsage,
                 fmt::format("there is no column '{}' to plot; the columns are: {}", name,
                             fmt::join(columns, ", ")));
   };
@@ -99,7 +99,7 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
     const auto key = std::ranges::find(plan.variations, axis, &Variation::key);
     if (key == plan.variations.end() || (key->count < 2 && plan.samples == 0))
       throw Error(
-          ExitCode::kWrongUsage,
+          ErrorKind::kWrongUsage,
           fmt::format(
               "'{}' cannot be an axis of the plot; an axis must be a key that is varied over at "
               "least two values",
@@ -184,7 +184,7 @@ void run(const SweepOptions& o) {
                  computed < size ? fmt::format(", {} of them from before", size - computed) : "")) +
       failures_in_words(outcome));
   if (outcome.without_result == outcome.points)
-    throw Error(ExitCode::kNotConverged,
+    throw Error(ErrorKind::kNotConverged,
                 fmt::format("{}: every model failed at every point; the column 'failure' says why, "
                             "at the first point: {}",
                             o.output, outcome.first_failure));

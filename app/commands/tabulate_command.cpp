@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "viscontact/app/command_options.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/picture_stage.hpp"
 #include "viscontact/pipeline/slurm.hpp"
 #include "viscontact/pipeline/tabulate_stage.hpp"
-#include "viscontact/common/error.hpp"
 
 namespace viscontact {
 
@@ -74,7 +74,7 @@ void add_tabulate(CLI::App& app) {
   command->callback([o, jobs, tasks, slurm_options, plot] {
     const bool slurm = o->launcher == "slurm";
     if (!slurm && (tasks->count() > 0 || slurm_options->count() > 0))
-      throw Error(ExitCode::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
+      throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
     check_outputs({o->output});
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);

@@ -15,8 +15,8 @@
 #include <system_error>
 #include <vector>
 
-#include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/descriptor.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,16 +1,16 @@
-// What blocks of a loop return to be put together by Team::sum_of_blocks.
+// What blocks of a loop return to be put together by ThreadPool::sum_of_blocks.
 #pragma once
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-namespace viscontact::particles {
+namespace viscontact {
 
 /// The largest of the blocks' values; of none, -infinity.
-struct Largest {
+struct MaximumOfBlocks {
   double value = -std::numeric_limits<double>::infinity();
-  Largest& operator+=(const Largest& other) {
+  MaximumOfBlocks& operator+=(const MaximumOfBlocks& other) {
     value = std::max(value, other.value);
     return *this;
   }
@@ -18,12 +18,12 @@ struct Largest {
 
 /// The blocks' lists one after the other.
 template <class T>
-struct Joined {
+struct ConcatenatedBlocks {
   std::vector<T> values;
-  Joined& operator+=(const Joined& other) {
+  ConcatenatedBlocks& operator+=(const ConcatenatedBlocks& other) {
     values.insert(values.end(), other.values.begin(), other.values.end());
     return *this;
   }
 };
 
-}  // namespace viscontact::particles
+}  // namespace viscontact

@@ -33,7 +33,7 @@ bool interrupted() { return signal_came; }
 
 void throw_if_interrupted() {
   if (interrupted())
-    throw Error(ExitCode::kInterrupted, "interrupted; everything finished so far is kept");
+    throw Error(ErrorKind::kInterrupted, "interrupted; everything finished so far is kept");
 }
 
 }  // namespace viscontact

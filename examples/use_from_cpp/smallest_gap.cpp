@@ -22,11 +22,11 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace {
 

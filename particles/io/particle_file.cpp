@@ -136,7 +136,7 @@ std::string write_particles(const Particles& particles) {
   return text;
 }
 
-std::string write_contacts(const Particles& particles, std::span<const ContactNow> contacts) {
+std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
   std::string text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error\n", contacts.size());
   for (const auto& contact : contacts) {
     const auto [i, j] = ids_of(particles, contact);

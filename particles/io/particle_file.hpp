@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 
@@ -26,6 +26,6 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension);
 std::string write_particles(const Particles& particles);
 
 /// i,j,gap,gamma,gamma_error: the ids of two particles; j is -1, -2, ... for the first, second plane.
-std::string write_contacts(const Particles& particles, std::span<const ContactNow> contacts);
+std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 }  // namespace viscontact::particles

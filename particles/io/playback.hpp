@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/plane.hpp"
 
 namespace viscontact::particles {
@@ -15,8 +15,8 @@ struct Frame {
   double time = 0;  ///< [T]
   std::vector<float>
       positions;  ///< flat [L], the numbers of `dimension` for each particle: enough for a picture
-  std::vector<PlanePlace> planes;    ///< in the order of the case
-  std::vector<ContactNow> contacts;  ///< glued (gamma < 0) or touching
+  std::vector<PlanePosition> planes;     ///< in the order of the case
+  std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
 };
 
 /// What a page or a picture shows.

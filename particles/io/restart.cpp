@@ -35,7 +35,7 @@ void for_fields(State& state, Field&& field) {
   field(p.masses);
   field(state.pairs);
   field(state.walls);
-  field(state.listed_positions);
+  field(state.positions_at_listing);
   field(state.reaches);
 }
 
@@ -144,8 +144,8 @@ State read_restart(const std::filesystem::path& path) {
   const bool consistent =
       (p.dimension == 2 || p.dimension == 3) && p.positions.size() == numbers &&
       p.velocities.size() == numbers && p.masses.size() == p.count() &&
-      (state.listed_positions.empty() ||
-       (state.listed_positions.size() == numbers && state.reaches.size() == p.count()));
+      (state.positions_at_listing.empty() ||
+       (state.positions_at_listing.size() == numbers && state.reaches.size() == p.count()));
   if (!consistent) reader.throw_short();
   const auto in_range = [&](const Film& film, bool wall) {
     return film.second >= 0 && static_cast<std::size_t>(film.second) < p.count() &&

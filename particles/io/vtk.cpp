@@ -12,7 +12,7 @@ namespace viscontact::particles {
 namespace {
 
 /// The <AppendedData> of a file, and the elements that point into it.
-class Appended {
+class AppendedData {
  public:
   template <class Number>
   std::string array(const char* type, const char* name, int components,
@@ -34,7 +34,7 @@ class Appended {
 
 }  // namespace
 
-std::string write_vtp(const Particles& particles, std::span<const ContactNow> contacts) {
+std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts) {
   std::vector<double> points, velocities, gaps, gammas;
   std::vector<std::int32_t> ids, firsts, seconds;
   std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
@@ -61,7 +61,7 @@ std::string write_vtp(const Particles& particles, std::span<const ContactNow> co
       firsts.push_back(first);
       seconds.push_back(second);
     }
-  Appended data;
+  AppendedData data;
   std::string text = "<?xml version=\"1.0\"?>\n";
   text += fmt::format(
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n",

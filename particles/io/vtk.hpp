@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 
@@ -15,12 +15,12 @@ namespace viscontact::particles {
 /// contact of two particles and a vertex at the particle for each with a plane, with gap, gamma and
 /// the ids of both (a plane's is -1, -2, ...).
 /// 2D: z = 0.
-std::string write_vtp(const Particles& particles, std::span<const ContactNow> contacts);
+std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts);
 
 /// What a frame shows, as read back from its file.
 struct VtpContent {
-  std::vector<double> positions;     ///< flat [L], the numbers of `dimension` for each particle
-  std::vector<ContactNow> contacts;  ///< in the order of contacts_of: pairs, then walls
+  std::vector<double> positions;         ///< flat [L], the numbers of `dimension` for each particle
+  std::vector<CurrentContact> contacts;  ///< in the order of contacts_of: pairs, then walls
 };
 
 /// Reads a file that write_vtp wrote on a machine with the same order of bytes. Throws

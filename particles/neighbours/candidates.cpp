@@ -23,8 +23,8 @@ struct VectorSum {
 
 /// The mean over the particles of what `vector(k)` returns.
 template <class Of>
-Vector mean_of(std::size_t count, Team& team, const Of& vector) {
-  const auto sum = team.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
+Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
+  const auto sum = pool.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
     VectorSum part;
     for (std::size_t k = begin; k < end; ++k) part.value = part.value + vector(k);
     return part;
@@ -34,32 +34,33 @@ Vector mean_of(std::size_t count, Team& team, const Of& vector) {
 
 }  // namespace
 
-bool list_holds(const State& state, std::span<const double> displacements, Team& team) {
+bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
+                             ThreadPool& pool) {
   const auto& p = state.particles;
-  if (state.listed_positions.empty()) return p.count() == 0;
+  if (state.positions_at_listing.empty()) return p.count() == 0;
   const auto moved = [&](std::size_t k) {
     return p.position(k) + point_of(displacements.data(), k, p.dimension) -
-           point_of(state.listed_positions.data(), k, p.dimension);
+           point_of(state.positions_at_listing.data(), k, p.dimension);
   };
-  const Vector common = mean_of(p.count(), team, moved);
+  const Vector common = mean_of(p.count(), pool, moved);
   const auto beyond_reach = [&](std::size_t begin, std::size_t end) {
-    Largest largest;
+    MaximumOfBlocks largest;
     for (std::size_t k = begin; k < end; ++k)
       largest.value = std::max(largest.value, norm(moved(k) - common) - state.reaches[k]);
     return largest;
   };
-  return team.sum_of_blocks<Largest>(p.count(), beyond_reach).value <= 0;
+  return pool.sum_of_blocks<MaximumOfBlocks>(p.count(), beyond_reach).value <= 0;
 }
 
-void make_list(State& state, std::span<const double> displacements, Team& team) {
+void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
   // Measured on box2d: shorter reaches make the list too often, longer ones make it long.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);
   };
-  const Vector common = mean_of(p.count(), team, displacement);
-  state.listed_positions = p.positions;
+  const Vector common = mean_of(p.count(), pool, displacement);
+  state.positions_at_listing = p.positions;
   state.reaches.resize(p.count(), 0.0);
   std::vector<double> extents(p.count());
   for (std::size_t k = 0; k < p.count(); ++k) {
@@ -67,7 +68,7 @@ void make_list(State& state, std::span<const double> displacements, Team& team) 
         {state.reaches[k], kOfRadius * p.radii[k], kSteps * norm(displacement(k) - common)});
     extents[k] = p.radii[k] + state.reaches[k];
   }
-  const auto close = close_pairs(p.dimension, p.positions, extents, team);
+  const auto close = close_pairs(p.dimension, p.positions, extents, pool);
   std::vector<Film> pairs;
   pairs.reserve(close.size());
   auto old = state.pairs.begin();

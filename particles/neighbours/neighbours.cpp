@@ -105,8 +105,8 @@ class Grid {
 template <int D>
 class Search {
  public:
-  Search(std::span<const double> positions, std::span<const double> extents, Team& team)
-      : positions_(positions), extents_(extents), team_(team) {}
+  Search(std::span<const double> positions, std::span<const double> extents, ThreadPool& pool)
+      : positions_(positions), extents_(extents), pool_(pool) {}
 
   std::vector<Pair> pairs() {
     std::vector<int> levels(extents_.size());
@@ -153,9 +153,9 @@ class Search {
   /// Pairs of `seekers`, in order of cell, with those in the grid. In that order the runs of cells around them move forward only.
   void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
     const auto& in_grid = grid.entries;
-    found_ +=
-        team_.sum_of_blocks<Joined<Pair>>(seekers.size(), [&](std::size_t begin, std::size_t end) {
-          Joined<Pair> pairs;
+    found_ += pool_.sum_of_blocks<ConcatenatedBlocks<Pair>>(
+        seekers.size(), [&](std::size_t begin, std::size_t end) {
+          ConcatenatedBlocks<Pair> pairs;
           constexpr std::size_t kRows = D == 2 ? 3 : 9;
           std::array<std::size_t, kRows> run_begin{};
           grid.for_rows_around(seekers[begin].cell, [&](std::uint64_t first, std::uint64_t row) {
@@ -198,17 +198,17 @@ class Search {
   }
 
   std::span<const double> positions_, extents_;
-  Team& team_;
-  Joined<Pair> found_;
+  ThreadPool& pool_;
+  ConcatenatedBlocks<Pair> found_;
 };
 
 }  // namespace
 
 std::vector<Pair> close_pairs(int dimension, std::span<const double> positions,
-                              std::span<const double> extents, Team& team) {
+                              std::span<const double> extents, ThreadPool& pool) {
   if (extents.empty()) return {};
-  return dimension == 2 ? Search<2>(positions, extents, team).pairs()
-                        : Search<3>(positions, extents, team).pairs();
+  return dimension == 2 ? Search<2>(positions, extents, pool).pairs()
+                        : Search<3>(positions, extents, pool).pairs();
 }
 
 }  // namespace viscontact::particles

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/common/system/team.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 
 namespace viscontact::particles {
 
@@ -18,6 +18,6 @@ struct Pair {
 /// `extents`: e > 0 [L]. Time and memory grow with the number of particles and of pairs, whatever the spread of the extents: particles of like extent
 /// (within a factor 2) share a grid of cells of twice the largest of them, and each looks for neighbours in its own grid and in the coarser ones.
 std::vector<Pair> close_pairs(int dimension, std::span<const double> positions,
-                              std::span<const double> extents, Team& team);
+                              std::span<const double> extents, ThreadPool& pool);
 
 }  // namespace viscontact::particles

@@ -21,20 +21,21 @@ struct Sums {
 }  // namespace
 
 template <int D>
-Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /*factor*/) {
+SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
+                                  ActiveSetFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   const std::size_t numbers = graph.bodies() * D;
-  auto& team = graph.team();
+  auto& pool = graph.pool();
   // x: iterates; y: extrapolated; g: gradients, linear in their points, so that one product with W serves both.
   std::vector<double> x = graph.z, y = graph.z, next(count), g_x(count), g_y(count), g_next(count);
   std::vector<double> bodies_y(numbers), bodies_x(numbers), bodies_next(numbers), step;
   const auto gradient = [&](const std::vector<double>& bodies, std::vector<double>& g,
                             const std::vector<double>& at) {
-    return team
-        .template sum_of_blocks<Largest>(
+    return pool
+        .template sum_of_blocks<MaximumOfBlocks>(
             count,
             [&](std::size_t begin, std::size_t end) {
-              Largest largest;
+              MaximumOfBlocks largest;
               for (std::size_t c = begin; c < end; ++c) {
                 g[c] = graph.linear_term[c] + graph.to_contact(c, bodies.data());
                 largest.value = std::max(largest.value, graph.residual(c, at[c], g[c]));
@@ -44,7 +45,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFact
         .value;
   };
   graph.to_bodies(x, bodies_x);
-  Solved solved;
+  SolverResult solved;
   if (count == 0) return solved;
   solved.residual = gradient(bodies_x, g_x, x);
   g_y = g_x;
@@ -55,7 +56,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFact
   while (solved.residual > 1 && solved.iterations < max_iterations) {
     Sums sums;
     for (;;) {
-      sums = team.template sum_of_blocks<Sums>(count, [&](std::size_t begin, std::size_t end) {
+      sums = pool.template sum_of_blocks<Sums>(count, [&](std::size_t begin, std::size_t end) {
         Sums part;
         for (std::size_t c = begin; c < end; ++c) {
           next[c] = std::max(graph.bound[c], y[c] - g_y[c] / steepness);
@@ -80,7 +81,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFact
     const bool restart = sums.uphill > 0;
     const double beta = restart ? 0 : (theta - 1) / theta_next;
     theta = restart ? 1 : theta_next;
-    team.for_blocks(count, [&](std::size_t begin, std::size_t end) {
+    pool.for_blocks(count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c) {
         y[c] = next[c] + beta * (next[c] - x[c]);
         g_y[c] = g_next[c] + beta * (g_next[c] - g_x[c]);
@@ -97,7 +98,7 @@ Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFact
   return solved;
 }
 
-template Solved accelerated_gradient<2>(ContactGraph<2>&, int, FaceFactor<2>&);
-template Solved accelerated_gradient<3>(ContactGraph<3>&, int, FaceFactor<3>&);
+template SolverResult accelerated_gradient<2>(ContactGraph<2>&, int, ActiveSetFactor<2>&);
+template SolverResult accelerated_gradient<3>(ContactGraph<3>&, int, ActiveSetFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -65,7 +65,7 @@ class Newton {
   }
 
   ContactGraph<D>& graph_;
-  FaceFactor<D> factor_;
+  ActiveSetFactor<D> factor_;
   std::vector<double> displacements_;  // B z, of the bodies
   std::vector<double> gradient_, correction_;
   std::vector<char> active_;
@@ -74,10 +74,10 @@ class Newton {
 }  // namespace
 
 template <int D>
-Solved active_set_newton(ContactGraph<D>& graph, int max_iterations) {
+SolverResult active_set_newton(ContactGraph<D>& graph, int max_iterations) {
   const auto start = graph.z;
   Newton<D> newton(graph);
-  Solved solved{0, std::numeric_limits<double>::infinity()};
+  SolverResult solved{0, std::numeric_limits<double>::infinity()};
   while (solved.iterations < max_iterations && newton.step()) {
     ++solved.iterations;
     solved.residual = newton.residual();
@@ -88,7 +88,7 @@ Solved active_set_newton(ContactGraph<D>& graph, int max_iterations) {
   return solved;
 }
 
-template Solved active_set_newton<2>(ContactGraph<2>&, int);
-template Solved active_set_newton<3>(ContactGraph<3>&, int);
+template SolverResult active_set_newton<2>(ContactGraph<2>&, int);
+template SolverResult active_set_newton<3>(ContactGraph<3>&, int);
 
 }  // namespace viscontact::particles

@@ -15,6 +15,6 @@ namespace viscontact::particles {
 /// factorisations, and then, or if W is singular or cannot be factorised cheaply, leaves graph.z as
 /// it was. The residual returned is that of graph.z if it converged, above 1 otherwise.
 template <int D>
-Solved active_set_newton(ContactGraph<D>& graph, int max_iterations);
+SolverResult active_set_newton(ContactGraph<D>& graph, int max_iterations);
 
 }  // namespace viscontact::particles

@@ -13,18 +13,18 @@ namespace viscontact::particles {
 namespace {
 
 /// What one pass over the contacts finds at z with gradient g.
-struct Look {
+struct PassStatistics {
   double residual = 0;  ///< largest, ContactGraph::residual
   double free_slope =
       0;  ///< phi.g of the free gradient phi, cut so that a gradient step along it stays within the bounds
   double chopped_square =
       0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
-  double room = std::numeric_limits<double>::infinity();  ///< smallest z - bound
-  Look& operator+=(const Look& other) {
+  double distance_to_bound = std::numeric_limits<double>::infinity();  ///< smallest z - bound
+  PassStatistics& operator+=(const PassStatistics& other) {
     residual = std::max(residual, other.residual);
     free_slope += other.free_slope;
     chopped_square += other.chopped_square;
-    room = std::min(room, other.room);
+    distance_to_bound = std::min(distance_to_bound, other.distance_to_bound);
     return *this;
   }
 };
@@ -42,11 +42,11 @@ Eigen::Map<Eigen::ArrayXd> part(std::vector<double>& numbers, std::size_t begin,
 }
 
 /// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
-/// free contacts of one of the team's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
+/// free contacts of one of the pool's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
 template <int D>
 class Iteration {
  public:
-  Iteration(ContactGraph<D>& graph, FaceFactor<D>& factor)
+  Iteration(ContactGraph<D>& graph, ActiveSetFactor<D>& factor)
       : graph_(graph),
         factor_(factor),
         y_(graph.bodies() * D),
@@ -61,20 +61,21 @@ class Iteration {
   /// The gradient from z itself, without the rounding of many updates.
   void refresh() {
     graph_.to_bodies(graph_.z, y_);
-    look_ = graph_.team().template sum_of_blocks<Look>(graph_.count(), [&](std::size_t begin,
-                                                                           std::size_t end) {
-      Look look;
-      for (std::size_t c = begin; c < end; ++c) {
-        gradient_[c] =
-            graph_.linear_term[c] + graph_.to_contact(c, y_.data()) + regularisation_ * graph_.z[c];
-        add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_, look);
-      }
-      return look;
-    });
+    statistics_ = graph_.pool().template sum_of_blocks<PassStatistics>(
+        graph_.count(), [&](std::size_t begin, std::size_t end) {
+          PassStatistics statistics;
+          for (std::size_t c = begin; c < end; ++c) {
+            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data()) +
+                           regularisation_ * graph_.z[c];
+            add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c], 1 / step_,
+                statistics);
+          }
+          return statistics;
+        });
     restart_ = true;
   }
 
-  double residual() const { return look_.residual; }
+  double residual() const { return statistics_.residual; }
 
   void drop_regularisation() {
     regularisation_ = 0;
@@ -95,7 +96,7 @@ class Iteration {
 
   /// One step. Returns how many products with W it took.
   int step() {
-    if (look_.chopped_square > look_.free_slope) return leave_bounds();
+    if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();
     before_ = graph_.z;
     ++steps_between_same_;
@@ -104,7 +105,7 @@ class Iteration {
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
     move_and_half_sweep(length);
-    if (look_.room < 0) return expand(length);
+    if (statistics_.distance_to_bound < 0) return expand(length);
     // Conjugate: the next direction from the swept gradient and the one before.
     const double slope = precondition();
     const double beta = slope / slope_;
@@ -115,19 +116,21 @@ class Iteration {
 
  private:
   /// Without branches: which contacts are free is as irregular as the packing.
-  static void add(double g, double room, double per_allowed, double per_step, Look& look) {
-    look.residual = std::max(look.residual, per_allowed * std::abs(std::min(g, room)));
-    const bool is_free = room > 0;
+  static void add(double g, double distance_to_bound, double per_allowed, double per_step,
+                  PassStatistics& statistics) {
+    statistics.residual =
+        std::max(statistics.residual, per_allowed * std::abs(std::min(g, distance_to_bound)));
+    const bool is_free = distance_to_bound > 0;
     const double phi = is_free ? g : 0.0;
-    look.free_slope += phi * std::min(g, room * per_step);
+    statistics.free_slope += phi * std::min(g, distance_to_bound * per_step);
     const double beta = is_free ? 0.0 : std::min(g, 0.0);
-    look.chopped_square += beta * beta;
-    look.room = std::min(look.room, room);
+    statistics.chopped_square += beta * beta;
+    statistics.distance_to_bound = std::min(statistics.distance_to_bound, distance_to_bound);
   }
 
   /// z^T W z/2 + b^T z, W regularised.
   double objective() {
-    return graph_.team().template sum_of_blocks<double>(
+    return graph_.pool().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           return (part(graph_.z, begin, end) *
                   (part(gradient_, begin, end) + part(graph_.linear_term, begin, end)))
@@ -149,7 +152,7 @@ class Iteration {
 
   /// direction = swept + beta * direction, its displacements and its curvature.
   void combine_directions(double beta) {
-    const double square = graph_.team().template sum_of_blocks<double>(
+    const double square = graph_.pool().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           auto direction = part(direction_, begin, end);
           direction = part(swept_, begin, end) + beta * direction;
@@ -160,7 +163,7 @@ class Iteration {
 
   /// half_swept = (I + L)^-1 gradient, L the lower triangle of W between the free contacts of a block.
   void half_sweep() {
-    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+    graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
       auto sums = graph_.block_bodies(begin);
       for (std::size_t c = begin; c < end; ++c) {
         half_swept_[c] =
@@ -174,10 +177,11 @@ class Iteration {
   /// pass, which reads the same rows.
   /// Most of the time only the smallest room is looked for: the rest can wait a few steps.
   void move_and_half_sweep(double length) {
-    constexpr int kLookEvery = 4;
-    const bool look_around = restart_ || ++unseen_ % kLookEvery == 0;
-    const auto pass = [&](auto look_around_now, auto sweep) {
-      return graph_.team().template sum_of_blocks<Look>(
+    constexpr int kPassesBetweenMeasurements = 4;
+    const bool measure_residuals =
+        restart_ || ++passes_since_measurement_ % kPassesBetweenMeasurements == 0;
+    const auto pass = [&](auto measure_now, auto sweep) {
+      return graph_.pool().template sum_of_blocks<PassStatistics>(
           graph_.count(), [&](std::size_t begin, std::size_t end) {
             const double* direction = direction_.data();
             const double* y_direction = y_direction_.data();
@@ -186,7 +190,7 @@ class Iteration {
             double* gradient = gradient_.data();
             double* half_swept = half_swept_.data();
             const double per_step = 1 / step_;
-            Look look;
+            PassStatistics statistics;
             auto sums = decltype(sweep)::value ? graph_.block_bodies(begin) : std::vector<double>();
             for (std::size_t c = begin; c < end; ++c) {
               const double z = zs[c] - length * direction[c];
@@ -194,41 +198,43 @@ class Iteration {
                                                        regularisation_ * direction[c]);
               zs[c] = z;
               gradient[c] = g;
-              const double room = z - bound[c];
-              if constexpr (decltype(look_around_now)::value)
-                add(g, room, graph_.per_allowed[c], per_step, look);
+              const double distance_to_bound = z - bound[c];
+              if constexpr (decltype(measure_now)::value)
+                add(g, distance_to_bound, graph_.per_allowed[c], per_step, statistics);
               else
-                look.room = std::min(look.room, room);
+                statistics.distance_to_bound =
+                    std::min(statistics.distance_to_bound, distance_to_bound);
               if constexpr (decltype(sweep)::value) {
-                const double t = room > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
+                const double t =
+                    distance_to_bound > 0 ? g - graph_.to_contact_in_block(c, sums.data()) : 0.0;
                 half_swept[c] = t;
                 graph_.add_in_block(c, t, sums.data());
               }
             }
-            return look;
+            return statistics;
           });
     };
     constexpr std::true_type kYes;
     constexpr std::false_type kNo;
     if (factor_.exists())
-      look_ = pass(kYes, kNo);
-    else if (look_around)
-      look_ = pass(kYes, kYes);
+      statistics_ = pass(kYes, kNo);
+    else if (measure_residuals)
+      statistics_ = pass(kYes, kYes);
     else
-      look_.room = pass(kNo, kYes).room;
+      statistics_.distance_to_bound = pass(kNo, kYes).distance_to_bound;
   }
 
   /// swept = the preconditioner times the gradient, y = B swept. Returns swept.gradient.
   double precondition() {
     const double product =
         factor_.exists() ? factor_.precondition(graph_, gradient_, swept_) : sweep_back();
-    if (factor_.exists() || graph_.count() > Team::kBlock) graph_.to_bodies(swept_, y_);
+    if (factor_.exists() || graph_.count() > ThreadPool::kBlock) graph_.to_bodies(swept_, y_);
     return product;
   }
 
   /// The sweep's way back: swept = (I + L^T)^-1 half_swept. Returns its product with the gradient.
   double sweep_back() {
-    return graph_.team().template sum_of_blocks<double>(graph_.count(), [&](std::size_t begin,
+    return graph_.pool().template sum_of_blocks<double>(graph_.count(), [&](std::size_t begin,
                                                                             std::size_t end) {
       double product = 0;
       auto sums = graph_.block_bodies(begin);
@@ -239,7 +245,7 @@ class Iteration {
         product += s * gradient_[c];
         graph_.add_in_block(c, s, sums.data());
       }
-      if (graph_.count() <= Team::kBlock) std::swap(y_, sums);  // B swept, there already
+      if (graph_.count() <= ThreadPool::kBlock) std::swap(y_, sums);  // B swept, there already
       return product;
     });
   }
@@ -269,7 +275,7 @@ class Iteration {
     const auto here = graph_.z;
     const double before = objective();
     for (int products = 1;; ++products) {
-      graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+      graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
           if (graph_.is_free(c))
             graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
@@ -286,7 +292,7 @@ class Iteration {
 
   /// Back within the bounds.
   void cut() {
-    graph_.team().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+    graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
         graph_.z[c] = std::max(graph_.z[c], graph_.bound[c]);
     });
@@ -301,32 +307,33 @@ class Iteration {
     constexpr double kLongest =
         1e6;  // of the length where W is 1: contacts that contradict each other
     restart_ = true;
-    move_and_half_sweep(std::min(look_.chopped_square / curvature, kLongest));
+    move_and_half_sweep(std::min(statistics_.chopped_square / curvature, kLongest));
     return 1;
   }
 
   ContactGraph<D>& graph_;
-  FaceFactor<D>& factor_;
+  ActiveSetFactor<D>& factor_;
   /// Length of a projected gradient step. W has the diagonal 1, and in packings of like particles no eigenvalue above 4.
   double step_ = 0.5;
   std::vector<double> before_;           // z before a step
   std::vector<double> y_, y_direction_;  // of bodies
   std::vector<double> gradient_, direction_, half_swept_, swept_;
-  Look look_;
+  PassStatistics statistics_;
   double regularisation_ = kRegularisation;
   double slope_ = 0;      // gradient.direction
   double curvature_ = 0;  // direction^T W direction
   bool restart_ = true;
   int steps_between_same_ = 0;
-  unsigned unseen_ = 0;  // steps
+  unsigned passes_since_measurement_ = 0;  // steps
 };
 
 }  // namespace
 
 template <int D>
-Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor) {
+SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
+                                 ActiveSetFactor<D>& factor) {
   Iteration<D> iteration(graph, factor);
-  Solved solved;
+  SolverResult solved;
   // A factor pays if many iterations between the same contacts have not converged; while contacts
   // change sides it would soon be out of date. A rough solution, which is only the first part of a
   // step, has to change many of them and seldom needs a factor. Once there is one, a few iterations
@@ -341,8 +348,8 @@ Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFacto
   constexpr std::size_t kLongChain = 6;  // shorter ones take fewer sweeps than a factor costs
   const bool has_chains =
       graph.largest_island > kLongChain && graph.count() < graph.bodies() + graph.bodies() / 8;
-  constexpr double kExact = 1e-4;
-  if (has_chains && iteration.residual() > kExact) {
+  constexpr double kNearlySolved = 1e-4;
+  if (has_chains && iteration.residual() > kNearlySolved) {
     solved = active_set_newton(graph, kNewtonIterations);
     if (solved.residual <= 1) return solved;
     iteration.refresh();
@@ -373,7 +380,7 @@ Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFacto
   }
 }
 
-template Solved conjugate_gradients<2>(ContactGraph<2>&, int, FaceFactor<2>&);
-template Solved conjugate_gradients<3>(ContactGraph<3>&, int, FaceFactor<3>&);
+template SolverResult conjugate_gradients<2>(ContactGraph<2>&, int, ActiveSetFactor<2>&);
+template SolverResult conjugate_gradients<3>(ContactGraph<3>&, int, ActiveSetFactor<3>&);
 
 }  // namespace viscontact::particles

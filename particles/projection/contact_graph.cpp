@@ -7,7 +7,7 @@ namespace viscontact::particles {
 template <int D>
 ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
                               std::span<const double> displacements,
-                              std::span<const double> mobilities, Team& team)
+                              std::span<const double> mobilities, ThreadPool& pool)
     : z(contacts.size()),
       bound(contacts.size()),
       linear_term(contacts.size()),
@@ -18,7 +18,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
       in_block_(contacts.size()),
       offsets_(mobilities.size() + 2, 0),
       inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
-      team_(&team) {
+      pool_(&pool) {
   const auto wall = static_cast<std::int32_t>(mobilities.size());
   for (std::size_t b = 0; b < mobilities.size(); ++b)
     for (std::size_t d = 0; d < D; ++d) inverse_mobilities_[b * D + d] = 1 / mobilities[b];
@@ -60,28 +60,29 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
   // Number the bodies of each block as its contacts name them.
   std::vector<std::int32_t> number(bodies());
   std::vector<std::size_t> numbered_in(bodies(), 0);
-  for (std::size_t begin = 0, block = 1; begin < rows_.size(); begin += Team::kBlock, ++block) {
+  for (std::size_t begin = 0, block = 1; begin < rows_.size();
+       begin += ThreadPool::kBlock, ++block) {
     std::int32_t named = 0;
     const auto local = [&](std::int32_t body) {
       const auto b = static_cast<std::size_t>(body);
-      if (rows_.size() <= Team::kBlock) return body;  // one block: all bodies, as they are
+      if (rows_.size() <= ThreadPool::kBlock) return body;  // one block: all bodies, as they are
       if (numbered_in[b] != block) {
         numbered_in[b] = block;
         number[b] = named++;
       }
       return number[b];
     };
-    for (std::size_t c = begin; c < std::min(begin + Team::kBlock, rows_.size()); ++c)
+    for (std::size_t c = begin; c < std::min(begin + ThreadPool::kBlock, rows_.size()); ++c)
       in_block_[c] = {local(rows_[c].first), local(rows_[c].second)};
-    block_bodies_.push_back(rows_.size() <= Team::kBlock ? bodies()
-                                                         : static_cast<std::size_t>(named));
+    block_bodies_.push_back(rows_.size() <= ThreadPool::kBlock ? bodies()
+                                                               : static_cast<std::size_t>(named));
   }
 }
 
 template <int D>
 double ContactGraph<D>::combine(std::span<const double> y, double factor,
                                 std::span<double> into) const {
-  return team_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
+  return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
     // Eigen adds to several sums at once, where one sum would wait for each addition.

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/common/system/team.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 
 namespace viscontact::particles {
 
@@ -43,11 +43,11 @@ class ContactGraph {
 
   /// `displacements`: h u* of each body, flat [L]; `mobilities`: h/m of each [T/M]. A plane is one body more.
   ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
-               std::span<const double> mobilities, Team& team);
+               std::span<const double> mobilities, ThreadPool& pool);
 
   std::size_t count() const { return rows_.size(); }
   std::size_t bodies() const { return offsets_.size() - 1; }
-  Team& team() const { return *team_; }
+  ThreadPool& pool() const { return *pool_; }
 
   std::vector<double> z;            ///< scaled impulses
   std::vector<double> bound;        ///< of z: sqrt(w) gamma^n
@@ -60,7 +60,7 @@ class ContactGraph {
 
   /// y = B z, D numbers a body. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
-    return team_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
+    return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
       double form = 0;
       for (std::size_t b = begin; b < end; ++b) {
         Vec sum{};
@@ -97,11 +97,11 @@ class ContactGraph {
         y + static_cast<std::size_t>(row.second) * D);
   }
 
-  // The same two within a block of the team, on the block's own bodies: another block's contacts do not see them.
+  // The same two within a block of the pool, on the block's own bodies: another block's contacts do not see them.
 
   /// Zero for each body of the block that begins at contact `begin`, D numbers each.
   std::vector<double> block_bodies(std::size_t begin) const {
-    return std::vector<double>(block_bodies_[begin / Team::kBlock] * D);
+    return std::vector<double>(block_bodies_[begin / ThreadPool::kBlock] * D);
   }
   double to_contact_in_block(std::size_t c, const double* y) const {
     return product(rows_[c], y + static_cast<std::size_t>(in_block_[c][0]) * D,
@@ -187,7 +187,7 @@ class ContactGraph {
   std::vector<Share> shares_;              // in order of contacts
   // m/h of each displacement, D numbers a body; 0 of the body that does not move.
   std::vector<double> inverse_mobilities_;
-  Team* team_;
+  ThreadPool* pool_;
 };
 
 extern template class ContactGraph<2>;

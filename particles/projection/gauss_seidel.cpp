@@ -5,23 +5,24 @@
 namespace viscontact::particles {
 
 template <int D>
-Solved gauss_seidel(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /*factor*/) {
+SolverResult gauss_seidel(ContactGraph<D>& graph, int max_iterations,
+                          ActiveSetFactor<D>& /*factor*/) {
   const std::size_t count = graph.count();
   std::vector<double> y(graph.bodies() * D);
-  Solved solved;
+  SolverResult solved;
   // The displacements y of the bodies are updated contact by contact. They are computed anew
   // before a solution is accepted, because the updates gather rounding errors.
   const auto gradient_of = [&](std::size_t c) {
     return graph.linear_term[c] + graph.to_contact(c, y.data());
   };
-  const auto look = [&] {
+  const auto update_residuals = [&] {
     graph.to_bodies(graph.z, y);
     solved.residual = 0;
     for (std::size_t c = 0; c < count; ++c)
       solved.residual = std::max(solved.residual, graph.residual(c, graph.z[c], gradient_of(c)));
     return solved.residual <= 1;
   };
-  if (look()) return solved;
+  if (update_residuals()) return solved;
   while (solved.iterations < max_iterations) {
     double largest = 0;
     const auto relax = [&](std::size_t c) {
@@ -37,12 +38,12 @@ Solved gauss_seidel(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& /
       for (std::size_t c = count; c-- > 0;) relax(c);
     ++solved.iterations;
     // `largest` is the largest of the contacts' residuals as the sweep met them.
-    if ((largest <= 1 || solved.iterations == max_iterations) && look()) break;
+    if ((largest <= 1 || solved.iterations == max_iterations) && update_residuals()) break;
   }
   return solved;
 }
 
-template Solved gauss_seidel<2>(ContactGraph<2>&, int, FaceFactor<2>&);
-template Solved gauss_seidel<3>(ContactGraph<3>&, int, FaceFactor<3>&);
+template SolverResult gauss_seidel<2>(ContactGraph<2>&, int, ActiveSetFactor<2>&);
+template SolverResult gauss_seidel<3>(ContactGraph<3>&, int, ActiveSetFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "viscontact/particles/projection/active_set_factor.hpp"
 #include "viscontact/particles/projection/contact_graph.hpp"
-#include "viscontact/particles/projection/face_factor.hpp"
 
 namespace viscontact::particles {
 
@@ -18,7 +18,7 @@ struct SolverSettings {
 };
 
 /// What a method reached.
-struct Solved {
+struct SolverResult {
   int iterations = 0;
   double residual = 0;  ///< largest ContactGraph::residual; the contacts have converged if <= 1
 };
@@ -28,7 +28,8 @@ struct Solved {
 /// only sums, depend on the guess. `factor` is that of earlier solves on the same graph, perhaps
 /// with fewer contacts: a method may use it and replace it.
 template <int D>
-using SolverMethod = Solved (*)(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor);
+using SolverMethod = SolverResult (*)(ContactGraph<D>& graph, int max_iterations,
+                                      ActiveSetFactor<D>& factor);
 
 /// Projected conjugate gradients (MPRGP: Dostal & Schoeberl 2005, "Minimizing quadratic functions
 /// subject to bound constraints with the rate of convergence and finite termination"): conjugate
@@ -36,17 +37,19 @@ using SolverMethod = Solved (*)(ContactGraph<D>& graph, int max_iterations, Face
 /// projected steps where it changes. If that does not converge soon and a sparse factor of W is
 /// cheap, active_set_newton.hpp finishes it.
 template <int D>
-Solved conjugate_gradients(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor);
+SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
+                                 ActiveSetFactor<D>& factor);
 
 /// Accelerated projected gradient (Nesterov) with the restart of O'Donoghue & Candes 2015 and a
 /// step that shrinks where the quadratic is steeper than it allows (Mazhar et al. 2015, "Using
 /// Nesterov's method to accelerate multibody dynamics").
 template <int D>
-Solved accelerated_gradient(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor);
+SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
+                                  ActiveSetFactor<D>& factor);
 
 /// Projected Gauss-Seidel, sweeps in both directions in turn, on one core.
 template <int D>
-Solved gauss_seidel(ContactGraph<D>& graph, int max_iterations, FaceFactor<D>& factor);
+SolverResult gauss_seidel(ContactGraph<D>& graph, int max_iterations, ActiveSetFactor<D>& factor);
 
 /// A method by its name in case files.
 struct SolverMethodRow {

@@ -21,20 +21,20 @@ SolverMethod<D> method_of(const SolverSettings& settings) {
       else
         return row.spheres;
     }
-  throw Error(ExitCode::kBadInput, fmt::format("there is no method '{}'", settings.method));
+  throw Error(ErrorKind::kBadInput, fmt::format("there is no method '{}'", settings.method));
 }
 
 /// Neighbours in the list share particles, so that in a sweep each contact would wait for the
 /// result of the one before it. The order interleaves three parts of the list that are far from
 /// each other, within each block of the threads. Measured on box2d, 1 to 6 parts take 8.4, 6.8,
 /// 6.4, 7.0, -, 7.2 ms a step.
-std::vector<std::size_t> in_strands(const std::vector<std::size_t>& films) {
-  constexpr std::size_t kStrands = 3;
+std::vector<std::size_t> interleaved(const std::vector<std::size_t>& films) {
+  constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
   order.reserve(films.size());
-  for (std::size_t begin = 0; begin < films.size(); begin += Team::kBlock) {
-    const std::size_t end = std::min(begin + Team::kBlock, films.size());
-    const std::size_t strand = (end - begin + kStrands - 1) / kStrands;
+  for (std::size_t begin = 0; begin < films.size(); begin += ThreadPool::kBlock) {
+    const std::size_t end = std::min(begin + ThreadPool::kBlock, films.size());
+    const std::size_t strand = (end - begin + kInterleaved - 1) / kInterleaved;
     for (std::size_t k = begin; k < begin + strand; ++k)
       for (std::size_t f = k; f < end; f += strand) order.push_back(films[f]);
   }
@@ -44,15 +44,15 @@ std::vector<std::size_t> in_strands(const std::vector<std::size_t>& films) {
 }  // namespace
 
 template <int D>
-StepProjection<D>::StepProjection(State& state, double h, std::span<const PlanePlace> planes,
+StepProjection<D>::StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                                   std::span<double> displacements,
-                                  std::span<const double> mobilities, Team& team)
+                                  std::span<const double> mobilities, ThreadPool& pool)
     : state_(state),
       h_(h),
       planes_(planes),
       displacements_(displacements),
       mobilities_(mobilities),
-      team_(team),
+      pool_(pool),
       is_chosen_(films(), 0),
       number_(mobilities.size(), -1) {}
 
@@ -63,8 +63,9 @@ Contact<D> StepProjection<D>::contact(std::size_t f) {
 
 /// Whether the displacements close the film's gap.
 template <int D>
-bool StepProjection<D>::closes(std::size_t f) {
-  if (film(f).first >= 0 && stay_apart<D>(state_.particles, film(f), displacements_)) return false;
+bool StepProjection<D>::gap_would_close(std::size_t f) {
+  if (film(f).first >= 0 && cannot_close<D>(state_.particles, film(f), displacements_))
+    return false;
   const auto here = contact_of<D>(state_.particles, film(f), planes_);
   const double gap = gap_after(here, displacements_);
   // Rounding errors matter to the few gaps that are nearly closed; these are cheaper to tell.
@@ -83,17 +84,18 @@ bool StepProjection<D>::closes(std::size_t f) {
 
 template <int D>
 std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
-  return team_
-      .sum_of_blocks<Joined<std::size_t>>(films(),
-                                          [&](std::size_t begin, std::size_t end) {
-                                            Joined<std::size_t> numbers;
-                                            for (std::size_t f = begin; f < end; ++f) {
-                                              const auto& now = film(f);
-                                              if (now.gamma < 0 || now.impulse != 0 || closes(f))
-                                                numbers.values.push_back(f);
-                                            }
-                                            return numbers;
-                                          })
+  return pool_
+      .sum_of_blocks<ConcatenatedBlocks<std::size_t>>(
+          films(),
+          [&](std::size_t begin, std::size_t end) {
+            ConcatenatedBlocks<std::size_t> numbers;
+            for (std::size_t f = begin; f < end; ++f) {
+              const auto& now = film(f);
+              if (now.gamma < 0 || now.impulse != 0 || gap_would_close(f))
+                numbers.values.push_back(f);
+            }
+            return numbers;
+          })
       .values;
 }
 
@@ -132,7 +134,7 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
     }
     return number;
   };
-  for (const auto f : in_strands(films)) {
+  for (const auto f : interleaved(films)) {
     is_chosen_[f] = 1;
     auto now = contact(f);
     geometry_.push_back(now);
@@ -228,9 +230,9 @@ void StepProjection<D>::allow(double length, double fraction) {
 }
 
 template <int D>
-Solved StepProjection<D>::solve_chosen(const SolverSettings& settings, bool is_rough,
-                                       int iterations) {
-  ContactGraph<D> graph(contacts_, free_, body_mobilities_, team_);
+SolverResult StepProjection<D>::solve_chosen(const SolverSettings& settings, bool is_rough,
+                                             int iterations) {
+  ContactGraph<D> graph(contacts_, free_, body_mobilities_, pool_);
   graph.largest_island = largest_island_;
   graph.is_rough = is_rough;
   const auto solved = method_of<D>(settings)(graph, iterations, factor_);
@@ -251,7 +253,7 @@ Solved StepProjection<D>::solve_chosen(const SolverSettings& settings, bool is_r
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,
-                                                    Projected& result) {
+                                                    ProjectionResult& result) {
   find_impulses_at_work();
   result.converged = is_final;
   result.residual = result.impulse_residual = result.smallest_gap = 0;
@@ -259,7 +261,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.unresolved = 0;
   result.film_errors.resize(contacts_.size());
   // Whether the contact has a larger residual than is allowed.
-  const auto judge = [&](double residual, const Scale& scale) {
+  const auto record_residual = [&](double residual, const Scale& scale) {
     result.residual = std::max(result.residual, residual);
     const double allowed =
         scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
@@ -282,7 +284,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const auto scale = scale_of(here);
     const double gap = gap_after(here, displacements_);
     const double residual = std::abs(std::min(gap, scale.w * (now.impulse - now.gamma)));
-    judge(residual, scale);
+    record_residual(residual, scale);
     result.film_errors[c] = residual / scale.w;
     note_gap(chosen_[c], gap - here.tolerated);
     if ((now.impulse != 0 || now.gamma < 0) &&
@@ -296,10 +298,10 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const bool takes_part = number_[static_cast<std::size_t>(now.second)] >= 0 ||
                             (now.first >= 0 && number_[static_cast<std::size_t>(now.first)] >= 0);
     if (!takes_part) continue;
-    if (!closes(f)) continue;
+    if (!gap_would_close(f)) continue;
     const auto here = contact(f);
     const double gap = gap_after(here, displacements_);
-    if (judge(-gap, scale_of(here))) closed.push_back(f);
+    if (record_residual(-gap, scale_of(here))) closed.push_back(f);
     note_gap(f, gap - here.tolerated);
   }
   return closed;
@@ -308,8 +310,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
 /// `films` and those behind them that they may close in turn: a blow goes through a chain of
 /// particles, and would otherwise be followed by one particle in each round.
 template <int D>
-std::vector<std::size_t> StepProjection<D>::with_those_behind(const std::vector<std::size_t>& films,
-                                                              int round) {
+std::vector<std::size_t> StepProjection<D>::with_pairs_reached_from(
+    const std::vector<std::size_t>& films, int round) {
   constexpr int kFirstRound = 3, kLargestDepth = 20;
   if (films.empty() || round < kFirstRound) return films;
   double square = 0;
@@ -326,14 +328,14 @@ std::vector<std::size_t> StepProjection<D>::with_those_behind(const std::vector<
   const auto may_close = [&](std::size_t f) {
     return is_chosen_[f] == 0 && gap_after(contact(f), displacements_) <= farthest;
   };
-  if (!films_of_particles_) films_of_particles_.emplace(state_);
-  return films_of_particles_->reached(films, 1 << std::min(round - kFirstRound, kLargestDepth),
+  if (!pairs_of_particles_) pairs_of_particles_.emplace(state_);
+  return pairs_of_particles_->reached(films, 1 << std::min(round - kFirstRound, kLargestDepth),
                                       may_close);
 }
 
 template <int D>
-Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
-  Projected result;
+ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
+  ProjectionResult result;
   // The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
   choose(closed_by_free_motion());
@@ -360,7 +362,7 @@ Projected StepProjection<D>::solve(const SolverSettings& settings, double mean_r
     if (waited == kPatience) break;
     if (!is_rough) least_excess = std::min(least_excess, result.excess);
     if (more.empty()) is_rough = false;
-    choose(with_those_behind(more, ++rounds));
+    choose(with_pairs_reached_from(more, ++rounds));
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     film(chosen_[c]).impulse = contacts_[c].impulse;

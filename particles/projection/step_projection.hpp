@@ -6,16 +6,16 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/film_geometry.hpp"
-#include "viscontact/particles/projection/films_of_particles.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact_geometry.hpp"
+#include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/projection.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/common/system/team.hpp"
 
 namespace viscontact::particles {
 
 /// What the projection of a step found.
-struct Projected {
+struct ProjectionResult {
   int iterations = 0;
   bool converged = true;
   double residual = 0;          ///< largest of a contact's conditions, over all films [L]
@@ -43,9 +43,10 @@ template <int D>
 class StepProjection {
  public:
   /// The references outlive the object; `displacements` are h u* on entry, h v after solve().
-  StepProjection(State& state, double h, std::span<const PlanePlace> planes,
-                 std::span<double> displacements, std::span<const double> mobilities, Team& team);
-  Projected solve(const SolverSettings& settings, double mean_radius);
+  StepProjection(State& state, double h, std::span<const PlanePosition> planes,
+                 std::span<double> displacements, std::span<const double> mobilities,
+                 ThreadPool& pool);
+  ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
   Film& film(std::size_t f) {
@@ -53,7 +54,7 @@ class StepProjection {
   }
   std::size_t films() const { return state_.pairs.size() + state_.walls.size(); }
   Contact<D> contact(std::size_t f);
-  bool closes(std::size_t f);
+  bool gap_would_close(std::size_t f);
   std::int32_t island(std::int32_t body);
   void join(std::int32_t island, std::int32_t other);
   void choose(const std::vector<std::size_t>& films);
@@ -69,7 +70,8 @@ class StepProjection {
       return std::min(length, std::max(fraction * impulse * w, rounding));
     }
   };
-  std::vector<std::size_t> with_those_behind(const std::vector<std::size_t>& films, int round);
+  std::vector<std::size_t> with_pairs_reached_from(const std::vector<std::size_t>& films,
+                                                   int round);
   /// What a particle brings to the scales of its contacts.
   struct ParticleScale {
     double impulse = 0;  ///< at work on it [M L/T]
@@ -79,17 +81,17 @@ class StepProjection {
   void find_impulses_at_work();
   Scale scale_of(const Contact<D>& here);
   void allow(double length, double fraction);
-  Solved solve_chosen(const SolverSettings& settings, bool is_rough, int iterations);
+  SolverResult solve_chosen(const SolverSettings& settings, bool is_rough, int iterations);
   std::vector<std::size_t> closed_by_free_motion();
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
-                                   bool is_final, Projected& result);
+                                   bool is_final, ProjectionResult& result);
 
   State& state_;
   double h_;
-  std::span<const PlanePlace> planes_;
+  std::span<const PlanePosition> planes_;
   std::span<double> displacements_;
   std::span<const double> mobilities_;
-  Team& team_;
+  ThreadPool& pool_;
   double tolerated_ = 0;  // overlap that is not pushed out [L]
   // What takes part. Bodies are numbered in the order in which contacts name them.
   std::vector<std::size_t> chosen_;
@@ -105,8 +107,8 @@ class StepProjection {
   std::vector<ParticleScale> body_scales_;
   // The largest sqrt(w) p of each island, at the body that stands for it.
   std::vector<double> island_impulses_;
-  FaceFactor<D> factor_;  // of the solves so far
-  std::optional<FilmsOfParticles> films_of_particles_;
+  ActiveSetFactor<D> factor_;  // of the solves so far
+  std::optional<PairsOfParticles> pairs_of_particles_;
 };
 
 extern template class StepProjection<2>;

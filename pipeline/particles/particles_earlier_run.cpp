@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "viscontact/terminal/progress.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "viscontact/pipeline/particles/particles_frames.hpp"
-#include "viscontact/pipeline/particles/particles_record.hpp"
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/particles/state.hpp"
+#include "viscontact/pipeline/particles/particles_frames.hpp"
+#include "viscontact/pipeline/particles/particles_record.hpp"
 
 namespace viscontact {
 

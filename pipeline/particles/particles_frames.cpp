@@ -8,7 +8,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/number.hpp"
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
 namespace viscontact {
@@ -19,7 +19,7 @@ using particles::Frame;
 using particles::Simulation;
 
 Frame frame_at(double time, const particles::Setting& setting, const std::vector<double>& positions,
-               std::vector<particles::ContactNow> contacts) {
+               std::vector<particles::CurrentContact> contacts) {
   Frame frame;
   frame.time = time;
   frame.positions.assign(positions.begin(), positions.end());
@@ -78,7 +78,7 @@ void ParticleFrames::end(const Simulation& simulation) {
 
 void ParticleFrames::keep(Frame frame) {
   kept_bytes_ += frame.positions.size() * sizeof(float) +
-                 frame.contacts.size() * sizeof(particles::ContactNow);
+                 frame.contacts.size() * sizeof(particles::CurrentContact);
   playback_.frames.push_back(std::move(frame));
   // Beyond what a page can show, every second is enough.
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;

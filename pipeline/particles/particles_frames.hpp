@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/simulation.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 

@@ -67,7 +67,7 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
                  report.unresolved);
 }
 
-std::string record_comment(const StepSums& sums) {
+std::string record_comment(const StepTotals& sums) {
   const Json json = {{"steps", sums.steps},
                      {"unconverged", sums.unconverged},
                      {"iterations", sums.iterations},

@@ -10,7 +10,7 @@
 namespace viscontact {
 
 /// Sums over the steps so far, of this call and of the interrupted ones before it in the same folder.
-struct StepSums {
+struct StepTotals {
   std::int64_t last_step = 0;  ///< of the state, counted from the very first start
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   int most_iterations = 0;
@@ -24,7 +24,7 @@ struct StepSums {
 };
 
 /// The same, and the rows of steps.csv, which can be 50 MB long.
-struct StepRecord : StepSums {
+struct StepRecord : StepTotals {
   std::string rows =
       "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
       "parts,unresolved\n";
@@ -34,7 +34,7 @@ struct StepRecord : StepSums {
 };
 
 /// A comment line for steps.csv that holds the sums.
-std::string record_comment(const StepSums& sums);
+std::string record_comment(const StepTotals& sums);
 
 /// The record as it was after the step `last_step` (0: before the first step). The file may go on
 /// beyond this step, because it is written before restart.bin: its later rows are left out. Throws

@@ -12,23 +12,23 @@
 #include <vector>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/results/foreign_files.hpp"
-#include "viscontact/pipeline/particles/particles_earlier_run.hpp"
-#include "viscontact/pipeline/particles/particles_frames.hpp"
-#include "viscontact/report/particles/particles_page.hpp"
-#include "viscontact/report/particles/particles_picture.hpp"
-#include "viscontact/pipeline/particles/particles_record.hpp"
-#include "viscontact/terminal/progress.hpp"
-#include "viscontact/results/provenance.hpp"
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/pipeline/particles/particles_earlier_run.hpp"
+#include "viscontact/pipeline/particles/particles_frames.hpp"
+#include "viscontact/pipeline/particles/particles_record.hpp"
+#include "viscontact/report/particles/particles_page.hpp"
+#include "viscontact/report/particles/particles_picture.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 namespace {
@@ -61,7 +61,7 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
   return state;
 }
 
-nlohmann::ordered_json record_of(const ParticlesCase& c, const StepSums& record,
+nlohmann::ordered_json record_of(const ParticlesCase& c, const StepTotals& record,
                                  const Simulation& simulation) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
   nlohmann::ordered_json json;
@@ -190,10 +190,10 @@ class Run {
   }
 
   /// The sums, with the time and memory of this call and those before it.
-  StepSums with_costs() const {
+  StepTotals with_costs() const {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    StepSums record = record_;
+    StepTotals record = record_;
     record.seconds += seconds_since(begin_);
     record.peak_memory_mebibytes =
         std::max(record.peak_memory_mebibytes, static_cast<double>(usage.ru_maxrss) / 1024);
@@ -229,12 +229,13 @@ class Run {
   const Provenance& provenance_;
   ParticleFrames frames_;
   StepRecord record_;
-  StepSums earlier_;  // as they were when restart.bin was written
+  StepTotals earlier_;  // as they were when restart.bin was written
   Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
 };
 
 /// The last words on a run that was written. Throws if it was interrupted or has a step that did not converge.
-void judge(const ParticlesCase& c, const StepSums& record, const fs::path& folder) {
+void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
+                                   const fs::path& folder) {
   say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -258,7 +259,7 @@ void judge(const ParticlesCase& c, const StepSums& record, const fs::path& folde
   throw_if_interrupted();
   if (record.unconverged > 0)
     throw Error(
-        ExitCode::kNotConverged,
+        ErrorKind::kNotConverged,
         fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
                     "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
                     "solver.impulse_tolerance is {}). All results are written, and "
@@ -274,7 +275,7 @@ void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path
                    bool json) {
   if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
   say(fmt::format("particles: {} is up to date", folder.string()));
-  judge(c, run.record, folder);
+  warn_or_fail_if_not_converged(c, run.record, folder);
 }
 
 }  // namespace
@@ -323,7 +324,7 @@ void run_particles(const ParticlesRequest& request) {
   }
   const auto json = run.write_results();
   if (request.json) fmt::print("{}", json);
-  judge(c, run.record(), folder);
+  warn_or_fail_if_not_converged(c, run.record(), folder);
 }
 
 }  // namespace viscontact

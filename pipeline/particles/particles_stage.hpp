@@ -11,7 +11,7 @@ struct ParticlesRequest {
   bool json = false;  ///< print the record
 };
 
-/// Reads the case, simulates, and writes into the folder what docs/interfaces.md says. Throws Error(kBadInput) for a bad case or restart file before
+/// Reads the case, simulates, and writes into the folder what docs/file-formats.md says. Throws Error(kBadInput) for a bad case or restart file before
 /// anything is written; once all is written, Error(kNotConverged) if a step did not reach the tolerance or cannot be computed, Error(kInterrupted).
 /// An interrupted run of the same inputs in the folder goes on, and a finished one is left as it is; of
 /// any other run, the files in the folder are removed at the beginning.

@@ -58,7 +58,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
   // What the drag has taken; not the difference of two impulses G, which rounds to that of a gap.
-  const auto booked = [&](double velocity, double before) {
+  const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };
   if (!(state.gamma < 0)) {
@@ -69,7 +69,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
     if (!(needed > 0)) {
       const double velocity = drag.velocity(setting, state.gap, momentum);
       const double gap = std::max(0.0, state.gap + setting.step * velocity);
-      return {{gap, velocity, 0}, 0, booked(velocity, momentum), 0};
+      return {{gap, velocity, 0}, 0, drag_impulse_of_step(velocity, momentum), 0};
     }
     const double gamma = std::max(-needed, setting.gamma_min);
     return {{0, to_contact, gamma}, -gamma, of_drag, needed + gamma};
@@ -78,7 +78,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
   if (gamma > 0) {
     const double velocity = drag.velocity(setting, 0, gamma);
     const double gap = setting.step * velocity;
-    return {{gap, velocity, 0}, state.gamma, booked(velocity, gamma), 0};
+    return {{gap, velocity, 0}, state.gamma, drag_impulse_of_step(velocity, gamma), 0};
   }
   const double kept = std::max(gamma, setting.gamma_min);
   return {{0, 0, kept}, state.gamma - kept, 0, kept - gamma};

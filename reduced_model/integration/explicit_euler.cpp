@@ -10,7 +10,7 @@ Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce&
   double u = motion.initial_velocity;
   for (int n = 0;; ++n) {
     const double t = step_time(n, steps, end, motion.contact_time_step);
-    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
+    if (n % kStepsBetweenProgressReports == 0) report_progress(motion, t);
     const double drag = -force.resistance(q) * u;
     trajectory.rows.push_back({t, q, u, drag, motion.external_force.value(t), {}});
     if (n == steps) break;

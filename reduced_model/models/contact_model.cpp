@@ -54,7 +54,8 @@ class DragAtDistance {
 };
 
 /// The work of an impulse is the impulse times the mean velocity of the step: their sum is the change of kinetic energy, exactly.
-void book(double velocity_before, double push, const ContactStep& step, Books& books) {
+void book(double velocity_before, double push, const ContactStep& step,
+          MomentumEnergyBudget& books) {
   const double velocity = (velocity_before + step.state.velocity) / 2;
   books.external_work += velocity * push;
   if (step.film != 0 || step.solid != 0) {
@@ -115,7 +116,7 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   for (int n = 0; n < steps; ++n) {
     const double next = step_time(n + 1, steps, end, h);
     if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
-    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
+    if (n % kStepsBetweenProgressReports == 0) report_progress(motion, t);
     const double push = setting.step * force.mean(t, next);
     const ContactStep step = contact_step(state, push, setting, drag);
     add(t, next, setting, state, push, force.value(next), step);
@@ -161,7 +162,7 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
                              motion.external_force.value(0), 0.0, 0.0});
   const auto turns = turns_of(motion);
   auto turn = turns.begin();
-  Books books;
+  MomentumEnergyBudget books;
   ContactClock clock(motion.mass);
   double lowest_gamma = 0;
   const auto add = [&](double t, double next, const ContactSetting& setting,

@@ -24,8 +24,8 @@ class InertialRun {
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
     trajectory_.rows.reserve(times_.size() + 16);  // some more where the velocity changes its sign
-    add_row(0, {motion.initial_gap, motion.initial_velocity, 0,
-                force.resistance(motion.initial_gap)});
+    add_row(0,
+            {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});
   }
 
   Trajectory run() {
@@ -36,7 +36,7 @@ class InertialRun {
       stop_ = stop;
       restart(equation_.first_step(last_stop_, gap()));
       while (now_ < stop_) {
-        check_in(motion_, now_);
+        report_progress(motion_, now_);
         if (!step()) continue;
         const auto now = instant_of(cvode_.time(), cvode_.state()[0]);
         add_rows_of_step(now);
@@ -104,7 +104,7 @@ class InertialRun {
         std::abs(now.velocity) > now.velocity_error ? std::copysign(1.0, now.velocity) : 0;
     if (sign * last_sign_ < 0) {
       const double turn =
-          beginning_of(now_, end, [&](double t) { return instant(t).velocity * sign > 0; });
+          bisect_first_true(now_, end, [&](double t) { return instant(t).velocity * sign > 0; });
       add_rows_before(turn);
       if (next_row_ == times_.end() || *next_row_ != turn) add_row(turn, instant(turn));
     }
@@ -117,8 +117,8 @@ class InertialRun {
   }
 
   void add_row(double t, const InertialInstant& at) {
-    trajectory_.rows.push_back({t, at.gap, at.velocity, -at.resistance * at.velocity,
-                                motion_.external_force.value(t)});
+    trajectory_.rows.push_back(
+        {t, at.gap, at.velocity, -at.resistance * at.velocity, motion_.external_force.value(t)});
   }
 
   const Motion& motion_;

@@ -29,7 +29,7 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   StiffSystem system;
   system.dimension = 1;
   system.derivative = [this, &step_begin](double t, std::span<const double> y,
-                                            std::span<double> derivative) {
+                                          std::span<double> derivative) {
     const double q = gap_of(y[0]);
     // CVODE chooses its first step by the slope at its beginning, which must not be rounding.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
@@ -61,10 +61,9 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double absorbed = force_.impulse(q);
   const double by_momentum = (momentum(t) - absorbed) / m;
   const double resistance = force_.resistance(q);
-  const double momentum_error =
-      (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
-       motion_.inertial_relative_tolerance * resistance * q) /
-      m;
+  const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
+                                 motion_.inertial_relative_tolerance * resistance * q) /
+                                m;
   // With so much inertia the balance below has fewer digits than the momentum, whatever the tolerance.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&

@@ -57,8 +57,9 @@ constexpr std::array kModels = {
 };
 
 /// The books of a model whose film is all of the drag: its impulse between two rows is what the force does not explain, its work that times their mean velocity.
-Books books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion, bool inertia) {
-  Books books;
+MomentumEnergyBudget books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
+                                   bool inertia) {
+  MomentumEnergyBudget books;
   const double m = inertia ? motion.mass : 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& a = rows[i - 1];
@@ -79,16 +80,18 @@ Books books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
     throw Error(
-        ExitCode::kNotConverged,
+        ErrorKind::kNotConverged,
         fmt::format("a number of the motion leaves the range of a double at time {:.6g}", time));
   };
-  const auto is_number = [](const Maybe& value) { return !value || std::isfinite(*value); };
+  const auto is_number = [](const OptionalDouble& value) {
+    return !value || std::isfinite(*value);
+  };
   for (const auto& row : trajectory.rows)
     if (!(std::isfinite(row.time) && std::isfinite(row.gap) && std::isfinite(row.velocity) &&
           is_number(row.lubrication_force) && is_number(row.external_force) &&
           is_number(row.gamma) && is_number(row.solid_force)))
       refuse(row.time);
-  for (const auto& entry : kBookEntries)
+  for (const auto& entry : kBudgetEntries)
     if (!std::isfinite((*trajectory.books).*entry.value)) refuse(trajectory.rows.back().time);
   for (std::size_t i = 1; i < trajectory.rows.size(); ++i)
     if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
@@ -166,7 +169,7 @@ void check_model(const ModelChoice& choice, const Motion& motion, const Lubricat
                      contact ? motion.contact_time_step : motion.reference_time_step);
     if (contact) (void)choice.model->contact(own_motion, force);
   } catch (const Error& error) {
-    throw Error(error.exit_code(), fmt::format("model {}: {}", choice.name, error.what()));
+    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
   }
 }
 
@@ -185,7 +188,7 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return trajectory;
   } catch (const Error& error) {
-    throw Error(error.exit_code(), fmt::format("model {}: {}", choice.name, error.what()));
+    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
   }
 }
 

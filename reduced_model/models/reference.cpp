@@ -17,7 +17,7 @@ Trajectory simulate_reference(const Motion& motion, const LubricationForce& forc
   double q = motion.initial_gap;
   for (int n = 0; n <= steps; ++n) {
     const double t = step_time(n, steps, end, h);
-    if (n % kStepsBetweenLooks == 0) check_in(motion, t);
+    if (n % kStepsBetweenProgressReports == 0) report_progress(motion, t);
     const double next = n < steps ? step_time(n + 1, steps, end, h) : t + h;
     const double f = motion.external_force.mean(t, next);
     const double u = f / force.resistance(q);
@@ -25,7 +25,7 @@ Trajectory simulate_reference(const Motion& motion, const LubricationForce& forc
     q += (next - t) * u;
     if (n < steps && !(q > 0))
       throw Error(
-          ExitCode::kNotConverged,
+          ErrorKind::kNotConverged,
           fmt::format(
               "the step from time {:.6g} goes through the plane (gap {:.3g}); take a smaller "
               "reference.time_step than {}",

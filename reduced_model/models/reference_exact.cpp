@@ -6,7 +6,7 @@ Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce
   Trajectory trajectory;
   const double at_start = force.impulse(motion.initial_gap);
   for (const double t : row_times(motion)) {
-    if (trajectory.rows.size() % kStepsBetweenLooks == 0) check_in(motion, t);
+    if (trajectory.rows.size() % kStepsBetweenProgressReports == 0) report_progress(motion, t);
     const double q = t == 0 ? motion.initial_gap
                             : force.gap_of_impulse(at_start + motion.external_force.impulse(t));
     const double f = motion.external_force.value(t);

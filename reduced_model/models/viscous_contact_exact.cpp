@@ -20,7 +20,7 @@ class EventDriven {
         velocity_(motion.initial_velocity) {}
 
   bool contact() const { return contact_; }
-  const Books& books() const { return books_; }
+  const MomentumEnergyBudget& books() const { return books_; }
 
   double gap(double t) const {
     if (contact_) return 0;
@@ -42,13 +42,14 @@ class EventDriven {
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
     // The velocity is monotone: the sphere turns once at most.
-    const double turn = falls(from_) == falls(to) ? to : beginning_of(from_, to, [&](double t) {
-      return falls(t) == falls(to);
-    });
+    const double turn =
+        falls(from_) == falls(to)
+            ? to
+            : bisect_first_true(from_, to, [&](double t) { return falls(t) == falls(to); });
     double begin = from_;
     for (const double end : {turn, to}) {
       if (begin < end && gap(end) < 0 && falls(begin + (end - begin) / 2))
-        return land(beginning_of(begin, end, [&](double t) { return gap(t) < 0; }));
+        return land(bisect_first_true(begin, end, [&](double t) { return gap(t) < 0; }));
       begin = end;
     }
     move_to(to, std::max(0.0, gap(to)), velocity(to));
@@ -82,9 +83,10 @@ class EventDriven {
     const double end = gamma_ + push_until(to);
     double t = to;
     if (sign > 0 && end > 0)
-      t = beginning_of(from_, to, [&](double s) { return gamma_ + push_until(s) > 0; });
+      t = bisect_first_true(from_, to, [&](double s) { return gamma_ + push_until(s) > 0; });
     if (sign < 0 && gamma_ > gamma_min_ && end < gamma_min_)
-      t = beginning_of(from_, to, [&](double s) { return gamma_ + push_until(s) < gamma_min_; });
+      t = bisect_first_true(from_, to,
+                            [&](double s) { return gamma_ + push_until(s) < gamma_min_; });
     const double push = push_until(t);
     const double after = gamma(t);
     books_.external_impulse += push;
@@ -102,7 +104,7 @@ class EventDriven {
   double from_ = 0;
   bool contact_ = false;
   double gap_, velocity_, gamma_ = 0;
-  Books books_;
+  MomentumEnergyBudget books_;
 };
 
 }  // namespace
@@ -140,7 +142,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion, const Lubricatio
     const double mean = f.mean(now, stop);
     const double sign = mean > 0 ? 1 : mean < 0 ? -1 : 0;
     while (now < stop) {
-      check_in(motion, now);
+      report_progress(motion, now);
       const EventDriven before = sphere;
       const double event = sphere.advance(stop, sign);
       lowest_gamma = std::min(lowest_gamma, sphere.gamma(event));

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include "viscontact/report/gnuplot.hpp"
 #include "viscontact/report/flow/pressure_colours.hpp"
 #include "viscontact/report/flow/triangle_fields.hpp"
+#include "viscontact/report/gnuplot.hpp"
 
 namespace viscontact {
 namespace {

@@ -10,9 +10,9 @@
 #include <map>
 #include <set>
 
-#include "viscontact/report/gnuplot.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/number.hpp"
+#include "viscontact/report/gnuplot.hpp"
 
 namespace viscontact {
 namespace {

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/html.hpp"
+#include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/particles/particles_page_texts.hpp"
-#include "viscontact/report/particles/particles_room.hpp"
+#include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact {
 namespace {
@@ -94,14 +94,14 @@ Grid grid_of(const Playback& playback) {
 }
 
 /// Which frames and particles the page holds.
-struct Choice {
+struct PageContent {
   std::vector<std::size_t> frames;
   std::size_t every_frame = 1, every_particle = 1;
   bool contacts = true;
 };
 
-Choice choice_of(const Playback& playback, std::size_t every_frame) {
-  Choice choice;
+PageContent choice_of(const Playback& playback, std::size_t every_frame) {
+  PageContent choice;
   choice.every_frame = every_frame;
   choice.every_particle = playback.radii.size() / (kMostInPage + 1) + 1;
   for (std::size_t f = 0; f < playback.frames.size(); f += every_frame) choice.frames.push_back(f);
@@ -113,18 +113,18 @@ Choice choice_of(const Playback& playback, std::size_t every_frame) {
 /// The contacts of all frames: the pairs that there ever are, and for each frame which of them (as steps in that list) with what gamma (0: none,
 /// 255: the lowest).
 struct Contacts {
-  Bytes pairs;    ///< int32, int32: as ContactNow's, by number of the particle drawn
+  Bytes pairs;    ///< int32, int32: as CurrentContact's, by number of the particle drawn
   Bytes offsets;  ///< uint32: where a frame begins in `frames`, and the end
   Bytes frames;
 };
 
 using Pair = std::pair<std::int32_t, std::int32_t>;
 
-Contacts contacts_of(const Playback& playback, const Choice& choice, double lowest) {
+Contacts contacts_of(const Playback& playback, const PageContent& choice, double lowest) {
   Contacts contacts;
   append(contacts.offsets, std::uint32_t{0});
   const auto every = static_cast<std::int32_t>(choice.every_particle);
-  const auto shown = [&](const particles::ContactNow& c) {
+  const auto shown = [&](const particles::CurrentContact& c) {
     return choice.contacts && c.second % every == 0 && (c.first < 0 || c.first % every == 0);
   };
   std::vector<Pair> pairs;
@@ -159,12 +159,12 @@ Contacts contacts_of(const Playback& playback, const Choice& choice, double lowe
   return contacts;
 }
 
-std::size_t shown_particles(const Playback& playback, const Choice& choice) {
+std::size_t shown_particles(const Playback& playback, const PageContent& choice) {
   return (playback.radii.size() + choice.every_particle - 1) / choice.every_particle;
 }
 
 /// Of what a frame always has, in the page.
-std::size_t frame_bytes(const Playback& playback, const Choice& choice, const Grid& grid) {
+std::size_t frame_bytes(const Playback& playback, const PageContent& choice, const Grid& grid) {
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   return base64_size(shown_particles(playback, choice) *
                          static_cast<std::size_t>(playback.dimension * grid.bytes) +
@@ -172,7 +172,8 @@ std::size_t frame_bytes(const Playback& playback, const Choice& choice, const Gr
 }
 
 /// As many frames as there is room for.
-std::pair<Choice, Contacts> fitting(const Playback& playback, const Grid& grid, double lowest) {
+std::pair<PageContent, Contacts> fitting(const Playback& playback, const Grid& grid,
+                                         double lowest) {
   constexpr std::size_t kRest = 200'000;  // script, style and words
   for (std::size_t every = 1;; every *= 2) {
     auto choice = choice_of(playback, every);
@@ -193,7 +194,7 @@ std::pair<Choice, Contacts> fitting(const Playback& playback, const Grid& grid, 
   }
 }
 
-Bytes positions_of(const Playback& playback, const Choice& choice, const Grid& grid) {
+Bytes positions_of(const Playback& playback, const PageContent& choice, const Grid& grid) {
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   Bytes bytes;
   bytes.reserve(choice.frames.size() * shown_particles(playback, choice) * dimension *
@@ -222,9 +223,9 @@ std::string list_of(const particles::Vector& x, int dimension) {
   return fmt::format("[{}]", fmt::join(x.begin(), x.begin() + dimension, ","));
 }
 
-std::string data_of(const Playback& playback, const Choice& choice, const Contacts& contacts,
+std::string data_of(const Playback& playback, const PageContent& choice, const Contacts& contacts,
                     const Grid& grid, double lowest) {
-  const auto room = room_of(playback, choice.frames);
+  const auto room = view_box_of(playback, choice.frames);
   std::string colours;
   for (int c = 0; c < kPageColours; ++c)
     colours += fmt::format("{}\"{}\"", c == 0 ? "" : ",",
@@ -255,7 +256,7 @@ std::string data_of(const Playback& playback, const Choice& choice, const Contac
          block("contacts", contacts.frames);
 }
 
-std::string words_for(const Playback& playback, const Choice& choice) {
+std::string words_for(const Playback& playback, const PageContent& choice) {
   const auto count = playback.radii.size(), frames = playback.frames.size();
   std::string words = fmt::format("{} {}{}", count, playback.dimension == 2 ? "disc" : "sphere",
                                   count == 1 ? "" : "s");

@@ -8,15 +8,15 @@
 #include <limits>
 #include <numbers>
 
-#include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/html.hpp"
-#include "viscontact/report/particles/particles_room.hpp"
+#include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact {
 namespace {
 
 using particles::Frame;
-using particles::PlanePlace;
+using particles::PlanePosition;
 using particles::Playback;
 using particles::Vector;
 using particles::operator+;
@@ -50,7 +50,7 @@ Projection view_of(int dimension) {
 
 struct Drawing {
   const Playback& playback;
-  Room room;
+  ViewBox room;
   Projection view;
   double width = 0, height = 0;  ///< of a panel on the page
   double lowest = 0;             ///< gamma
@@ -85,7 +85,7 @@ std::string plane_2d_lines(const Drawing& d, const Frame& frame) {
     const double far = norm(d.room.high - d.room.low) + norm(d.room.low - point);
     const Vector along = {-normal[1], normal[0], 0};
     const auto line =
-        in_room({point - far * along, point + far * along}, d.room, frame.planes, j, 2);
+        clipped_to_view({point - far * along, point + far * along}, d.room, frame.planes, j, 2);
     if (line.size() > 1)
       text += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n",
                           path_of(line, d.view));
@@ -108,9 +108,9 @@ std::string plane_3d_patches(const Drawing& d, const Frame& frame, bool from_fre
     u = (1 / norm(u)) * u;
     const Vector v = cross(normal, u);
     const double far = norm(d.room.high - d.room.low) + norm(d.room.low - point);
-    const auto patch = in_room({point - far * u - far * v, point + far * u - far * v,
-                                point + far * u + far * v, point - far * u + far * v},
-                               d.room, frame.planes, j, 3);
+    const auto patch = clipped_to_view({point - far * u - far * v, point + far * u - far * v,
+                                        point + far * u + far * v, point - far * u + far * v},
+                                       d.room, frame.planes, j, 3);
     if (patch.size() > 2)
       text += fmt::format(
           "<path d=\"{}Z\" fill=\"#8a8a80\" fill-opacity=\"{}\" stroke=\"#777\" "
@@ -139,7 +139,8 @@ struct ContactLine {
   std::string path;
 };
 
-ContactLine line_of(const Drawing& d, const Frame& frame, const particles::ContactNow& contact) {
+ContactLine line_of(const Drawing& d, const Frame& frame,
+                    const particles::CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   const Vector to = position(d.playback, frame, second);
   double radius = d.playback.radii[second];
@@ -160,7 +161,7 @@ ContactLine line_of(const Drawing& d, const Frame& frame, const particles::Conta
   return line;
 }
 
-bool drawn(const Drawing& d, const particles::ContactNow& contact) {
+bool drawn(const Drawing& d, const particles::CurrentContact& contact) {
   const auto shown = [&](std::int32_t k) { return static_cast<std::size_t>(k) % d.every == 0; };
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
 }
@@ -285,7 +286,7 @@ std::string particles_picture(const Playback& playback, const std::string& title
   const auto chosen = chosen_frames(playback, panels);
   const int count = static_cast<int>(chosen.size());
   Drawing d{playback,
-            room_of(playback, chosen),
+            view_box_of(playback, chosen),
             view_of(playback.dimension),
             0,
             0,
@@ -293,7 +294,7 @@ std::string particles_picture(const Playback& playback, const std::string& title
             playback.radii.size() / (kMostInPanel + 1) + 1};
   double wide = 0, high = 0;  // of a panel [L]
   {
-    Reach x, y;
+    Interval x, y;
     for (int corner = 0; corner < 8; ++corner) {
       const Vector p = {(corner & 1 ? d.room.high : d.room.low)[0],
                         (corner & 2 ? d.room.high : d.room.low)[1],

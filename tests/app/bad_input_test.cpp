@@ -4,11 +4,11 @@
 
 #include <ostream>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -81,7 +81,7 @@ TEST_P(BadInput, EndsWithExitCode3SaysWhatAndLeavesEveryFileAsItWas) {
     arguments.push_back(word.starts_with("@") ? (scratch.path() / word.substr(1)).string() : word);
   const auto before = files_below(scratch.path());
   const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ExitCode::kBadInput, HasSubstr(GetParam().said));
+  expect_refusal(result, ErrorKind::kBadInput, HasSubstr(GetParam().said));
   EXPECT_EQ(result.output, "");
   EXPECT_EQ(files_below(scratch.path()), before);
   EXPECT_TRUE(fake.answered().empty());  // what can be refused is refused before it costs anything

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {

@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -33,7 +33,7 @@ TEST_F(DiskFull, FitFailsCleanlyAndTheOldFileStays) {
   const auto before = files_below(scratch_.path());
   const auto result =
       run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}, {}, kSmallFilesOnly);
-  expect_refusal(result, ExitCode::kBadInput,
+  expect_refusal(result, ErrorKind::kBadInput,
                  HasSubstr("fit.json: cannot be written (File too large)"));
   EXPECT_EQ(files_below(scratch_.path()), before);
 }
@@ -44,7 +44,7 @@ TEST_F(DiskFull, ParticlesFailCleanlyIfNotEvenTheFirstFrameFits) {
   put_text(path("raft.csv"), read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/particles/raft.csv"));
   const auto result =
       run_viscontact({"particles", path("raft.toml"), "-o", path("out")}, {}, kSmallFilesOnly);
-  expect_refusal(result, ExitCode::kBadInput,
+  expect_refusal(result, ErrorKind::kBadInput,
                  HasSubstr("particles_00000.vtp: cannot be written (File too large)"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));  // nothing was put there
 }
@@ -63,7 +63,7 @@ TEST_F(DiskFull, FolderThatCannotBeWrittenIsSaidWithoutAPromiseOfKeptRows) {
       {"sweep", path("exact.toml"), "-o", "/sys/rows.csv", "--vary", "fluid.viscosity=1,2"}};
   for (const auto& command : commands)
     expect_refusal(
-        run_viscontact(command, {"VISCONTACT_FREEFEM=" + fake.executable()}), ExitCode::kBadInput,
+        run_viscontact(command, {"VISCONTACT_FREEFEM=" + fake.executable()}), ErrorKind::kBadInput,
         AllOf(HasSubstr("cannot be written ("), Not(HasSubstr("kept")), Not(HasSubstr("goes on"))));
   EXPECT_TRUE(fake.answered().empty());
 }
@@ -75,7 +75,7 @@ TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},
                      {"VISCONTACT_FREEFEM=" + fake.executable()}, kSmallFilesOnly);
-  expect_refusal(result, ExitCode::kBadInput,
+  expect_refusal(result, ErrorKind::kBadInput,
                  HasSubstr("table2.csv.rows: cannot be written (File too large)"));
   EXPECT_FALSE(std::filesystem::exists(path("table2.csv")));
   // With room again, the rows that fitted are used.

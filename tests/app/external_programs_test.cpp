@@ -2,11 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -49,7 +50,7 @@ TEST_F(ExternalPrograms, MissingFreeFemIsSaidWithWhatToDo) {
        {std::vector<std::string>{"tabulate", path("case.toml"), "-o", path("table.csv")},
         std::vector<std::string>{"run", path("case.toml"), "-o", path("out")}}) {
     const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-such-freefem"});
-    expect_refusal(result, ExitCode::kExternalProgram,
+    expect_refusal(result, ErrorKind::kExternalProgram,
                    AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install freefem++")));
     EXPECT_EQ(files_below(scratch_.path()), before);
   }
@@ -61,7 +62,7 @@ TEST_F(ExternalPrograms, RowThatFreeFemCannotSolveIsNamedAndTheOthersAreKept) {
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("1 of 6 rows failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
   EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("no solution")));
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   EXPECT_TRUE(std::filesystem::exists(path("table.csv.rows")));
@@ -72,7 +73,7 @@ TEST_F(ExternalPrograms, ManyRowsThatFailAreStillOneOrTwoLines) {
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("6 of 6 rows failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("6 of 6 rows failed"));
 }
 
 TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
@@ -98,9 +99,9 @@ TEST_F(ExternalPrograms, FreeFemThatDoesNotSayItsVersionIsStopped) {
       AllOf(HasSubstr("does not say which version it is"), HasSubstr("not ended after 1 s"));
   expect_refusal(
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")}, environment),
-      ExitCode::kExternalProgram, said);
+      ErrorKind::kExternalProgram, said);
   const auto doctor = run_viscontact({"doctor"}, environment);
-  EXPECT_EQ(doctor.exit_status, static_cast<int>(ExitCode::kExternalProgram));
+  EXPECT_EQ(doctor.exit_status, exit_code_of(ErrorKind::kExternalProgram));
   EXPECT_THAT(doctor.output, said);
 }
 
@@ -111,7 +112,7 @@ TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
   const auto result = run_viscontact(
       {"tabulate", path("case.toml"), "-o", path("table.csv")},
       {"VISCONTACT_FREEFEM=" + fake.executable(), "VISCONTACT_FREEFEM_TIME_LIMIT=10"});
-  expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("1 of 6 rows failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
   EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 10 s"),
                                    HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
   EXPECT_TRUE(std::filesystem::exists(path("table.csv.rows")));
@@ -123,7 +124,7 @@ TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
                      {"VISCONTACT_FREEFEM_TIME_LIMIT=10"}, "ulimit -v 200000;");
-  EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << result.errors;
+  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("gap 0.05"));
 }
 
@@ -132,7 +133,7 @@ TEST_F(ExternalPrograms, TimeLimitThatIsNoNumberOfSecondsIsWrongUsage) {
   for (const auto* limit : {"0", "-1", "soon", "1.5", "1e3", "99999999999"})
     expect_refusal(run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                   {std::string("VISCONTACT_FREEFEM_TIME_LIMIT=") + limit}),
-                   ExitCode::kWrongUsage, HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"));
+                   ErrorKind::kWrongUsage, HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT"));
 }
 
 TEST_F(ExternalPrograms, MissingGnuplotLeavesAReportWithoutStillPictures) {
@@ -150,7 +151,7 @@ TEST_F(ExternalPrograms, FailingGnuplotIsAnErrorWithWhatItSaidAndTheReportIsWrit
   const std::string run = simulated_folder();
   const auto result = run_viscontact(
       {"report", run}, {"PATH=" + folder_with_gnuplot("echo 'no svg terminal'; exit 1\n")});
-  expect_refusal(result, ExitCode::kExternalProgram,
+  expect_refusal(result, ErrorKind::kExternalProgram,
                  AllOf(HasSubstr("gnuplot failed"), HasSubstr("no svg terminal"),
                        HasSubstr("the report is written, without still pictures")));
   EXPECT_TRUE(std::filesystem::exists(run + "/report.html"));
@@ -163,7 +164,7 @@ TEST_F(ExternalPrograms, GnuplotThatDiesBeforeItHasReadItsInputIsAnError) {
   const std::string bin = folder_with_gnuplot(
       "[ -e \"$0.called\" ] && exit 1\n: > \"$0.called\"\necho '<svg></svg>'\n");
   const auto result = run_viscontact({"report", run}, {"PATH=" + bin});
-  expect_refusal(result, ExitCode::kExternalProgram, HasSubstr("gnuplot failed"));
+  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("gnuplot failed"));
   EXPECT_FALSE(std::filesystem::exists(run + "/plots"));
 }
 
@@ -174,13 +175,13 @@ TEST_F(ExternalPrograms, MissingGnuplotLosesNoNumbers) {
   const auto bases = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis",
                                      "asymptotic", "--compare-bases"},
                                     environment);
-  EXPECT_EQ(bases.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << bases.errors;
+  EXPECT_EQ(bases.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << bases.errors;
   EXPECT_THAT(bases.output, HasSubstr("asymptotic_extended"));
   EXPECT_TRUE(std::filesystem::exists(path("fit.json")));
   const auto shift = run_viscontact({"shift", path("table.csv"), "--fit", path("fit.json"), "-o",
                                      path("shift.csv"), "--plot", path("shift.svg")},
                                     environment);
-  EXPECT_EQ(shift.exit_status, static_cast<int>(ExitCode::kExternalProgram)) << shift.errors;
+  EXPECT_EQ(shift.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << shift.errors;
   EXPECT_THAT(shift.output, HasSubstr("shift "));
   EXPECT_TRUE(std::filesystem::exists(path("shift.csv")));
 }

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/reduced_model/comparison.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 namespace {
@@ -50,7 +50,7 @@ const auto kComputed = ElementsAre("viscous_contact", "viscous_contact_regular_d
 
 TEST_F(FailedModels, DoNotStopTheOthersOfARun) {
   const auto result = run();
-  expect_refusal(result, ExitCode::kBadInput,
+  expect_refusal(result, ErrorKind::kBadInput,
                  AllOf(HasSubstr(case_file() + ": model reference: gap "),
                        HasSubstr("is outside the fitted interval [0.05, 1.5]"),
                        HasSubstr("3 more failed (reference_exact, inertial, "
@@ -130,15 +130,15 @@ TEST_F(FailedModels, OfSimulateAreToldByCompare) {
     arguments.insert(arguments.end(), {"--models", models});
     return run_viscontact(arguments);
   };
-  expect_refusal(with("inertial,viscous_contact"), ExitCode::kBadInput,
+  expect_refusal(with("inertial,viscous_contact"), ErrorKind::kBadInput,
                  AllOf(HasSubstr("model inertial: "), HasSubstr("; 1 other model is computed")));
   expect_done(with("viscous_contact_regular_drag"));
   const auto compared = run_viscontact({"compare", other});
   expect_done(compared);
   EXPECT_THAT(compared.output, AllOf(HasSubstr("\nviscous_contact_regular_drag "),
                                      HasSubstr("\ninertial                       failed: ")));
-  expect_refusal(run_viscontact({"compare", other, "--reference", "inertial"}), ExitCode::kBadInput,
-                 HasSubstr("has no trajectory here, because it failed: "));
+  expect_refusal(run_viscontact({"compare", other, "--reference", "inertial"}),
+                 ErrorKind::kBadInput, HasSubstr("has no trajectory here, because it failed: "));
   // With the limit it is computed, and no failure is left.
   auto with_limit = simulate;
   with_limit.emplace_back("--lubrication-limit");
@@ -163,7 +163,7 @@ TEST_F(FailedModels, WriteNothingWhenAllFail) {
   const auto folder_name = folder().string();
   expect_refusal(run_viscontact({"simulate", case_file(), "--fit", folder_name + "/fit.json", "-o",
                                  folder_name, "--models", "reference_exact,inertial"}),
-                 ExitCode::kBadInput,
+                 ErrorKind::kBadInput,
                  AllOf(HasSubstr("model reference_exact: "), HasSubstr("1 more failed (inertial)"),
                        Not(HasSubstr("computed and written"))));
   EXPECT_EQ(files_below(folder()), before);
@@ -177,7 +177,7 @@ TEST_F(FailedModels, ThatDoNotConvergeEndWithTheirExitCode) {
                              "[reference]\ntime_step = 1e-3", "[reference]\ntime_step = 0.5"),
                     "end_time = 4.0",
                     "end_time = 4.0\nmodels = [\"reference\", \"inertial\", \"viscous_contact\"]"));
-  expect_refusal(run(), ExitCode::kNotConverged,
+  expect_refusal(run(), ErrorKind::kNotConverged,
                  AllOf(HasSubstr("model reference: the step from time "),
                        HasSubstr("goes through the plane"), HasSubstr("2 other models")));
   EXPECT_THAT(trajectories(), ElementsAre("inertial", "viscous_contact"));

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "viscontact/case_file/case_file.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 namespace {
@@ -62,11 +62,11 @@ TEST_F(FirstSteps, WhatInitCommentsOutIsRightToo) {
 
 TEST_F(FirstSteps, InitReplacesNothing) {
   put_text(path("mine.toml"), "precious");
-  expect_refusal(run_viscontact({"init", path("mine.toml")}), ExitCode::kBadInput,
+  expect_refusal(run_viscontact({"init", path("mine.toml")}), ErrorKind::kBadInput,
                  HasSubstr("is there"));
   EXPECT_EQ(read_file(path("mine.toml")), "precious");
   fs::create_symlink(path("nowhere"), path("link.toml"));
-  expect_refusal(run_viscontact({"init", path("link.toml")}), ExitCode::kBadInput,
+  expect_refusal(run_viscontact({"init", path("link.toml")}), ErrorKind::kBadInput,
                  HasSubstr("is there"));
   EXPECT_FALSE(fs::exists(path("nowhere")));
 }

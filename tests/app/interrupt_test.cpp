@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/force_table.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 namespace {
@@ -40,7 +40,7 @@ fi
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
 
   const auto interrupted = run_viscontact(arguments, environment);
-  expect_refusal(interrupted, ExitCode::kInterrupted, HasSubstr("interrupted"));
+  expect_refusal(interrupted, ErrorKind::kInterrupted, HasSubstr("interrupted"));
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   const std::string journal = read_file(path("table.csv.rows"));
   EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2);

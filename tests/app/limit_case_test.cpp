@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "viscontact/reduced_model/comparison.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/program.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 namespace {

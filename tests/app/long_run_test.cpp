@@ -17,15 +17,15 @@
 #include <set>
 #include <thread>
 
-#include "viscontact/case_file/case_file.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
-#include "viscontact/freefem_axi/row_record.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 
 namespace viscontact {
 namespace {
@@ -162,7 +162,7 @@ exec FreeFem++-nw "$@"
   make_executable(freefem);
   put_text(path("case.toml"), case_of_2_rows());
   const auto failed = tabulate(path("table.csv"), freefem.string());
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("1 of 2 rows failed"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 rows failed"));
   EXPECT_THAT(failed.errors,
               AllOf(HasSubstr("gap 0.05, velocity -1"), HasSubstr("ended by signal 9 (Killed)"),
                     Not(HasSubstr("gap 0.3"))));
@@ -278,7 +278,7 @@ TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
   const auto answers_before = fake.answered().size();
   disk_.fill_but(kPage);  // about 20 rows
   const auto full = tabulate(path("disk/table.csv"), fake.executable());
-  expect_refusal(full, ExitCode::kBadInput,
+  expect_refusal(full, ErrorKind::kBadInput,
                  AllOf(HasSubstr("table.csv.rows: cannot be written (No space left on device)"),
                        HasSubstr("the same command goes on")));
   const auto kept = finished(path("disk/table.csv")).size();
@@ -297,7 +297,7 @@ TEST_F(FullDisk, TableThatFindsNoRoomIsWrittenLaterWithoutComputing) {
   put_text(path("case.toml"), gentle_case_text());
   disk_.fill_but(kPage);  // enough for six rows' journal
   const auto full = tabulate(path("disk/table.csv"), fake.executable());
-  expect_refusal(full, ExitCode::kBadInput,
+  expect_refusal(full, ErrorKind::kBadInput,
                  HasSubstr("table.csv: cannot be written (No space left on device)"));
   EXPECT_FALSE(std::filesystem::exists(path("disk/table.csv")));
   EXPECT_THAT(finished(path("disk/table.csv")), SizeIs(6));

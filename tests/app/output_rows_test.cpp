@@ -4,13 +4,13 @@
 
 #include <cstdlib>
 
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
-#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -53,7 +53,7 @@ TEST(OutputRows, BelowTwoAreRefused) {
   put_text(case_file, replaced(lecture_case_text(), "end_time = 4.0", "end_time = 4.0\nrows = 1"));
   expect_refusal(run_viscontact({"simulate", case_file, "--fit", kFit, "-o",
                                  (scratch.path() / "run").string()}),
-                 ExitCode::kBadInput,
+                 ErrorKind::kBadInput,
                  HasSubstr("motion.rows is 1; it must be a whole number from 2"));
 }
 

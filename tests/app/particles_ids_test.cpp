@@ -5,11 +5,11 @@
 #include <ostream>
 #include <regex>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
 
 namespace viscontact {
 namespace {
@@ -117,7 +117,7 @@ TEST_P(BadIds, AreRefusedWithTheirLine) {
   const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
   if (in_file) put_text(path("discs.csv"), replaced(kDiscs, bad.from, bad.to));
   expect_refusal(run(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to), "out"),
-                 ExitCode::kBadInput, HasSubstr(bad.said));
+                 ErrorKind::kBadInput, HasSubstr(bad.said));
   EXPECT_FALSE(fs::exists(path("out")));
 }
 

@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -74,7 +75,7 @@ class InterruptedParticles : public ::testing::Test {
   /// A run that ends early with a state to go on from.
   void run_half(const std::string& folder) const {
     const auto result = run(folder, {"INT", 4});
-    ASSERT_EQ(result.exit_status, static_cast<int>(ExitCode::kInterrupted)) << result.errors;
+    ASSERT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("the same command goes on from there"));
   }
 
@@ -119,7 +120,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   // Two interrupts, and a death that saves nothing: after it the run goes on from the second interrupt.
   for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"TERM", 8}, {"KILL", 13}}) {
     const auto result = run("parts", {signal, frame});
-    const int status = signal == "KILL" ? 128 + 9 : static_cast<int>(ExitCode::kInterrupted);
+    const int status = signal == "KILL" ? 128 + 9 : exit_code_of(ErrorKind::kInterrupted);
     ASSERT_EQ(result.exit_status, status) << signal << result.errors;
     EXPECT_EQ(result.errors.find("goes on from t = ") != std::string::npos, frame > 3)
         << result.errors;
@@ -149,9 +150,9 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
   // A stack that needs more than an iteration.
   put_case(replaced(kCase, "2.5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
   put_text(path("discs.csv"), std::string(kDiscs) + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
-  expect_refusal(run("out"), ExitCode::kNotConverged, HasSubstr("All results are written"));
+  expect_refusal(run("out"), ErrorKind::kNotConverged, HasSubstr("All results are written"));
   const auto again = run("out");
-  expect_refusal(again, ExitCode::kNotConverged, HasSubstr("All results are written"));
+  expect_refusal(again, ErrorKind::kNotConverged, HasSubstr("All results are written"));
   EXPECT_THAT(again.errors, HasSubstr("up to date"));
 }
 
@@ -197,14 +198,14 @@ TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
       EXPECT_THAT(again.errors, AllOf(HasSubstr("cannot be gone on with"), HasSubstr(name),
                                       HasSubstr("from the start"), Not(HasSubstr("after step"))));
       // Frame 7 is of the new run: the half had come to frame 5 at most.
-      EXPECT_EQ(again.exit_status, static_cast<int>(ExitCode::kInterrupted)) << again.errors;
+      EXPECT_EQ(again.exit_status, exit_code_of(ErrorKind::kInterrupted)) << again.errors;
     }
 }
 
 TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   run_half("out");
   const auto older = read_file(path("out/restart.bin"));
-  ASSERT_EQ(run("out", {"INT", 9}).exit_status, static_cast<int>(ExitCode::kInterrupted));
+  ASSERT_EQ(run("out", {"INT", 9}).exit_status, exit_code_of(ErrorKind::kInterrupted));
   // As if the process had been killed after steps.csv and particles.pvd and before restart.bin.
   put_text(path("out/restart.bin"), older);
   const auto last = run("out");

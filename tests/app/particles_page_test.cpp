@@ -9,11 +9,11 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/app/browser.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/particles/particles_picture.hpp"
-#include "viscontact/report/particles/particles_room.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "tests/app/browser.hpp"
+#include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact {
 namespace {
@@ -42,8 +42,8 @@ Playback falling_row(int dimension, int count, int frames) {
       if (f + 1 == frames) frame.contacts.push_back({-1, k, 0, k % 2 == 0 ? 0.0 : -0.5});
     }
     frame.planes.push_back(dimension == 2
-                               ? particles::PlanePlace{.point = {0, 0, 0}, .normal = {0, 1, 0}}
-                               : particles::PlanePlace{.point = {0, 0, 0}, .normal = {0, 0, 1}});
+                               ? particles::PlanePosition{.point = {0, 0, 0}, .normal = {0, 1, 0}}
+                               : particles::PlanePosition{.point = {0, 0, 0}, .normal = {0, 0, 1}});
     playback.frames.push_back(frame);
   }
   return playback;

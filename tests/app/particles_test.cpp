@@ -7,13 +7,14 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
-#include "tests/common/temporary_folder.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// The example of docs/interfaces.md: three discs on a floor, two of them in a file, the last pushed and pulled.
+/// The example of docs/case-file.md: three discs on a floor, two of them in a file, the last pushed and pulled.
 constexpr const char* kCase = R"(title = "Three discs on a floor"
 
 [space]
@@ -170,7 +171,7 @@ TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
   expect_done(run(put_case(replaced(kCase, "end_time = 10.0", "end_time = 4.35")), out()));
   const auto before = files_below(out());
   expect_refusal(run(put_case(kCase), out(), {"--restart", (out() / "restart.bin").string()}),
-                 ExitCode::kBadInput, HasSubstr("choose another folder"));
+                 ErrorKind::kBadInput, HasSubstr("choose another folder"));
   EXPECT_EQ(files_below(out()), before);
 }
 
@@ -186,7 +187,7 @@ TEST_P(InterruptedParticles, KeepWhatTheyHaveAndARestartGoesOn) {
                "long.toml");
   const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
                                      "(sleep 1; kill -" + GetParam() + " $$) &");
-  EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kInterrupted)) << result.errors;
+  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("goes on"));
   const auto state = particles::read_restart(out() / "restart.bin");
   EXPECT_GT(state.steps, 0);
@@ -217,7 +218,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
   const auto refused = [&](const std::string& text, const std::string& said,
                            const std::string& file) {
     expect_refusal(run(put_case(text, "other.toml"), out("no"), {"--restart", file}),
-                   ExitCode::kBadInput, HasSubstr(said));
+                   ErrorKind::kBadInput, HasSubstr(said));
     EXPECT_FALSE(fs::exists(out("no")));
   };
   refused(kCase, "nothing is left to do", restart);
@@ -241,7 +242,7 @@ TEST_F(ParticlesCommand, StepsThatDoNotConvergeAreReportedAndAllIsWritten) {
     text += "\n[[particle]]\ncentre = [0.3, " + std::to_string(2 + 2.2 * k) +
             "]\nradius = 1.0\nmass = 1.0\n";
   const auto result = run(put_case(text), out());
-  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("All results are written"));
+  expect_refusal(result, ErrorKind::kNotConverged, HasSubstr("All results are written"));
   EXPECT_THAT(result.errors, HasSubstr("warning"));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   EXPECT_GT(record["unconverged_steps"], 0);
@@ -313,7 +314,7 @@ TEST_P(BadParticlesCase, IsRefusedBeforeAnythingIsWritten) {
   const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
   if (in_file) folder_.file("discs.csv", replaced(kDiscs, bad.from, bad.to));
   const auto file = put_case(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to));
-  expect_refusal(run(file, out()), ExitCode::kBadInput, HasSubstr(bad.said));
+  expect_refusal(run(file, out()), ErrorKind::kBadInput, HasSubstr(bad.said));
   EXPECT_FALSE(fs::exists(out()));
 }
 
@@ -390,7 +391,7 @@ TEST_F(ParticlesCommand, FramesMoreOftenThanStepsAreFramesOfEachStep) {
 TEST_F(ParticlesCommand, AStepThatCannotBeComputedLeavesWhatWasBefore) {
   const auto result =
       run(put_case(replaced(kCase, "value = [-0.7, 0.7]", "value = [-1e90, 0.7]")), out());
-  expect_refusal(result, ExitCode::kNotConverged, HasSubstr("beyond what can be computed with"));
+  expect_refusal(result, ErrorKind::kNotConverged, HasSubstr("beyond what can be computed with"));
   EXPECT_EQ(nlohmann::json::parse(read_file(out() / "run.json"))["to_time"], 5.0);
   EXPECT_DOUBLE_EQ(particles::read_restart(out() / "restart.bin").time, 5.0);
 }
@@ -401,7 +402,7 @@ TEST_F(ParticlesCommand, WallsThatMeetEndTheRunAndKeepWhatWasBefore) {
     return kCase + ("[[plane]]\npoint = [0.0, 6.0]\nnormal = [0.0, -1.0]\nvelocity = " + velocity);
   };
   const auto result = run(put_case(with_ceiling("[0.0, -1.0]\n")), out());
-  expect_refusal(result, ExitCode::kNotConverged, AllOf(HasSubstr("plane"), HasSubstr("overlap")));
+  expect_refusal(result, ErrorKind::kNotConverged, AllOf(HasSubstr("plane"), HasSubstr("overlap")));
   const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
   const double until = record["to_time"];
   EXPECT_GT(until, 2);
@@ -416,14 +417,14 @@ TEST_F(ParticlesCommand, WallsThatMeetEndTheRunAndKeepWhatWasBefore) {
 TEST_F(ParticlesCommand, ItsOwnInputIsNotWrittenOver) {
   folder_.file("final_particles.csv", kDiscs);
   const auto file = put_case(replaced(kCase, "discs.csv", "final_particles.csv"));
-  expect_refusal(run(file, folder_.path()), ExitCode::kBadInput, HasSubstr("overwritten"));
+  expect_refusal(run(file, folder_.path()), ErrorKind::kBadInput, HasSubstr("overwritten"));
   EXPECT_EQ(read_file(folder_.path() / "final_particles.csv"), kDiscs);
 }
 
 TEST_F(ParticlesCommand, NoParticleIsRefused) {
   const std::string text = kCase;
   expect_refusal(run(put_case(text.substr(0, text.find("[particles]"))), out()),
-                 ExitCode::kBadInput, HasSubstr("has no particle"));
+                 ErrorKind::kBadInput, HasSubstr("has no particle"));
 }
 
 TEST_F(ParticlesCommand, PrintsItsRecordAsJson) {
@@ -444,7 +445,7 @@ TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
   fs::create_directory(out());
   for (const auto* name : {"steps.csv", "particles.svg", "particles_00000.vtp"}) {
     put_text(out() / name, "my notes\n");
-    expect_refusal(run(file, out()), ExitCode::kBadInput,
+    expect_refusal(run(file, out()), ErrorKind::kBadInput,
                    AllOf(HasSubstr(name), HasSubstr("remove it first")));
     EXPECT_EQ(read_file(out() / name), "my notes\n");
     fs::remove(out() / name);
@@ -454,7 +455,7 @@ TEST_F(ParticlesCommand, ReplacesNothingThatItDidNotWrite) {
 TEST_F(ParticlesCommand, FolderIntoWhichAnotherWritesIsRefused) {
   const auto file = put_case(kCase);
   const LockedFolder ours(out(), "");
-  expect_refusal(run(file, out()), ExitCode::kBadInput,
+  expect_refusal(run(file, out()), ErrorKind::kBadInput,
                  HasSubstr("another viscontact writes into it"));
 }
 

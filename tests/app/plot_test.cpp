@@ -7,11 +7,11 @@
 #include <set>
 #include <sstream>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/row_picture.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_picture.hpp"
 
 namespace viscontact {
 namespace {
@@ -168,9 +168,9 @@ TEST_F(Plot, VtkFileHasPointsTrianglesAndFields) {
 
 TEST_F(Plot, GapThatIsNotThereIsRefusedBeforeAnyWork) {
   const auto before = files_below(scratch_.path());
-  expect_refusal(tabulate({"--plot", "1,0.02"}), ExitCode::kBadInput,
+  expect_refusal(tabulate({"--plot", "1,0.02"}), ErrorKind::kBadInput,
                  AllOf(HasSubstr("0.02"), HasSubstr("the nearest of them is 0.01")));
-  expect_refusal(tabulate({"--plot", "1,x"}), ExitCode::kWrongUsage, HasSubstr("'x'"));
+  expect_refusal(tabulate({"--plot", "1,x"}), ErrorKind::kWrongUsage, HasSubstr("'x'"));
   EXPECT_EQ(files_below(scratch_.path()), before);
 }
 

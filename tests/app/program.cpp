@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "tests/common/temporary_folder.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 
@@ -27,9 +28,9 @@ ProgramResult run_viscontact(const std::vector<std::string>& arguments,
 
 void expect_done(const ProgramResult& result) { EXPECT_EQ(result.exit_status, 0) << result.errors; }
 
-void expect_refusal(const ProgramResult& result, ExitCode exit_code,
+void expect_refusal(const ProgramResult& result, ErrorKind kind,
                     const ::testing::Matcher<std::string>& message) {
-  EXPECT_EQ(result.exit_status, static_cast<int>(exit_code)) << result.errors;
+  EXPECT_EQ(result.exit_status, exit_code_of(kind)) << result.errors;
   std::istringstream stream(result.errors);
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 
@@ -28,7 +29,7 @@ void expect_done(const ProgramResult& result);
 
 /// Expects an ordinary refusal: that exit code; after progress lines ("tabulate: ...") one or two lines, the first of which starts
 /// with "viscontact: " and matches `message`.
-void expect_refusal(const ProgramResult& result, ExitCode exit_code,
+void expect_refusal(const ProgramResult& result, ErrorKind kind,
                     const ::testing::Matcher<std::string>& message);
 
 /// Every file below a folder with its bytes; folders too, with none.

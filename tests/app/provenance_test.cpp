@@ -9,13 +9,13 @@
 #include <regex>
 #include <sstream>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {
@@ -213,7 +213,7 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
   expect_done(run_viscontact({"fit", "table.csv", "-o", "fit.json"}, {}, in_old));
   const auto first = rest_of(path("old/fit.json"));
   fs::rename(path("old"), path("new"));
-  expect_refusal(run({"rerun", path("new/fit.json")}), ExitCode::kBadInput,
+  expect_refusal(run({"rerun", path("new/fit.json")}), ErrorKind::kBadInput,
                  AllOf(HasSubstr(path("old") + ": is no folder"), HasSubstr("--folder")));
   EXPECT_FALSE(fs::exists(path("old")));
   expect_done(
@@ -221,8 +221,8 @@ TEST_F(Rerun, GoesToAnotherFolderIfTheFilesHaveMoved) {
   EXPECT_EQ(rest_of(path("again.json")), first);
   EXPECT_EQ(provenance_of(path("again.json")).at("folder"), path("new"));
   put_text(path("new/table.csv"), "changed");
-  expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}), ExitCode::kBadInput,
-                 HasSubstr(path("new/table.csv") + " has changed"));
+  expect_refusal(run({"rerun", path("new/fit.json"), "--folder", path("new")}),
+                 ErrorKind::kBadInput, HasSubstr(path("new/table.csv") + " has changed"));
 }
 
 TEST_F(Rerun, InAnotherFolderNeitherReadsNorWritesInTheOldOne) {
@@ -255,13 +255,13 @@ TEST_F(Rerun, RefusesChangedInputsUnlessAllowed) {
   put_text(path("table.csv"),
            replaced(exact_table_text(), "# radius: 1\n", "# radius: 1\n# note: new\n"));
   expect_refusal(
-      run({"rerun", path("fit.json"), "-o", path("again.json")}), ExitCode::kBadInput,
+      run({"rerun", path("fit.json"), "-o", path("again.json")}), ErrorKind::kBadInput,
       AllOf(HasSubstr(path("table.csv") + " has changed"), HasSubstr("--changed-inputs")));
   EXPECT_FALSE(fs::exists(path("again.json")));
   expect_done(run({"rerun", path("fit.json"), "-o", path("again.json"), "--changed-inputs"}));
   EXPECT_TRUE(fs::exists(path("again.json")));
   fs::remove(path("table.csv"));
-  expect_refusal(run({"rerun", path("fit.json")}), ExitCode::kBadInput,
+  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput,
                  HasSubstr("is not there any more"));
 }
 
@@ -282,7 +282,7 @@ TEST_F(Rerun, OfOneFileOfARunRepeatsTheRunIntoAFolder) {
                     "weights = \"relative\"", ""));
   expect_done(run({"run", path("case.toml"), "-o", path("run")}));
   expect_refusal(run({"rerun", path("run/fit.json"), "-o", path("fit.json")}),
-                 ExitCode::kWrongUsage, HasSubstr("-o must be a folder"));
+                 ErrorKind::kWrongUsage, HasSubstr("-o must be a folder"));
   EXPECT_FALSE(fs::exists(path("fit.json")));
   expect_done(run_viscontact({"rerun", path("run/fit.json"), "-o", path("again")},
                              {"SOURCE_DATE_EPOCH=1000000001"}));
@@ -324,7 +324,7 @@ TEST_F(Rerun, DoesNothingButWriteFilesWhateverTheFileSays) {
         R"(["viscontact"])",
         R"(["viscontact","tabulate","case.toml","-o","t.csv","--launcher","slurm"])",
         R"(["viscontact","fit","a\u0000b","-o","f.json"])"})
-    expect_refusal(forged(command), ExitCode::kBadInput,
+    expect_refusal(forged(command), ErrorKind::kBadInput,
                    HasSubstr("holds a command that 'rerun' does not run"));
 }
 
@@ -339,30 +339,30 @@ TEST_F(Provenance, OfAPipeHasNoHash) {
   expect_done(run_viscontact({"fit", "/dev/stdin", "-o", path("fit.json")}, {},
                              "cat '" + path("table.csv") + "' |"));
   EXPECT_EQ(provenance_of(path("fit.json")).at("inputs").at(0).at("sha256"), "");
-  expect_refusal(run({"rerun", path("fit.json")}), ExitCode::kBadInput, HasSubstr("pipe"));
+  expect_refusal(run({"rerun", path("fit.json")}), ErrorKind::kBadInput, HasSubstr("pipe"));
 }
 
 TEST_F(Provenance, TimeThatIsNoneIsRefused) {
   for (const std::string time : {"-5", "1.5", "1e9", "abc", "99999999999999999999"})
     expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")},
                                   {"SOURCE_DATE_EPOCH=" + time}),
-                   ExitCode::kWrongUsage, HasSubstr("SOURCE_DATE_EPOCH is '" + time + "'"));
+                   ErrorKind::kWrongUsage, HasSubstr("SOURCE_DATE_EPOCH is '" + time + "'"));
   EXPECT_FALSE(fs::exists(path("fit.json")));
 }
 
 TEST_F(Rerun, RefusesWhatDoesNotSayHowItWasMade) {
   fit();
-  expect_refusal(run({"rerun", path("table.csv")}), ExitCode::kBadInput,
+  expect_refusal(run({"rerun", path("table.csv")}), ErrorKind::kBadInput,
                  HasSubstr("does not say how it was made"));
-  expect_refusal(run({"rerun", path("nothing.csv")}), ExitCode::kBadInput,
+  expect_refusal(run({"rerun", path("nothing.csv")}), ErrorKind::kBadInput,
                  HasSubstr("nothing.csv"));
   put_text(path("torn.json"), replaced(read_file(path("fit.json")), "\"folder\":", "\"folder\""));
-  expect_refusal(run({"rerun", path("torn.json")}), ExitCode::kBadInput, HasSubstr("damaged"));
+  expect_refusal(run({"rerun", path("torn.json")}), ErrorKind::kBadInput, HasSubstr("damaged"));
   expect_done(run({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")}));
   expect_done(run({"compare", path("run")}));
   expect_done(run({"report", path("run")}));
   expect_refusal(run({"rerun", path("run/report.html"), "-o", path("other")}),
-                 ExitCode::kWrongUsage, HasSubstr("leave out -o"));
+                 ErrorKind::kWrongUsage, HasSubstr("leave out -o"));
 }
 
 }  // namespace

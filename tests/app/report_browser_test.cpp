@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/app/browser.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 namespace {

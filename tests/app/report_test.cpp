@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <regex>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

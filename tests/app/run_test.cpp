@@ -7,16 +7,16 @@
 #include <cstdlib>
 #include <regex>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/reduced_model/comparison.hpp"
-#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 namespace {
@@ -119,7 +119,7 @@ TEST_F(Run, NeverReplacesATableThatItDidNotWrite) {
   fs::create_directories(folder());
   put_text(table, "# viscosity: 3\n# radius: 1\ngap,reference_velocity,force\n0.1,-1,900\n");
   const auto before = read_file(table);
-  expect_refusal(run(), ExitCode::kBadInput,
+  expect_refusal(run(), ErrorKind::kBadInput,
                  HasSubstr("is there and is no table that Viscontact wrote"));
   EXPECT_EQ(read_file(table), before);
 }
@@ -208,7 +208,7 @@ std::string case_that_no_model_can_follow() {
 
 TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
   put_text(case_file(), case_that_no_model_can_follow());
-  expect_refusal(run(), ExitCode::kBadInput, HasSubstr("0.05"));
+  expect_refusal(run(), ErrorKind::kBadInput, HasSubstr("0.05"));
   EXPECT_TRUE(fs::exists(folder() / "table.csv"));
   EXPECT_TRUE(fs::exists(folder() / "fit.json"));
   EXPECT_FALSE(fs::exists(folder() / "trajectories"));
@@ -220,7 +220,8 @@ TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
   const auto before = files_below(folder());
   const auto made = write_times(folder());
   put_text(case_file(), case_that_no_model_can_follow());
-  expect_refusal(run(), ExitCode::kBadInput, HasSubstr(case_file().string() + ": model reference"));
+  expect_refusal(run(), ErrorKind::kBadInput,
+                 HasSubstr(case_file().string() + ": model reference"));
   EXPECT_EQ(files_below(folder()), before);
   EXPECT_EQ(write_times(folder()), made);
   put_text(case_file(), gentle_case_text());
@@ -229,7 +230,7 @@ TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
 
 TEST_F(Run, WrongParameterOfAModelIsFoundBeforeTheTabulation) {
   put_text(case_file(), replaced(gentle_case_text(), "threshold_gap = 0.1", "threshold_gap = 3.0"));
-  expect_refusal(run(), ExitCode::kBadInput,
+  expect_refusal(run(), ErrorKind::kBadInput,
                  AllOf(HasSubstr(case_file().string()), HasSubstr("threshold_gap is 3"),
                        HasSubstr("must be less than motion.initial_gap")));
   EXPECT_TRUE(fake_.answered().empty());
@@ -239,7 +240,7 @@ TEST_F(Run, WrongParameterOfAModelIsFoundBeforeTheTabulation) {
 TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) {
   const auto refused = [&](const std::string& text, const std::string& words) {
     put_text(case_file(), text);
-    expect_refusal(run(), ExitCode::kBadInput,
+    expect_refusal(run(), ErrorKind::kBadInput,
                    AllOf(HasSubstr(case_file().string()), HasSubstr(words)));
   };
   const auto text = gentle_case_text();
@@ -257,13 +258,13 @@ TEST_F(Run, FolderIntoWhichAnotherWritesIsRefused) {
   const auto made = write_times(folder());
   const LockedFolder ours(folder(), "");
   const auto refused = HasSubstr("another viscontact writes into it");
-  expect_refusal(run(), ExitCode::kBadInput, refused);
+  expect_refusal(run(), ErrorKind::kBadInput, refused);
   const auto name = folder().string();
-  expect_refusal(run_viscontact({"report", name}), ExitCode::kBadInput, refused);
-  expect_refusal(run_viscontact({"compare", name}), ExitCode::kBadInput, refused);
+  expect_refusal(run_viscontact({"report", name}), ErrorKind::kBadInput, refused);
+  expect_refusal(run_viscontact({"compare", name}), ErrorKind::kBadInput, refused);
   expect_refusal(
       run_viscontact({"simulate", case_file().string(), "--fit", name + "/fit.json", "-o", name}),
-      ExitCode::kBadInput, refused);
+      ErrorKind::kBadInput, refused);
   EXPECT_EQ(write_times(folder()), made);
 }
 
@@ -296,7 +297,7 @@ TEST_F(Run, NeverReplacesWhatItDidNotWrite) {
   for (const auto* name : {"fit.json", "comparison.json", "report.html", "uncertainty.json",
                            "failed_models.json", "trajectories/inertial.csv"}) {
     put_text(folder() / name, "my notes\n");
-    expect_refusal(run(), ExitCode::kBadInput,
+    expect_refusal(run(), ErrorKind::kBadInput,
                    AllOf(HasSubstr(name), HasSubstr("remove it first")));
     EXPECT_EQ(read_file(folder() / name), "my notes\n");
     fs::remove(folder() / name);
@@ -397,7 +398,7 @@ TEST_F(Run, FailingGnuplotLeavesAReportWithoutPicturesAndTheNextRunMakesThem) {
       run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
                      {"VISCONTACT_FREEFEM=" + fake_.executable(),
                       "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("gnuplot"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("gnuplot"));
   EXPECT_TRUE(fs::exists(folder() / "comparison.json"));
   EXPECT_TRUE(fs::exists(folder() / "report.html"));
   EXPECT_FALSE(fs::exists(folder() / "plots"));

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "tests/oracles/brenner.hpp"
 
 namespace viscontact {
 

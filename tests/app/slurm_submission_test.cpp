@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 namespace {
@@ -114,7 +114,7 @@ TEST_F(SlurmSubmission, PassesTheUsersOptionsBeforeItsOwn) {
                                "--parsable\n"),
                     HasSubstr("\n--cpus-per-task=3\n")));
   EXPECT_THAT(read_file(path("table.csv.slurm/task.sh")), HasSubstr("--jobs 3"));
-  expect_refusal(submit({"--slurm-options", "-A 'my account"}), ExitCode::kWrongUsage,
+  expect_refusal(submit({"--slurm-options", "-A 'my account"}), ErrorKind::kWrongUsage,
                  HasSubstr("is not closed"));
 }
 
@@ -135,7 +135,7 @@ TEST_F(SlurmSubmission, SecondJobForTheSameTableIsRefusedWhileTheFirstIsNotOver)
   const std::string name = asked().substr(at, asked().find('\n', at) - at);
   squeue("case \"$*\" in *--name=" + name + "*) echo 12; echo 12 ;; esac");
   std::filesystem::remove(path("asked"));
-  expect_refusal(submit(), ExitCode::kBadInput,
+  expect_refusal(submit(), ErrorKind::kBadInput,
                  AllOf(HasSubstr("Slurm job 12"), HasSubstr("scancel 12")));
   EXPECT_FALSE(std::filesystem::exists(path("asked")));
   expect_done(submit({}, "another.csv"));
@@ -145,7 +145,7 @@ TEST_F(SlurmSubmission, RefusalBySlurmIsSaidInItsWords) {
   sbatch(
       "echo 'sbatch: error: invalid partition specified: x' >&2; echo 'sbatch: error: no' >&2; "
       "exit 1");
-  expect_refusal(submit(), ExitCode::kExternalProgram,
+  expect_refusal(submit(), ErrorKind::kExternalProgram,
                  AllOf(HasSubstr("sbatch failed (exit status 1)"),
                        HasSubstr("invalid partition specified: x | sbatch: error: no"),
                        HasSubstr("nothing was submitted")));
@@ -157,7 +157,7 @@ TEST_F(SlurmSubmission, MissingSlurmIsSaidWithWhatToDo) {
   const auto result = run_viscontact(
       {"tabulate", path("case.toml"), "-o", path("table.csv"), "--launcher", "slurm"},
       {"PATH=" + empty.path().string()});
-  expect_refusal(result, ExitCode::kExternalProgram,
+  expect_refusal(result, ErrorKind::kExternalProgram,
                  AllOf(HasSubstr("cannot be run"), HasSubstr("apt-get install slurm-client")));
 }
 

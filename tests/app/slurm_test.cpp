@@ -9,13 +9,14 @@
 #include <set>
 #include <thread>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -116,10 +117,10 @@ TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
   expect_done(submitted);
   EXPECT_THAT(submitted.errors, HasSubstr("24 tasks"));
   // Nothing of it is over: no second job, and no table.
-  expect_refusal(tabulate("out", {"--launcher", "slurm"}, fake.executable()), ExitCode::kBadInput,
+  expect_refusal(tabulate("out", {"--launcher", "slurm"}, fake.executable()), ErrorKind::kBadInput,
                  HasSubstr("is being tabulated by Slurm job"));
   const auto early = tabulate("out", {"--gather"}, fake.executable());
-  expect_refusal(early, ExitCode::kNotConverged, HasSubstr("2 of 2 tables are not finished"));
+  expect_refusal(early, ErrorKind::kNotConverged, HasSubstr("2 of 2 tables are not finished"));
   EXPECT_THAT(early.errors, HasSubstr("thin.csv: 12 of 12 rows are missing (gap 0.05"));
   // Nor does an edit of a case reach the tasks that start later.
   const std::string thin = read_file(path("thin.toml"));
@@ -127,7 +128,7 @@ TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
   std::filesystem::remove(path("hold"));
   wait_for_the_job();
   const auto edited = tabulate("out", {"--gather"}, fake.executable());
-  expect_refusal(edited, ExitCode::kNotConverged, HasSubstr("1 of 2 tables are not finished"));
+  expect_refusal(edited, ErrorKind::kNotConverged, HasSubstr("1 of 2 tables are not finished"));
   EXPECT_THAT(edited.errors, HasSubstr("the case was edited since"));
   put_text(path("thin.toml"), thin);
 
@@ -184,7 +185,7 @@ TEST_F(NodeThatDies, LosesNoFinishedRowAndASecondJobComputesTheOthersOnly) {
   wait_for_the_job();
   EXPECT_THAT(fake_.answered(), SizeIs(14));
   const auto missing = tabulate("out", {"--gather"}, fake_.executable());
-  EXPECT_EQ(missing.exit_status, static_cast<int>(ExitCode::kNotConverged)) << missing.errors;
+  EXPECT_EQ(missing.exit_status, exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
   EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 4 of 12 rows are missing"),
                                     HasSubstr("thick.csv: 6 of 12 rows are missing")));
   expect_done(tabulate("out", {"--launcher", "slurm"}, fake_.executable()));
@@ -209,7 +210,7 @@ TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
   expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "5"}, fake.executable()));
   wait_for_the_job();
   const auto failed = tabulate("out", {"--gather"}, fake.executable());
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("2 of 2 tables are not finished"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("2 of 2 tables are not finished"));
   EXPECT_THAT(failed.errors,
               AllOf(HasSubstr("1 of 12 rows are missing (gap 1.5, velocity 2)"),
                     HasSubstr("FreeFEM failed at gap 1.5, velocity 2"), HasSubstr("out of luck")));
@@ -222,7 +223,7 @@ TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
 TEST_F(Slurm, JobThatItDoesNotTakeIsSaidInItsWords) {
   expect_refusal(
       tabulate("out", {"--launcher", "slurm", "--slurm-options", "--partition=nowhere"}, "none"),
-      ExitCode::kExternalProgram, AllOf(HasSubstr("sbatch failed"), HasSubstr("nowhere")));
+      ErrorKind::kExternalProgram, AllOf(HasSubstr("sbatch failed"), HasSubstr("nowhere")));
 }
 
 }  // namespace

@@ -5,8 +5,13 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/app/undisturbed.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
@@ -15,11 +20,6 @@
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
-#include "viscontact/common/hash/sha256.hpp"
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
-#include "tests/app/undisturbed.hpp"
-#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {
@@ -97,7 +97,7 @@ TEST_F(Stages, FitTakesOwnTermsALossAndAHeldCoefficient) {
   EXPECT_EQ(fit.terms[0].standard_error, 0);
   // The table does not say theory's value; then it does.
   expect_refusal(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}),
-                 ExitCode::kBadInput, HasSubstr("leading_coefficient"));
+                 ErrorKind::kBadInput, HasSubstr("leading_coefficient"));
   put("table.csv", "# leading_coefficient: 56.548667764616276\n" + read_file(path("table.csv")));
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}));
   fit = read_fit(path("new.json"));
@@ -141,7 +141,7 @@ TEST_F(Stages, ShiftOfAShiftedSmoothWallIsPrintedWrittenAndDrawn) {
   put("rough.csv", replaced(read_file(path("rough.csv")), "# viscosity: 3", "# viscosity: 4"));
   expect_refusal(run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
                                  path("shift.csv")}),
-                 ExitCode::kBadInput, AllOf(HasSubstr("rough.csv"), HasSubstr("fit.json")));
+                 ErrorKind::kBadInput, AllOf(HasSubstr("rough.csv"), HasSubstr("fit.json")));
 }
 
 TEST_F(Stages, ExportIsPrintedOrWritten) {
@@ -152,10 +152,10 @@ TEST_F(Stages, ExportIsPrintedOrWritten) {
   expect_done(run_viscontact({"export", path("fit.json"), "--to", "c-header", "-o", path("f.h")}));
   EXPECT_EQ(rest_of(path("f.h")), printed.output);
   expect_refusal(run_viscontact({"export", path("fit.json"), "--to", "cobol"}),
-                 ExitCode::kWrongUsage, HasSubstr("cobol"));
+                 ErrorKind::kWrongUsage, HasSubstr("cobol"));
   expect_refusal(
       run_viscontact({"export", path("fit.json"), "--to", "csv", "-o", path("case.toml")}),
-      ExitCode::kBadInput, HasSubstr("case.toml"));
+      ErrorKind::kBadInput, HasSubstr("case.toml"));
 }
 
 TEST_F(Stages, SimulateSaysWhatTheFitsErrorsDoToTheAnswer) {
@@ -175,7 +175,7 @@ TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit",    path("fit.json"),
       "-o",       path("run"),       "--models", "reference_exact"};
-  expect_refusal(run_viscontact(arguments), ExitCode::kBadInput,
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput,
                  HasSubstr("above = \"stokes_limit\" in the section [fit] of the case"));
   // As the message says; or by the option.
   auto in_case = arguments;
@@ -237,7 +237,7 @@ TEST_F(Stages, FixLeavesTheTableBehindItToItsCommand) {
   EXPECT_THAT(given, HasSubstr("\"coefficient\": 56.5"));
   // The table is looked for, and not taken for the value of --fix, if it is not there either.
   expect_refusal(run_viscontact({"fit", "--fix", path("no.csv"), "-o", path("e.json")}),
-                 ExitCode::kBadInput, HasSubstr("no.csv: cannot be read"));
+                 ErrorKind::kBadInput, HasSubstr("no.csv: cannot be read"));
 }
 
 TEST_F(Stages, SimulateTakesTheExactDragOfTheCase) {
@@ -279,7 +279,7 @@ TEST_F(Stages, SimulateTakesTheFitFileOfTheCaseOrOfItsFolder) {
   expect_done(simulate("file.toml", "file"));
   EXPECT_EQ(rows("file"), rows("given"));
   // No fit anywhere: said before anything is written.
-  expect_refusal(simulate("case.toml", "folder"), ExitCode::kWrongUsage,
+  expect_refusal(simulate("case.toml", "folder"), ErrorKind::kWrongUsage,
                  AllOf(HasSubstr("folder/fit.json"), HasSubstr("--fit")));
   EXPECT_FALSE(std::filesystem::exists(path("folder")));
   std::filesystem::create_directory(path("folder"));
@@ -335,7 +335,7 @@ TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
   fit("asymptotic");
   const std::vector<std::string> arguments = {
       "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
-  expect_refusal(run_viscontact(arguments), ExitCode::kBadInput, HasSubstr("0.01"));
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput, HasSubstr("0.01"));
 
   auto with_limit = arguments;
   with_limit.emplace_back("--lubrication-limit");

@@ -7,12 +7,13 @@
 #include <csignal>
 #include <sstream>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -56,9 +57,9 @@ class SweepCommand : public ::testing::Test {
 
   /// Expects the refusal, and that nothing is written.
   void expect_refused(const std::string& case_file, const std::vector<std::string>& options,
-                      ExitCode exit_code, const ::testing::Matcher<std::string>& message) const {
+                      ErrorKind kind, const ::testing::Matcher<std::string>& message) const {
     const auto before = files_below(scratch_.path());
-    expect_refusal(sweep(case_file, options), exit_code, message);
+    expect_refusal(sweep(case_file, options), kind, message);
     EXPECT_TRUE(files_below(scratch_.path()) == before) << "something was written";
   }
 
@@ -137,7 +138,7 @@ TEST_F(SweepCommand, InWhichEveryPointFailedEndsWithAnErrorThatSaysWhy) {
   // The same again when the file is up to date.
   for (const std::string said : {"2 rows in", "is up to date"}) {
     const auto result = sweep(kVanishing, options);
-    EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kNotConverged));
+    EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kNotConverged));
     EXPECT_THAT(result.errors,
                 AllOf(HasSubstr(said), HasSubstr("every model failed at 2 points"),
                       HasSubstr("rows.csv: every model failed at every point"),
@@ -183,17 +184,17 @@ TEST_F(SweepCommand, TakesAFitFromTheCommandLine) {
   expect_done(sweep(kVanishing, kTwoRows, "own.csv"));
   const auto fitless =
       study("vanishing_viscosity.toml", "[fit]\nfile = \"../fits/leading_term.json\"", "");
-  expect_refused(fitless, kTwoRows, ExitCode::kWrongUsage, HasSubstr("give a fit with --fit"));
+  expect_refused(fitless, kTwoRows, ErrorKind::kWrongUsage, HasSubstr("give a fit with --fit"));
   expect_done(sweep(fitless, arguments));
   EXPECT_EQ(lines(), lines("own.csv"));
 }
 
 TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   const auto wrong = [&](const std::vector<std::string>& options, const std::string& words) {
-    expect_refused(kVanishing, options, ExitCode::kWrongUsage, HasSubstr(words));
+    expect_refused(kVanishing, options, ErrorKind::kWrongUsage, HasSubstr(words));
   };
   expect_refused(data("cases/limit.toml"), {"--fit", data("fits/leading_term.json")},
-                 ExitCode::kWrongUsage, HasSubstr("give --vary"));
+                 ErrorKind::kWrongUsage, HasSubstr("give --vary"));
   wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not reach 0");
   wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
   wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
@@ -215,14 +216,14 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
 
 TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
   const auto bad = [&](const std::vector<std::string>& options, const std::string& words) {
-    expect_refused(kVanishing, options, ExitCode::kBadInput,
+    expect_refused(kVanishing, options, ErrorKind::kBadInput,
                    AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr(words)));
   };
   bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
   bad({"--vary", "title=1,2"}, "title is not a number");
   bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
   bad({"--vary", "sphere.radius=1,2"}, "the fit's radius is 0.23032943298089034");
-  expect_refused(path("no_such.toml"), {}, ExitCode::kBadInput, HasSubstr("no_such.toml"));
+  expect_refused(path("no_such.toml"), {}, ErrorKind::kBadInput, HasSubstr("no_such.toml"));
 }
 
 TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
@@ -231,7 +232,7 @@ TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
     expect_refused(kVanishing,
                    {"--vary", key + "=1e-3,1e-2", "--models", models, "--reference",
                     models.substr(0, models.find(','))},
-                   ExitCode::kWrongUsage,
+                   ErrorKind::kWrongUsage,
                    AllOf(HasSubstr(key + " cannot be varied"), HasSubstr(words)));
   };
   for (const std::string key :
@@ -257,13 +258,13 @@ TEST_F(SweepCommand, SamplesOfACaseAreAWholeNumber) {
   for (const std::string samples : {"2.5", "0.5", "1e30"})
     expect_refused(
         study("vanishing_viscosity.toml", "[sweep]\n", "[sweep]\nsamples = " + samples + "\n"), {},
-        ExitCode::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.samples")));
+        ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.samples")));
 }
 
 TEST_F(SweepCommand, RangeOfTheCaseThatIsNoneIsTheCasesFault) {
   // In the file it is bad input at a line, as any other value there.
   expect_refused(study("vanishing_viscosity.toml", "0.006:1:log:25", "0:1:log:25"), {},
-                 ExitCode::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.vary")));
+                 ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.vary")));
 }
 
 TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
@@ -280,14 +281,14 @@ TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
 
 TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
   put_text(path("rows.csv"), "time,gap\n1,2\n");
-  expect_refused(kVanishing, kTwoRows, ExitCode::kBadInput,
+  expect_refused(kVanishing, kTwoRows, ErrorKind::kBadInput,
                  AllOf(HasSubstr("rows.csv"), HasSubstr("is no sweep")));
   std::filesystem::remove(path("rows.csv"));
   put_text(path("picture.svg"), "mine");
   auto arguments = kTwoRows;
   arguments.insert(arguments.end(),
                    {"--plot", path("picture.svg"), "--column", "viscous_contact_exact.film"});
-  expect_refused(kVanishing, arguments, ExitCode::kBadInput,
+  expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
                  AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
@@ -354,7 +355,7 @@ TEST_F(InterruptedSweep, KeepsAllFinishedRowsOnCtrlC) {
     const auto interrupted = run("rows.csv", signal_at(path("rows.csv.part"), 300, signal));
     const auto rows = kept("rows.csv");
     expect_refusal(
-        interrupted, ExitCode::kInterrupted,
+        interrupted, ErrorKind::kInterrupted,
         AllOf(HasSubstr(fmt::format("interrupted; {} of {} rows are kept in", rows, kRows)),
               HasSubstr("rows.csv.part")));
     EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));

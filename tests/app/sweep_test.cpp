@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"
 #include "tests/app/undisturbed.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(Sweep, TablesAreNamedAfterTheCasesAndThoseOfEachAlone) {
 TEST_F(Sweep, FailingRowOfOneCaseDoesNotStopTheOther) {
   put_text(fake_folder_.path() / "fails", "");
   const auto failed = tabulate("out");
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("1 of 2 tables are not finished"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 tables are not finished"));
   EXPECT_THAT(failed.errors, AllOf(HasSubstr("thin.csv: 1 of 6 rows failed"),
                                    HasSubstr("gap 1.5, velocity -1"), HasSubstr("no luck")));
   EXPECT_TRUE(std::filesystem::exists(path("out/thick.csv")));
@@ -77,7 +77,7 @@ TEST_F(Sweep, SharesMakeUpTheWholeAndAreGatheredWithoutFreeFem) {
   EXPECT_FALSE(std::filesystem::exists(path("out/thin.csv")));
   // Missing: rows 2 and 7 of 0 to 11.
   const auto missing = tabulate("out", {"--gather"}, "no-such-freefem");
-  expect_refusal(missing, ExitCode::kNotConverged, HasSubstr("2 of 2 tables are not finished"));
+  expect_refusal(missing, ErrorKind::kNotConverged, HasSubstr("2 of 2 tables are not finished"));
   EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 1 of 6 rows are missing (gap 0.19"),
                                     HasSubstr("thick.csv: 1 of 6 rows are missing (gap 0.09"),
                                     HasSubstr("--launcher slurm"), Not(HasSubstr("failed"))));
@@ -97,7 +97,7 @@ TEST_F(Sweep, GatherTellsWhyARowFailedAndWritesTheTablesThatAreWhole) {
   put_text(fake_folder_.path() / "fails", "");
   for (const auto* share : {"0/2", "1/2"}) (void)tabulate("out", {"--task", share});
   const auto failed = tabulate("out", {"--gather"});
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("1 of 2 tables are not finished"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 tables are not finished"));
   EXPECT_THAT(failed.errors,
               AllOf(HasSubstr("1 of 6 rows are missing (gap 1.5, velocity -1)"),
                     HasSubstr("1 failed: FreeFEM failed at gap 1.5"), HasSubstr("no luck")));
@@ -108,7 +108,7 @@ TEST_F(Sweep, GatherTellsWhyARowFailedAndWritesTheTablesThatAreWhole) {
 TEST_F(Sweep, GatherTellsThatAClustersNodesHaveNoFreeFem) {
   EXPECT_EQ(tabulate("out", {"--task", "0/1"}, "no-such-freefem").exit_status, 5);
   const auto failed = tabulate("out", {"--gather"});
-  expect_refusal(failed, ExitCode::kExternalProgram, HasSubstr("2 of 2 tables"));
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("2 of 2 tables"));
   EXPECT_THAT(failed.errors, HasSubstr("no-such-freefem cannot be run"));
 }
 

@@ -4,9 +4,10 @@
 
 #include <ostream>
 
-#include "viscontact/reduced_model/models/models.hpp"
 #include "tests/app/program.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -29,7 +30,7 @@ class WrongCommandLine : public ::testing::TestWithParam<WrongUsage> {};
 
 TEST_P(WrongCommandLine, EndsWithExitCode2AndPointsToHelp) {
   const auto result = run_viscontact(GetParam().arguments);
-  expect_refusal(result, ExitCode::kWrongUsage,
+  expect_refusal(result, ErrorKind::kWrongUsage,
                  AllOf(HasSubstr(GetParam().said), HasSubstr("--help")));
   EXPECT_EQ(result.output, "");
 }
@@ -200,7 +201,7 @@ TEST(Doctor, FindsNothingMissingAndSolvesAKnownRow) {
 TEST(Doctor, SaysHowToMendWhatIsMissing) {
   const TemporaryFolder empty;
   const auto result = run_viscontact({"doctor"}, {"PATH=" + empty.path().string()});
-  EXPECT_EQ(result.exit_status, static_cast<int>(ExitCode::kExternalProgram));
+  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kExternalProgram));
   EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"),
                                    HasSubstr("apt-get install gnuplot-nox")));
 }

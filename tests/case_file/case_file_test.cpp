@@ -75,7 +75,7 @@ void expect_read_or_refused(const TemporaryFolder& folder, const std::string& te
   try {
     read_case(path);
   } catch (const Error& error) {
-    ASSERT_EQ(error.exit_code(), ExitCode::kBadInput) << error.what();
+    ASSERT_EQ(error.kind(), ErrorKind::kBadInput) << error.what();
     ASSERT_THAT(error.what(), StartsWith(path.string() + ":"));
   }
 }

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viscontact/case_file/particles_case.hpp"
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/case_file/particles_case.hpp"
 
 namespace viscontact {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

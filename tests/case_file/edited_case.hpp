@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "viscontact/case_file/case_file.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/case_file/case_file.hpp"
 
 namespace viscontact {
 

@@ -9,12 +9,12 @@
 #include <string>
 
 #include "viscontact/case_file/particles_case.hpp"
-#include "viscontact/particles/contacts_now.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact {
 namespace {
 
-using particles::ContactNow;
+using particles::CurrentContact;
 using particles::dot;
 using particles::Simulation;
 using ::testing::ElementsAre;
@@ -44,7 +44,7 @@ class ShippedRun {
   const ParticlesCase& of() const { return case_; }
   double time() const { return simulation_.state().time; }
   const particles::Particles& now() const { return simulation_.state().particles; }
-  std::vector<ContactNow> contacts() const {
+  std::vector<CurrentContact> contacts() const {
     return particles::contacts_of(case_.setting, simulation_.state());
   }
   double overlap() const { return particles::largest_overlap(case_.setting, simulation_.state()); }
@@ -59,7 +59,7 @@ class ShippedRun {
     // move on together: the impulses that they have taken here are about 1.
     constexpr double kRounding = 1e-12;
     return std::ranges::count_if(contacts(),
-                                 [](const ContactNow& c) { return c.gamma < -kRounding; });
+                                 [](const CurrentContact& c) { return c.gamma < -kRounding; });
   }
 
  private:
@@ -74,7 +74,8 @@ class ShippedRun {
 };
 
 /// The particles that films join to a particle, it included.
-std::set<std::int32_t> glued_to(std::int32_t particle, const std::vector<ContactNow>& contacts) {
+std::set<std::int32_t> glued_to(std::int32_t particle,
+                                const std::vector<CurrentContact>& contacts) {
   std::set<std::int32_t> group = {particle};
   for (std::size_t before = 0; before != group.size();) {
     before = group.size();
@@ -100,7 +101,7 @@ TEST(Raft, RemembersThePushAndComesApartWhenThePullHasGivenItBack) {
   const double tolerance = raft.of().setting.solver.tolerance;
   raft.to(4);
   auto films = raft.contacts();
-  std::erase_if(films, [](const ContactNow& c) { return !(c.gamma < 0); });
+  std::erase_if(films, [](const CurrentContact& c) { return !(c.gamma < 0); });
   ASSERT_EQ(films.size(), kRows * (kColumns - 1));
   // A film's impulse is solved for to the tolerance over h, with masses and mean radius 1; 200 steps of it may add up.
   for (const auto& film : films) EXPECT_NEAR(film.gamma, -4, 200 * tolerance / 0.02);
@@ -126,7 +127,7 @@ TEST(Billiards, BallCollectsSevenOthersAndCarriesThemToTheCushion) {
   billiards.to_end();
   EXPECT_THAT(glued_to(0, billiards.contacts()), ElementsAre(0, 5, 9, 12, 22, 30, 31, 35));
   // Along the cushion at the right they glide.
-  EXPECT_TRUE(std::ranges::any_of(billiards.contacts(), [](const ContactNow& c) {
+  EXPECT_TRUE(std::ranges::any_of(billiards.contacts(), [](const CurrentContact& c) {
     return c.first == -2 && c.second == 9 && c.gamma < 0;
   }));
   EXPECT_NEAR(billiards.now().velocity(9)[0], 0, 1e-5);

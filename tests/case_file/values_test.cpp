@@ -245,7 +245,7 @@ TEST(CaseParts, NumericalSettingsHaveDefaults) {
   text = text.substr(0, text.find("[reference]"));
   const Case c = read_text(text);
   ASSERT_TRUE(c.motion);
-  // docs/interfaces.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial gap.
+  // docs/case-file.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial gap.
   EXPECT_EQ(c.motion->reference_time_step, 1e-3);
   EXPECT_EQ(c.motion->contact_time_step, 1e-3);
   EXPECT_EQ(c.motion->inertial_relative_tolerance, 1e-9);

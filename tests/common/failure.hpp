@@ -10,14 +10,14 @@
 
 namespace viscontact {
 
-/// The message of the Error with this exit code that `call` throws. Anything else fails the test and gives "".
+/// The message of the Error of this kind that `call` throws. Anything else fails the test and gives "".
 template <class Call>
-std::string failure(ExitCode exit_code, Call&& call) {
+std::string failure(ErrorKind kind, Call&& call) {
   try {
     call();
     ADD_FAILURE() << "nothing was thrown";
   } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), exit_code) << error.what();
+    EXPECT_EQ(error.kind(), kind) << error.what();
     return error.what();
   } catch (const std::exception& error) {
     ADD_FAILURE() << "not a viscontact::Error: " << error.what();
@@ -28,7 +28,7 @@ std::string failure(ExitCode exit_code, Call&& call) {
 /// The usual one.
 template <class Call>
 std::string bad_input(Call&& call) {
-  return failure(ExitCode::kBadInput, call);
+  return failure(ErrorKind::kBadInput, call);
 }
 
 }  // namespace viscontact

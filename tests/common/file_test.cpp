@@ -114,7 +114,7 @@ TEST(WriteFile, NeverPutsAFileInPlaceOfADevice) {
   try {
     write_file(path, "x");
   } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), ExitCode::kBadInput);  // to refuse is as good as to write there
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);  // to refuse is as good as to write there
   }
   EXPECT_TRUE(std::filesystem::is_character_file(path));
   EXPECT_THAT(folder.names(), ElementsAre("link_to_device"));

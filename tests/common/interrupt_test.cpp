@@ -12,9 +12,9 @@
 #include <string>
 #include <thread>
 
-#include "viscontact/common/system/process.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 namespace {
@@ -24,6 +24,10 @@ TEST(Interrupt, IsNoneBeforeASignal) {
   EXPECT_NO_THROW(throw_if_interrupted());
 }
 
+/// Exit statuses of this test's own, above those that the functions below use for what must not be.
+constexpr int status_of(ErrorKind kind) { return 10 + static_cast<int>(kind); }
+constexpr int kInterruptedStatus = status_of(ErrorKind::kInterrupted);
+
 void exit_with_what_a_signal_gives(int signal) {
   catch_interrupts();
   if (interrupted()) std::exit(1);
@@ -32,14 +36,15 @@ void exit_with_what_a_signal_gives(int signal) {
   try {
     throw_if_interrupted();
   } catch (const Error& error) {
-    std::exit(static_cast<int>(error.exit_code()));
+    std::exit(status_of(error.kind()));
   }
   std::exit(3);
 }
 
-TEST(Interrupt, TurnsASignalIntoTheErrorWithItsExitCode) {
+TEST(Interrupt, TurnsASignalIntoItsKindOfError) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    EXPECT_EXIT(exit_with_what_a_signal_gives(signal), ::testing::ExitedWithCode(130), "");
+    EXPECT_EXIT(exit_with_what_a_signal_gives(signal),
+                ::testing::ExitedWithCode(kInterruptedStatus), "");
 }
 
 void exit_after_a_hangup_under_nohup() {
@@ -65,7 +70,7 @@ void interrupt_a_child(const std::string& number_file) {
   try {
     run_process({"sh", "-c", "echo $$ > " + number_file + "; exec sleep 3600"});
   } catch (const Error& error) {
-    std::_Exit(static_cast<int>(error.exit_code()));  // the thread may still be ending
+    std::_Exit(status_of(error.kind()));  // the thread may still be ending
   }
   std::_Exit(1);
 }
@@ -73,7 +78,7 @@ void interrupt_a_child(const std::string& number_file) {
 TEST(Interrupt, EndsTheChildThatIsWaitedFor) {
   const TemporaryFolder folder;
   const std::string number_file = (folder.path() / "child").string();
-  EXPECT_EXIT(interrupt_a_child(number_file), ::testing::ExitedWithCode(130), "");
+  EXPECT_EXIT(interrupt_a_child(number_file), ::testing::ExitedWithCode(kInterruptedStatus), "");
   pid_t child = 0;
   ASSERT_TRUE(std::ifstream(number_file) >> child);
   EXPECT_NE(::kill(child, 0), 0) << "process " << child << " is still there";

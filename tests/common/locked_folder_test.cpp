@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,10 +1,11 @@
 // Against the vectors that NIST publishes with FIPS 180-4.
+#include "viscontact/common/hash/sha256.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

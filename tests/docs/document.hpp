@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/system/process.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 

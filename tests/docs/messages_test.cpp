@@ -5,8 +5,8 @@
 #include <regex>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/docs/document.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -20,9 +20,10 @@ std::string all_texts() {
   static const std::regex text("\"((?:[^\"\\\\\n]|\\\\.)*)\"");
   static const std::regex space("\\s*");
   std::string texts;
-  for (const char* folder : {"app", "case_file", "common", "fitting", "freefem_axi",
-                             "reduced_model", "particles", "sweep"})
-    for (const auto& entry : fs::directory_iterator(kSource / folder)) {
+  for (const char* folder :
+       {"app", "case_file", "common", "fitting", "freefem_axi", "lubrication", "pipeline", "report",
+        "results", "terminal", "reduced_model", "particles", "sweep"})
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
       if (!entry.is_regular_file()) continue;
       const std::string source = read_file(entry.path());
       for (std::sregex_iterator match(source.begin(), source.end(), text), end; match != end;

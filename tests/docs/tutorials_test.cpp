@@ -1,4 +1,4 @@
-// Every command of the tutorials succeeds and prints what the page says.
+// Every command of the tutorials and recipes succeeds, and prints what the page says.
 #include <gtest/gtest.h>
 
 #include "tests/docs/document.hpp"
@@ -17,6 +17,11 @@ TEST_P(Tutorial, DoesWhatItSays) {
 
 INSTANTIATE_TEST_SUITE_P(Each, Tutorial, ::testing::Values("tabulate", "fit", "trajectories"),
                          [](const auto& page) { return std::string(page.param); });
+
+TEST(Recipes, AllSucceedInTheirOrder) {
+  const ReadersFolder folder(VISCONTACT_EXECUTABLE);
+  folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/recipes.md");
+}
 
 }  // namespace
 }  // namespace viscontact

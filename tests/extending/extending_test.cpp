@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/docs/document.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/brenner.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 namespace {

@@ -1,10 +1,10 @@
 #include "viscontact/fitting/basis_comparison.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 namespace {

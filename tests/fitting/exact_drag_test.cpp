@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
-#include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/fitting/long_double_least_squares.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {
 namespace {

@@ -12,15 +12,15 @@
 #include <sstream>
 #include <vector>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/system/process.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/lubrication/spread_gaps.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/spread_gaps.hpp"
 
 namespace viscontact {
 namespace {

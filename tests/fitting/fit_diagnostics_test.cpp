@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/lubrication/terms.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,14 +6,14 @@
 #include <random>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,13 +8,13 @@
 #include <set>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/fit.hpp"
-#include "viscontact/lubrication/terms.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {

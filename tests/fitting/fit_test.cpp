@@ -8,11 +8,11 @@
 #include <numbers>
 #include <string>
 
-#include "viscontact/lubrication/terms.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {
@@ -191,7 +191,7 @@ TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
   std::vector<double> gaps;
   for (int i = 0; i < 10; ++i) gaps.push_back(0.5 * (1 + i * 1e-15));
   const auto table = exact_drag_table(gaps, {-1}, 3, 1);
-  EXPECT_THAT(failure(ExitCode::kNotConverged,
+  EXPECT_THAT(failure(ErrorKind::kNotConverged,
                       [&] { fit_force_table(table, "lecture", Weights::kRelative); }),
               HasSubstr("cannot be told apart"));
 }

@@ -11,11 +11,11 @@
 #include <random>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact {
 namespace {

@@ -9,11 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/lubrication/terms.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {
@@ -162,7 +162,7 @@ TEST(ImpulseInverse, RefusesWhatIsNoImpulse) {
 TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
   const LubricationForce force(planted_fit({{"1/q", 1}}, 1e-3, 2),
                                BelowInterval::kLubricationLimit);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
               HasSubstr("thinner than the smallest number"));
 }
 

@@ -7,10 +7,10 @@
 #include <random>
 #include <string>
 
-#include "viscontact/lubrication/terms.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/fitting/long_double_least_squares.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
 namespace {
@@ -135,7 +135,7 @@ TEST(LeastSquares, RefusesDependentColumns) {
   for (int trial = 0; trial < 200; ++trial) {
     Eigen::MatrixXd matrix = random_matrix(40, 5, random);
     matrix.col(4) = matrix.col(0) - 3 * matrix.col(1) + 0.1 * matrix.col(2);  // but for rounding
-    EXPECT_THAT(failure(ExitCode::kNotConverged,
+    EXPECT_THAT(failure(ErrorKind::kNotConverged,
                         [&] { solve_least_squares(matrix, Eigen::VectorXd::Ones(40)); }),
                 HasSubstr("cannot be told apart"));
   }
@@ -145,7 +145,7 @@ TEST(LeastSquares, RefusesAColumnOfZeros) {
   std::mt19937_64 random(6);
   Eigen::MatrixXd matrix = random_matrix(10, 3, random);
   matrix.col(1).setZero();
-  EXPECT_THAT(failure(ExitCode::kNotConverged,
+  EXPECT_THAT(failure(ErrorKind::kNotConverged,
                       [&] { solve_least_squares(matrix, Eigen::VectorXd::Ones(10)); }),
               HasSubstr("cannot be told apart"));
 }

@@ -1,5 +1,4 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 
 namespace viscontact {
 namespace {

@@ -9,11 +9,11 @@
 #include <limits>
 #include <string>
 
-#include "viscontact/common/csv.hpp"
 #include "tests/fitting/samples.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/gauss_legendre.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
+#include "viscontact/common/csv.hpp"
 
 namespace viscontact {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/oracles/brenner.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "tests/oracles/brenner.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {

@@ -5,12 +5,12 @@
 #include <regex>
 #include <string>
 
+#include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/common/hash/sha256.hpp"
-#include "tests/oracles/brenner.hpp"
 
 namespace viscontact {
 namespace {

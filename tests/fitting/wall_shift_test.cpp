@@ -60,7 +60,7 @@ TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
       (void)fit_wall_shift(table, smooth());
       ADD_FAILURE() << "accepted";
     } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), ExitCode::kBadInput);
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
       EXPECT_THAT(error.what(), HasSubstr(words));
     }
   };

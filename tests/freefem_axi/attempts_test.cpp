@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {

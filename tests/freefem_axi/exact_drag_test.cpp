@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "viscontact/freefem_axi/tabulate.hpp"
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/sphere_in_cylinder.hpp"
+#include "viscontact/freefem_axi/tabulate.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {

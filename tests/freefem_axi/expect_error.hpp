@@ -12,9 +12,9 @@ namespace viscontact {
 
 /// Expects `action()` to throw an Error of that exit code whose message satisfies `message`.
 template <class Action>
-void expect_error(const Action& action, ExitCode exit_code,
+void expect_error(const Action& action, ErrorKind kind,
                   const ::testing::Matcher<std::string>& message) {
-  EXPECT_THAT(failure(exit_code, action), message);
+  EXPECT_THAT(failure(kind, action), message);
 }
 
 }  // namespace viscontact

@@ -4,11 +4,11 @@
 
 #include <ostream>
 
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {
@@ -23,16 +23,16 @@ TEST(MissingFreeFem, ErrorSaysHowToInstallIt) {
   const FreeFem missing{"no-such-freefem", "."};
   const auto said = AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install"),
                           HasSubstr("VISCONTACT_FREEFEM"));
-  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
-               said);
-  expect_error([&] { (void)freefem_version(missing); }, ExitCode::kExternalProgram, said);
+  expect_error([&] { (void)solve_row(missing, kTabulation, 0.25, -1); },
+               ErrorKind::kExternalProgram, said);
+  expect_error([&] { (void)freefem_version(missing); }, ErrorKind::kExternalProgram, said);
 }
 
 TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
   const TemporaryFolder scratch;
   put_text(scratch.path() / "text", "not a program");
   const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
-  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+  expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ErrorKind::kExternalProgram,
                HasSubstr("text"));
 }
 
@@ -66,7 +66,7 @@ TEST_P(FailingFreeFem, ErrorNamesTheRowAndItsLastLines) {
   said.insert(said.end(), {"gap 0.25", "velocity -1"});
   for (const auto& part : said)
     expect_error([&] { (void)solve_row(fake.freefem(), kTabulation, 0.25, -1); },
-                 ExitCode::kExternalProgram, AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
+                 ErrorKind::kExternalProgram, AllOf(HasSubstr(part), Not(HasSubstr("\n"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -103,7 +103,7 @@ TEST(OtherProgram, HasNoFreeFemVersion) {
       [&] {
         (void)freefem_version({(scratch.path() / "other").string(), scratch.path()});
       },
-      ExitCode::kExternalProgram, HasSubstr("other"));
+      ErrorKind::kExternalProgram, HasSubstr("other"));
 }
 
 // Each would sleep for an hour without the limits.
@@ -112,7 +112,8 @@ TEST(FreeFemThatHangs, IsStoppedAtTheLimitOfItsRow) {
   const FakeFreeFem fake(scratch.path(), "exec sleep 3600\n");
   auto freefem = fake.freefem();
   freefem.row_limit = std::chrono::seconds(1);
-  expect_error([&] { (void)solve_row(freefem, kTabulation, 0.25, -1); }, ExitCode::kExternalProgram,
+  expect_error([&] { (void)solve_row(freefem, kTabulation, 0.25, -1); },
+               ErrorKind::kExternalProgram,
                AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("not ended after 1 s"),
                      HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
 }
@@ -123,7 +124,7 @@ TEST(FreeFemThatHangs, IsStoppedWhenItIsAskedForItsVersion) {
   make_executable(scratch.path() / "sleeper");
   FreeFem freefem{(scratch.path() / "sleeper").string(), scratch.path()};
   freefem.version_limit = std::chrono::seconds(1);
-  expect_error([&] { (void)freefem_version(freefem); }, ExitCode::kExternalProgram,
+  expect_error([&] { (void)freefem_version(freefem); }, ErrorKind::kExternalProgram,
                AllOf(HasSubstr("sleeper does not say which version it is"),
                      HasSubstr("not ended after 1 s")));
 }

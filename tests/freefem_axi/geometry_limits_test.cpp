@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/exact_rows.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {
@@ -62,7 +62,7 @@ TEST(ContainerThatIsTooLarge, IsSaidInPlaceOfAnAssertionOfFreeFem) {
   auto row = exact_row("plane", 0.1, {}, kAccuracy, plane_drag_factor(0.1));
   row.tabulation.container = Container{1e6, 1e6};
   expect_error([&] { (void)solve_row(default_freefem(), row.tabulation, 0.1, -1); },
-               ExitCode::kExternalProgram,
+               ErrorKind::kExternalProgram,
                ::testing::AllOf(::testing::HasSubstr("gap 0.1"),
                                 ::testing::HasSubstr("take a smaller container")));
 }

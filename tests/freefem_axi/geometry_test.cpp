@@ -10,11 +10,11 @@
 #include <numbers>
 #include <vector>
 
-#include "viscontact/freefem_axi/freefem.hpp"
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::string> keys_of(const char* name) {
 
 TEST(Geometry, UnknownOneIsBadInputThatListsThoseThereAre) {
   expect_error(
-      [] { (void)find_geometry("torus"); }, ExitCode::kBadInput,
+      [] { (void)find_geometry("torus"); }, ErrorKind::kBadInput,
       AllOf(HasSubstr("torus"), HasSubstr("plane, free_surface, sphere, cavity, rough_plane")));
 }
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <string>
 
-#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/freefem_axi/levels.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <ostream>
 
-#include "viscontact/freefem_axi/freefem.hpp"
 #include "tests/freefem_axi/levels.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact {
 namespace {

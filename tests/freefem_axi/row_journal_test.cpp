@@ -6,10 +6,10 @@
 
 #include <csignal>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/row_record.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_record.hpp"
 
 namespace viscontact {
 namespace {
@@ -132,7 +132,7 @@ TEST_F(RowJournalFile, RowAppendedAfterTheDiskWasFullForAWhileIsWhole) {
   full.rlim_cur = room;
   RowJournal journal(path(), kHash);
   ::setrlimit(RLIMIT_FSIZE, &full);
-  expect_error([&] { journal.append(kSecond); }, ExitCode::kBadInput,
+  expect_error([&] { journal.append(kSecond); }, ErrorKind::kBadInput,
                AllOf(HasSubstr(path().string()), HasSubstr("File too large"),
                      HasSubstr("the same command goes on")));
   ::setrlimit(RLIMIT_FSIZE, &before);
@@ -145,7 +145,7 @@ TEST_F(RowJournalFile, SecondHolderIsRefusedUntilTheFirstLetsGo) {
   {
     RowJournal journal(path(), kHash);
     journal.append(kFirst);
-    expect_error([&] { const RowJournal second(path(), kHash); }, ExitCode::kBadInput,
+    expect_error([&] { const RowJournal second(path(), kHash); }, ErrorKind::kBadInput,
                  HasSubstr("another tabulation"));
     journal.append(kSecond);
   }
@@ -205,11 +205,11 @@ TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
   // A folder where the file should be, and a file where its folder should be: refused to root as well.
   const auto folder = scratch_.path() / "folder.rows";
   std::filesystem::create_directory(folder);
-  expect_error([&] { const RowJournal journal(folder, kHash); }, ExitCode::kBadInput,
+  expect_error([&] { const RowJournal journal(folder, kHash); }, ErrorKind::kBadInput,
                HasSubstr(folder.string()));
   put_text(scratch_.path() / "file", "");
   const auto below = scratch_.path() / "file" / "table.csv.rows";
-  expect_error([&] { const RowJournal journal(below, kHash); }, ExitCode::kBadInput,
+  expect_error([&] { const RowJournal journal(below, kHash); }, ErrorKind::kBadInput,
                HasSubstr((scratch_.path() / "file").string()));
 }
 

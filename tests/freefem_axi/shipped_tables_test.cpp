@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/freefem_axi/tabulation.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/bispherical.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {
 namespace {

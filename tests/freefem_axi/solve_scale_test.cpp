@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/freefem_axi/row_picture.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
+#include "viscontact/freefem_axi/row_picture.hpp"
 
 namespace viscontact {
 namespace {
@@ -55,7 +55,7 @@ TEST(SolveScale, ForceThatNoDoubleHoldsIsAnError) {
         [&, viscosity = viscosity, velocity = velocity] {
           (void)solve_row(default_freefem(), tabulation_of_viscosity(viscosity), kGap, velocity);
         },
-        ExitCode::kBadInput, HasSubstr("which a double cannot hold"));
+        ErrorKind::kBadInput, HasSubstr("which a double cannot hold"));
 }
 
 TEST(SolveScale, FlowOfAPictureHasTheCasesUnits) {

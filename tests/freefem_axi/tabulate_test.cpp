@@ -6,13 +6,13 @@
 
 #include <thread>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/row_journal.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/row_journal.hpp"
 
 namespace viscontact {
 namespace {
@@ -106,7 +106,7 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
       "[ $gap = 0.25 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
   expect_error(
       [&] { (void)tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report); },
-      ExitCode::kExternalProgram,
+      ErrorKind::kExternalProgram,
       AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck"), Not(HasSubstr("gap 0.5"))));
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1"));
 
@@ -148,7 +148,7 @@ TEST_F(Tabulate, WorkerOfAClusterLeavesInItsJournalThatFreeFemIsMissing) {
   const RowWorker worker = {{"no-such-freefem", "."}, 1, "0-of-1.node.1"};
   expect_error(
       [&] { compute_rows(worker, tabulation_, grid_of(tabulation_), table_path(), no_report); },
-      ExitCode::kExternalProgram, HasSubstr("no-such-freefem"));
+      ErrorKind::kExternalProgram, HasSubstr("no-such-freefem"));
   const auto record = read_row_record(table_path(), tabulation_hash(tabulation_));
   EXPECT_EQ(record.failed.size(), 4U);
   EXPECT_THAT(record.failed.at({0.5, -1}), HasSubstr("no-such-freefem"));
@@ -167,7 +167,7 @@ TEST_F(Tabulate, MissingFreeFemIsSaidOnceBeforeAnythingIsWritten) {
       [&] {
         (void)tabulate({"no-such-freefem", "."}, tabulation_, 2, table_path(), no_report);
       },
-      ExitCode::kExternalProgram,
+      ErrorKind::kExternalProgram,
       AllOf(HasSubstr("no-such-freefem"), Not(HasSubstr("rows failed"))));
   EXPECT_FALSE(std::filesystem::exists(journal_path(table_path())));
 }

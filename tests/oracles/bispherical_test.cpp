@@ -9,9 +9,9 @@
 #include <initializer_list>
 #include <string>
 
-#include "viscontact/common/csv.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
+#include "viscontact/common/csv.hpp"
 
 namespace viscontact {
 namespace {

@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "viscontact/common/csv.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
+#include "viscontact/common/csv.hpp"
 
 namespace viscontact {
 namespace {

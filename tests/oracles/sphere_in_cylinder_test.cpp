@@ -8,9 +8,9 @@
 #include <initializer_list>
 #include <string>
 
-#include "viscontact/common/csv.hpp"
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
+#include "viscontact/common/csv.hpp"
 
 namespace viscontact {
 namespace {

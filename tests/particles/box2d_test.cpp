@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/box2d_case.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "viscontact/common/error.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -107,7 +107,7 @@ TEST(ClosingWalls, EndTheRunOnceTheOverlapPassesARadius) {
     for (int n = 0; n < 80; ++n) simulation.step(1e9);
     FAIL() << "the walls have met";
   } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), ExitCode::kNotConverged);
+    EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
     const std::string message = error.what();
     EXPECT_NE(message.find("planes that move are 1, 3"), std::string::npos) << message;
     EXPECT_NE(message.find("overlap"), std::string::npos) << message;

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/error.hpp"
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

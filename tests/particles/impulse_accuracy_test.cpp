@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "viscontact/common/system/team.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/system/thread_pool.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -158,7 +158,7 @@ TEST_P(Invariance, ThreadsDoNotChangeABit) {
       Simulation simulation(scene.setting, scene.state, threads);
       std::size_t contacts = 0;
       for (int n = 0; n < 5; ++n) contacts = std::max(contacts, simulation.step(1).contacts);
-      EXPECT_GT(contacts, Team::kBlock);
+      EXPECT_GT(contacts, ThreadPool::kBlock);
       results.push_back(simulation.state());
     }
     for (const auto& result : results) {

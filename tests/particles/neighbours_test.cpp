@@ -45,8 +45,8 @@ std::vector<Pair> all_close_pairs(const Points& points) {
 void expect_all_found(const Points& points) {
   const auto expected = all_close_pairs(points);
   for (const int threads : {1, 2, 5}) {
-    Team team(threads);
-    const auto found = close_pairs(points.dimension, points.positions, points.extents, team);
+    ThreadPool pool(threads);
+    const auto found = close_pairs(points.dimension, points.positions, points.extents, pool);
     ASSERT_EQ(found, expected) << threads << " threads";
   }
 }
@@ -110,16 +110,16 @@ TEST_P(Neighbours, AreFoundBesideParticlesThatFled) {
 TEST_P(Neighbours, AreAllWhoShareAPoint) {
   Points points{GetParam(), {}, std::vector<double>(70, 0.5)};
   points.positions.assign(70 * static_cast<std::size_t>(GetParam()), -3.25);
-  Team team(1);
-  EXPECT_EQ(close_pairs(GetParam(), points.positions, points.extents, team).size(), 70U * 69 / 2);
+  ThreadPool pool(1);
+  EXPECT_EQ(close_pairs(GetParam(), points.positions, points.extents, pool).size(), 70U * 69 / 2);
   expect_all_found(points);
 }
 
 TEST_P(Neighbours, OfOneOrNoneAreNone) {
-  Team team(1);
-  EXPECT_TRUE(close_pairs(GetParam(), {}, {}, team).empty());
+  ThreadPool pool(1);
+  EXPECT_TRUE(close_pairs(GetParam(), {}, {}, pool).empty());
   const std::vector<double> position(static_cast<std::size_t>(GetParam()), -1e9), extent{3};
-  EXPECT_TRUE(close_pairs(GetParam(), position, extent, team).empty());
+  EXPECT_TRUE(close_pairs(GetParam(), position, extent, pool).empty());
 }
 
 TEST_P(Neighbours, OnALatticeAreFoundThoughTheyAreCloseByARoundingOnly) {
@@ -147,16 +147,16 @@ TEST_P(Neighbours, OnALatticeAreFoundThoughTheyAreCloseByARoundingOnly) {
 TEST_P(Neighbours, AreTheSameForAnyNumberOfThreadsInManyBlocks) {
   Random random(4);
   const auto points =
-      random_points(GetParam(), 3 * Team::kBlock + 5, GetParam() == 2 ? 300 : 50, 1, random);
-  Team one(1);
+      random_points(GetParam(), 3 * ThreadPool::kBlock + 5, GetParam() == 2 ? 300 : 50, 1, random);
+  ThreadPool one(1);
   const auto expected = close_pairs(GetParam(), points.positions, points.extents, one);
-  EXPECT_GT(expected.size(), Team::kBlock);
+  EXPECT_GT(expected.size(), ThreadPool::kBlock);
   EXPECT_TRUE(std::ranges::is_sorted(expected, [](const Pair& a, const Pair& b) {
     return std::pair(a.first, a.second) < std::pair(b.first, b.second);
   }));
   for (const int threads : {2, 5}) {
-    Team team(threads);
-    EXPECT_TRUE(close_pairs(GetParam(), points.positions, points.extents, team) == expected);
+    ThreadPool pool(threads);
+    EXPECT_TRUE(close_pairs(GetParam(), points.positions, points.extents, pool) == expected);
   }
 }
 
@@ -164,10 +164,10 @@ TEST_P(Neighbours, DoNotTakeLongerBecauseOneParticleFled) {
   Random random(5);
   constexpr std::size_t kCount = 20'000;
   auto points = random_points(GetParam(), kCount, GetParam() == 2 ? 250 : 50, 0, random);
-  Team team(1);
+  ThreadPool pool(1);
   const auto seconds = [&] {
     const auto start = std::chrono::steady_clock::now();
-    close_pairs(GetParam(), points.positions, points.extents, team);
+    close_pairs(GetParam(), points.positions, points.extents, pool);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   const double together = std::min(seconds(), seconds());

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "viscontact/reduced_model/models/contact_model.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/reduced_model/models/contact_model.hpp"
 
 namespace viscontact::particles {
 namespace {

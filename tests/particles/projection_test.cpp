@@ -171,17 +171,17 @@ SolverMethod<D> method_of(const SolverMethodRow& row) {
 
 struct Answer {
   Eigen::VectorXd impulses, displacements;
-  Solved solved;
+  SolverResult solved;
 };
 
 template <int D>
 Answer answer_of(const SolverMethodRow& row, const Problem<D>& problem, double tolerance,
                  int threads = 1) {
-  Team team(threads);
+  ThreadPool pool(threads);
   auto contacts = problem.contacts;
   for (auto& contact : contacts) contact.allowed = tolerance;
-  ContactGraph<D> graph(contacts, problem.displacements, problem.mobilities, team);
-  FaceFactor<D> factor;
+  ContactGraph<D> graph(contacts, problem.displacements, problem.mobilities, pool);
+  ActiveSetFactor<D> factor;
   Answer answer;
   answer.solved = method_of<D>(row)(graph, 1'000'000, factor);
   std::vector<double> impulses(problem.contacts.size());
@@ -297,14 +297,14 @@ TEST(Projection, OfAPackingWithMoreContactsThanFreedomsHasOneVelocity) {
   }
 }
 
-TEST(FaceFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
+TEST(ActiveSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
   Random random(7);
-  Team team(1);
+  ThreadPool pool(1);
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
     const auto problem = random_problem<2>(random);
     const auto dense = problem.dense();
-    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, team);
+    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
     const auto choose_free = [&] {
       for (std::size_t c = 0; c < graph.count(); ++c)
         graph.z[c] = graph.bound[c] + (random.chance(0.7) ? 1 : 0);
@@ -313,7 +313,7 @@ TEST(FaceFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
     std::vector<Eigen::Index> made_of;
     for (std::size_t c = 0; c < graph.count(); ++c)
       if (graph.is_free(c)) made_of.push_back(static_cast<Eigen::Index>(c));
-    FaceFactor<2> factor;
+    ActiveSetFactor<2> factor;
     EXPECT_FALSE(factor.exists());
     std::vector<char> active(graph.count());
     for (std::size_t c = 0; c < graph.count(); ++c) active[c] = graph.is_free(c) ? 1 : 0;
@@ -426,9 +426,9 @@ TEST(Projection, ThatCannotBeSaysSo) {
       contact.allowed = 1e-6;
       problem.contacts.push_back(contact);
     }
-    Team team(1);
-    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, team);
-    FaceFactor<2> factor;
+    ThreadPool pool(1);
+    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
+    ActiveSetFactor<2> factor;
     const auto solved = row.discs(graph, 1000, factor);
     // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
     // 1e4 or more, of which the regularisation (1e-14) makes a gap.

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "viscontact/particles/contacts_now.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

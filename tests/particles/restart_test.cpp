@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -29,7 +29,9 @@ State disc_on_plane(double gamma) {
 
 class RestartFile : public ::testing::Test {
  protected:
-  State read(const std::string& text) const { return read_restart(folder_.file("restart.bin", text)); }
+  State read(const std::string& text) const {
+    return read_restart(folder_.file("restart.bin", text));
+  }
   TemporaryFolder folder_;
 };
 
@@ -61,8 +63,8 @@ TEST_F(RestartFile, OfVersion1HasNoErrorsOfGamma) {
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {
-  for (const double gamma : {std::numeric_limits<double>::quiet_NaN(), 0.5,
-                             -std::numeric_limits<double>::infinity()})
+  for (const double gamma :
+       {std::numeric_limits<double>::quiet_NaN(), 0.5, -std::numeric_limits<double>::infinity()})
     EXPECT_THAT(bad_input([&] { read(write_restart(disc_on_plane(gamma))); }),
                 HasSubstr("is not a whole restart file"));
 }

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {

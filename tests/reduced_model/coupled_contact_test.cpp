@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
-#include "tests/common/failure.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -140,7 +140,7 @@ TEST(Threshold, RefusesToStartBelowItsThreshold) {
     motion.threshold_gap = threshold_gap;
     EXPECT_THAT(
         failure(
-            ExitCode::kBadInput,
+            ErrorKind::kBadInput,
             [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
         HasSubstr("viscous_contact.threshold_gap"));
   }
@@ -150,7 +150,7 @@ TEST(Threshold, RefusesAThresholdOutsideTheFit) {
   Motion motion = lecture_motion();
   motion.threshold_gap = 1e-4;
   EXPECT_THAT(
-      failure(ExitCode::kBadInput,
+      failure(ErrorKind::kBadInput,
               [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
       HasSubstr("[0.001, 2]"));
 }

@@ -137,7 +137,7 @@ TEST(Cvode, PassesOnAnErrorThatTheSystemThrows) {
   StiffSystem system = oscillator();
   const auto derivative = system.derivative;
   system.derivative = [derivative](double t, std::span<const double> y, std::span<double> result) {
-    if (y[0] < 0.5) throw Error(ExitCode::kBadInput, "x is too small for us");
+    if (y[0] < 0.5) throw Error(ErrorKind::kBadInput, "x is too small for us");
     derivative(t, y, result);
   };
   Cvode cvode(system, std::array{1.0, 0.0});
@@ -148,7 +148,7 @@ TEST(Cvode, PassesOnAnErrorThatTheSystemThrows) {
 TEST(Cvode, PassesOnAnErrorOfTheJacobian) {
   StiffSystem system = oscillator();
   system.jacobian = [](double, std::span<const double>, std::span<double>) {
-    throw Error(ExitCode::kBadInput, "no slope here");
+    throw Error(ErrorKind::kBadInput, "no slope here");
   };
   Cvode cvode(system, std::array{1.0, 0.0});
   cvode.restart(0, 3);
@@ -164,7 +164,7 @@ TEST(Cvode, GetsAroundAnErrorThatASmallerStepAvoids) {
                                              std::span<double> result) {
     if (!refused && t > 0.5) {
       refused = true;
-      throw Error(ExitCode::kBadInput, "not there");
+      throw Error(ErrorKind::kBadInput, "not there");
     }
     derivative(t, y, result);
   };
@@ -192,7 +192,7 @@ StiffSystem blow_up() {
 TEST(Cvode, SaysWhenItGivesUp) {
   Cvode cvode(blow_up(), std::array{1.0});
   cvode.restart(0, 2);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { finish(cvode, 2); }),
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { finish(cvode, 2); }),
               HasSubstr("CVODE gave up at time"));
 }
 
@@ -203,7 +203,7 @@ TEST(Cvode, PrintsNothing) {
   testing::internal::CaptureStderr();
   Cvode cvode(blow_up(), std::array{1.0});
   cvode.restart(0, 2);
-  failure(ExitCode::kNotConverged, [&] { finish(cvode, 2); });
+  failure(ErrorKind::kNotConverged, [&] { finish(cvode, 2); });
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/files/file.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {
@@ -91,7 +91,7 @@ TEST(Progress, IsToldByEveryModelInTimesThatDoNotDecrease) {
 
 TEST(Progress, MayEndAModel) {
   Motion motion = lecture_motion();
-  motion.progress = [](double) { throw Error(ExitCode::kInterrupted, "enough"); };
+  motion.progress = [](double) { throw Error(ErrorKind::kInterrupted, "enough"); };
   for (const auto& model : all_models())
     EXPECT_THROW((void)simulate(model, motion, LubricationForce::exact_plane(3, 1)), Error)
         << model.name;

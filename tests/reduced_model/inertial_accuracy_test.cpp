@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/reduced_model/models/inertial.hpp"
 #include "tests/oracles/inertial_motion.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 
 namespace viscontact {
 namespace {

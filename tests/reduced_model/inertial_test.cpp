@@ -9,10 +9,10 @@
 #include <functional>
 #include <string>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/common/csv.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact {
 namespace {

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAreArray;
 
-// interfaces.md, "Trajectory".
+// file-formats.md, "Trajectory".
 const std::vector<std::string> kNames = {"reference",
                                          "reference_exact",
                                          "inertial",
@@ -141,7 +141,7 @@ TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {
   Motion motion = lecture_motion();
   motion.mass = 1e-300;
   motion.external_force = ExternalForce({{4, 1e200}});
-  EXPECT_THAT(failure(ExitCode::kNotConverged,
+  EXPECT_THAT(failure(ErrorKind::kNotConverged,
                       [&] {
                         simulate(find_model("viscous_contact"), motion,
                                  LubricationForce::exact_plane(3, 1));

@@ -7,11 +7,11 @@
 #include <numbers>
 #include <random>
 
+#include "tests/common/failure.hpp"
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
-#include "tests/common/failure.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {

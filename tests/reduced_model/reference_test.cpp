@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "viscontact/reduced_model/models/reference_exact.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact {
 namespace {
@@ -137,7 +137,7 @@ TEST(Reference, SaysWhenAStepGoesThroughThePlane) {
   Motion motion = lecture_motion();
   motion.reference_time_step = 1;
   const LubricationForce force(lecture_fit(), BelowInterval::kLubricationLimit);
-  EXPECT_THAT(failure(ExitCode::kNotConverged, [&] { simulate_reference(motion, force); }),
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { simulate_reference(motion, force); }),
               HasSubstr("smaller reference.time_step"));
 }
 

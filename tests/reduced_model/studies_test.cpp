@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {

@@ -22,7 +22,7 @@ using ::testing::StartsWith;
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-void expect_same_bits(const Maybe& a, const Maybe& b) {
+void expect_same_bits(const OptionalDouble& a, const OptionalDouble& b) {
   ASSERT_EQ(a.has_value(), b.has_value());
   if (a.has_value()) {
     EXPECT_EQ(bits(*a), bits(*b)) << *a << " and " << *b;

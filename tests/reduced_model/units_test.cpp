@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/fitting/fit_force_table.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
 namespace {

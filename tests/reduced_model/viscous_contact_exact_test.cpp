@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/inelastic_contact.hpp"
 #include "viscontact/reduced_model/models/viscous_contact.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
-#include "tests/reduced_model/cases.hpp"
 
 namespace viscontact {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "viscontact/lubrication/lubrication_force.hpp"
 #include "tests/sweep/sweep_rows.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 
 namespace viscontact {
 namespace {

@@ -9,11 +9,11 @@
 #include <functional>
 #include <stdexcept>
 
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
-#include "tests/common/failure.hpp"
-#include "tests/common/temporary_folder.hpp"
 
 namespace viscontact {
 namespace {

@@ -11,14 +11,14 @@
 #include <map>
 #include <stdexcept>
 
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/sweep/sweep_rows.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "tests/common/failure.hpp"
-#include "tests/common/temporary_folder.hpp"
-#include "tests/sweep/sweep_rows.hpp"
 
 namespace viscontact {
 namespace {
@@ -272,7 +272,7 @@ TEST(SweepPlanCheck, RadiusInTheMiddleIsThatOfTheFitToo) {
 TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   const auto plan = shipped("vanishing_viscosity.toml");
   const auto wrong = [](const SweepPlan& p) {
-    return failure(ExitCode::kWrongUsage, [&] { Sweep sweep(p); });
+    return failure(ErrorKind::kWrongUsage, [&] { Sweep sweep(p); });
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
               HasSubstr("the key sphere.mass is given twice"));

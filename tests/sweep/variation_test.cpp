@@ -9,9 +9,9 @@
 #include <limits>
 #include <set>
 
-#include "viscontact/case_file/case_file.hpp"
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
+#include "viscontact/case_file/case_file.hpp"
 
 namespace viscontact {
 namespace {
@@ -125,7 +125,7 @@ TEST(Variation, OtherTextsAreRefusedWithWhatIsWrongAndWhatIsAllowed) {
                                       {"a=0:2:log:3", "must not reach 0 or change sign"},
                                       {"a=2:0:log:3", "must not reach 0 or change sign"},
                                       {"a=-1:1:log:3", "must not reach 0 or change sign"}}) {
-    EXPECT_THAT(failure(ExitCode::kWrongUsage, [&] { parse_variation(text); }),
+    EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { parse_variation(text); }),
                 AllOf(HasSubstr(std::string("--vary ") + text + ":"), HasSubstr(words),
                       HasSubstr("KEY=FROM:TO:log:COUNT")))
         << text;
@@ -148,13 +148,13 @@ TEST(Grid, SizeIsLimited) {
   EXPECT_EQ(grid_size({million, million}), 1'000'000'000'000U);
   // 1e27 is no 64-bit number.
   const auto billion = parse_variation("a=0:1:1e9");
-  EXPECT_THAT(failure(ExitCode::kWrongUsage,
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage,
                       [&] {
                         (void)grid_size({billion, billion, billion});
                       }),
               AllOf(HasSubstr("1e+27 points"), HasSubstr("at most 1e+12")));
   const std::vector<Variation> beyond = {million, million, parse_variation("b=1,2")};
-  EXPECT_THAT(failure(ExitCode::kWrongUsage, [&] { (void)grid_size(beyond); }),
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)grid_size(beyond); }),
               HasSubstr("2e+12 points"));
 }
 

@@ -1,0 +1,88 @@
+#include "viscontact/common/system/thread_pool.hpp"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace viscontact {
+
+struct ThreadPool::Workers {
+  void (*call)(const void*, std::size_t) = nullptr;
+  const void* job = nullptr;
+  std::size_t blocks = 0;
+  std::atomic<std::size_t> next{0};  // block
+  std::atomic<unsigned> round{0};    // of loops; changes to wake the workers
+  std::atomic<int> busy{0};          // workers that have not finished this round
+  bool stop = false;                 // read after `round`
+  std::vector<std::thread> threads;
+
+  std::mutex failing;
+  std::exception_ptr failure;  // the first of a loop
+
+  void work() {
+    for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1)) {
+      try {
+        call(job, block);
+      } catch (...) {
+        const std::lock_guard lock(failing);
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  }
+
+  void serve() {
+    for (unsigned seen = 0;;) {
+      // Loops follow each other within microseconds in a projection: look a while before sleeping.
+      constexpr int kLooks = 2000;
+      for (int look = 0; look < kLooks && round.load() == seen; ++look) std::this_thread::yield();
+      round.wait(seen);
+      seen = round.load();
+      if (stop) return;
+      work();
+      if (busy.fetch_sub(1) == 1) busy.notify_one();
+    }
+  }
+};
+
+ThreadPool::ThreadPool(int threads) {
+  if (threads <= 1) return;
+  workers_ = std::make_unique<Workers>();
+  workers_->threads.reserve(static_cast<std::size_t>(threads));
+  try {
+    for (int i = 1; i < threads; ++i)
+      workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
+  } catch (const std::system_error&) {
+    // The system gives no more: those that are there do the work, with the same result.
+  }
+}
+
+ThreadPool::~ThreadPool() {
+  if (!workers_) return;
+  workers_->stop = true;
+  workers_->round.fetch_add(1);
+  workers_->round.notify_all();
+  for (auto& thread : workers_->threads) thread.join();
+}
+
+void ThreadPool::run(std::size_t blocks, void (*call)(const void*, std::size_t), const void* job) {
+  if (!workers_) {
+    for (std::size_t block = 0; block < blocks; ++block) call(job, block);
+    return;
+  }
+  auto& w = *workers_;
+  w.call = call;
+  w.job = job;
+  w.blocks = blocks;
+  w.next.store(0);
+  w.busy.store(static_cast<int>(w.threads.size()));
+  w.round.fetch_add(1);
+  w.round.notify_all();
+  w.work();
+  for (int busy = w.busy.load(); busy != 0; busy = w.busy.load()) w.busy.wait(busy);
+  if (w.failure) std::rethrow_exception(std::exchange(w.failure, nullptr));
+}
+
+}  // namespace viscontact

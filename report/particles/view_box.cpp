@@ -1,0 +1,120 @@
+#include "viscontact/report/particles/view_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscontact {
+namespace {
+
+using particles::dot;
+using particles::Frame;
+using particles::PlanePosition;
+using particles::Playback;
+using particles::Vector;
+using particles::operator+;
+using particles::operator-;
+using particles::operator*;
+
+/// Of the particles of a frame, without the `cut` outermost to either side.
+Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
+  std::vector<double> lows, highs;
+  for (std::size_t k = 0; k < playback.radii.size(); ++k) {
+    const double x = position(playback, frame, k)[axis], r = playback.radii[k];
+    if (!std::isfinite(x)) continue;
+    lows.push_back(x - r);
+    highs.push_back(x + r);
+  }
+  Interval reach;
+  if (lows.size() <= 2 * cut) return reach;
+  const auto at = static_cast<std::ptrdiff_t>(cut);
+  std::ranges::nth_element(lows, lows.begin() + at);
+  std::ranges::nth_element(highs, highs.end() - 1 - at);
+  reach.add(lows[cut], highs[highs.size() - 1 - cut]);
+  return reach;
+}
+
+double size_of(const ViewBox& room, int dimension) {
+  double size = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    size = std::max(size, room.high[d] - room.low[d]);
+  return size;
+}
+
+/// Reaches for the plane if it is next to the room, so that particles are seen to lie on it.
+void extend_to_plane(ViewBox& room, const PlanePosition& plane, int dimension) {
+  constexpr double kNear = 0.5;  // of the room's size
+  double distance = 0;
+  for (std::size_t d = 0; d < 3; ++d)
+    distance +=
+        plane.normal[d] * ((plane.normal[d] > 0 ? room.low[d] : room.high[d]) - plane.point[d]);
+  if (distance <= 0 || distance > kNear * size_of(room, dimension)) return;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    const double shift = -plane.normal[d] * distance;
+    (shift < 0 ? room.low[d] : room.high[d]) += shift;
+  }
+}
+
+}  // namespace
+
+ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames) {
+  constexpr double kFlownAway = 1.5;  // times the room of the others
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  const auto cut = playback.radii.size() / (100 * dimension);  // 2 % in all, for all sides
+  ViewBox room;
+  double size = 0;
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    Interval all, central;
+    for (const auto f : frames) {
+      const auto whole = reach_of(playback, playback.frames[f], axis, 0);
+      const auto middle = reach_of(playback, playback.frames[f], axis, cut);
+      all.add(whole.low, whole.high);
+      central.add(middle.low, middle.high);
+    }
+    if (!(all.low <= all.high)) all = central = {-1, 1};
+    const bool flown = all.high - all.low > kFlownAway * (central.high - central.low);
+    room.low[axis] = flown ? central.low : all.low;
+    room.high[axis] = flown ? central.high : all.high;
+    size = std::max(size, room.high[axis] - room.low[axis]);
+  }
+  if (!(size > 0)) size = 1;
+  for (const auto f : frames)
+    for (const auto& plane : playback.frames[f].planes)
+      extend_to_plane(room, plane, playback.dimension);
+  constexpr double kMargin = 0.04, kFlattest = 0.15;
+  size = std::max(size, size_of(room, playback.dimension));
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    const double more =
+        std::max(kMargin * size, 0.5 * (kFlattest * size - (room.high[axis] - room.low[axis])));
+    room.low[axis] -= more;
+    room.high[axis] += more;
+  }
+  return room;
+}
+
+Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double u = dot(normal, a - point), v = dot(normal, b - point);
+    if (u >= 0) kept.push_back(a);
+    if ((u >= 0) != (v >= 0)) kept.push_back(a + (u / (u - v)) * (b - a));
+  }
+  return kept;
+}
+
+Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
+                        const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
+  // Planes may meet or coincide: nothing vanishes by round-off.
+  const double slack = 1e-4 * size_of(room, dimension);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    Vector axis{};
+    axis[d] = 1;
+    polygon = clipped(clipped(polygon, room.low, axis), room.high, -1.0 * axis);
+  }
+  for (std::size_t j = 0; j < planes.size(); ++j)
+    if (j != own)
+      polygon = clipped(polygon, planes[j].point - slack * planes[j].normal, planes[j].normal);
+  return polygon;
+}
+
+}  // namespace viscontact

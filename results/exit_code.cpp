@@ -1,0 +1,33 @@
+#include "viscontact/results/exit_code.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace viscontact {
+namespace {
+
+constexpr std::array<std::pair<ErrorKind, int>, 5> kExitCodes = {{
+    {ErrorKind::kWrongUsage, 2},
+    {ErrorKind::kBadInput, 3},
+    {ErrorKind::kNotConverged, 4},
+    {ErrorKind::kExternalProgram, 5},
+    {ErrorKind::kInterrupted, 130},  // as shells report an end by SIGINT: 128 + 2
+}};
+
+}  // namespace
+
+int exit_code_of(ErrorKind kind) {
+  return std::ranges::find(kExitCodes, kind, &std::pair<ErrorKind, int>::first)->second;
+}
+
+ErrorKind kind_of_exit_code(int exit_code) {
+  const auto* row = std::ranges::find(kExitCodes, exit_code, &std::pair<ErrorKind, int>::second);
+  if (row == kExitCodes.end())
+    throw std::out_of_range("no error has the exit code " + std::to_string(exit_code));
+  return row->first;
+}
+
+}  // namespace viscontact

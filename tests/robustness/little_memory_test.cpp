@@ -1,0 +1,76 @@
+// Little memory, played by the shell's limit on the size of a process: the work is done, or refused in a line. Limits from too little to begin to enough.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/app/program.hpp"
+#include "tests/app/sample_files.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/robustness/whole_outputs.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kSmallest = 20, kLargest = 500;  // [MB]
+
+class LittleMemory : public ::testing::Test {
+ protected:
+  LittleMemory() : fake_(scratch_.path()) {
+    put_text(path("case.toml"), quick_case_text());
+    put_text(path("table.csv"), exact_table_text());
+    const std::filesystem::path data = VISCONTACT_SOURCE_FOLDER "/data";
+    put_text(path("sweep.toml"), replaced(read_file(data / "cases" / "vanishing_viscosity.toml"),
+                                          "../fits", data / "fits"));
+  }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  /// Runs the command, whose outputs go to the folder `out`, with more and more memory.
+  void expect_done_or_refused(const std::vector<std::string>& arguments) const {
+    int done = 0, refused = 0;
+    for (int limit = kSmallest; limit <= kLargest; limit += limit / 4) {
+      SCOPED_TRACE(fmt::format("{} MB", limit));
+      std::filesystem::remove_all(path("out"));
+      const auto result = run_viscontact(arguments, {"VISCONTACT_FREEFEM=" + fake_.executable()},
+                                         fmt::format("ulimit -v {};", limit * 1024));
+      if (result.exit_status == 0) {
+        ++done;
+      } else if (("\n" + result.errors).find("\nviscontact: ") != std::string::npos) {
+        ++refused;
+        EXPECT_LE(result.exit_status, 5) << result.errors;
+      } else {
+        // Before main: the loader found no room for the libraries, or the shell none for the program.
+        EXPECT_THAT(result.errors, ::testing::AnyOf(HasSubstr("error while loading"),
+                                                    HasSubstr("Cannot allocate memory"),
+                                                    HasSubstr("Cannot fork"), HasSubstr("alloc")))
+            << result.exit_status;
+        EXPECT_LE(result.exit_status, 127) << result.errors;
+      }
+      expect_whole_files(path("out"));
+      EXPECT_EQ(unfinished_below(path("out")), 0);
+    }
+    EXPECT_GT(done, 0);
+    EXPECT_GT(refused, 0);
+  }
+
+  TemporaryFolder scratch_;
+  FakeFreeFem fake_;
+};
+
+TEST_F(LittleMemory, Run) {
+  expect_done_or_refused({"run", path("case.toml"), "-o", path("out"), "--jobs", "2"});
+}
+
+TEST_F(LittleMemory, Fit) {
+  expect_done_or_refused({"fit", path("table.csv"), "-o", path("out/fit.json")});
+}
+
+TEST_F(LittleMemory, Sweep) {
+  expect_done_or_refused({"sweep", path("sweep.toml"), "-o", path("out/sweep.csv"), "--jobs", "2"});
+}
+
+}  // namespace
+}  // namespace viscontact
