@@ -2,6 +2,19 @@
 
 #include <fmt/format.h>
 
+// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
+// all the same.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-truncation"
+#include <libfccp/csv.h>
+#pragma GCC diagnostic pop
+
+#include <sstream>
+#include <tuple>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/number.hpp"
+
 namespace viscontact {
 namespace {
 
@@ -76,6 +89,73 @@ double csv_comment_number(const CsvComments& comments, const std::string& key,
     throw_bad_input(
         {file}, fmt::format("the line '# {}: {}' must give a finite number", key, found->second));
   return *value;
+}
+
+void read_csv_rows(
+    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
+    CsvComments& comments, std::set<std::string>& contradictions,
+    const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row) {
+  const std::string file = path.string();
+  std::string text = read_file(path);
+  remove_trailing_blank_lines(text);
+  comments = read_csv_comments(text, &contradictions);
+  // Columns that are not asked for have names that no header line can have.
+  std::array<std::string, kMostCsvColumns> all_names;
+  all_names.fill("\n");
+  std::ranges::copy(names, all_names.begin());
+  std::istringstream stream(text);
+  // Fields are taken as text: the library's own conversion to double does not round-trip.
+  using Reader = io::CSVReader<kMostCsvColumns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
+                               io::throw_on_overflow, io::single_line_comment<'#'>>;
+  std::size_t count = 0;
+  try {
+    Reader reader("", stream);  // it would cut a long name; errors get ours below
+    std::apply(
+        [&](const auto&... name) {
+          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
+        },
+        all_names);
+    for (std::size_t i = 0; i < required; ++i)
+      if (!reader.has_column(names[i]))
+        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
+                                    hint_of_separator(text));
+    std::array<char*, kMostCsvColumns> fields{};
+    std::array<std::optional<double>, kMostCsvColumns> numbers;
+    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
+      const int line = static_cast<int>(reader.get_file_line());
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        numbers[i].reset();
+        if (fields[i] == nullptr || *fields[i] == '\0') continue;
+        numbers[i] = parse_number(fields[i]);
+        if (!numbers[i])
+          throw_bad_input({file, line},
+                          names[i] + " is not a finite number ('" + shortened(fields[i]) + "')");
+      }
+      add_row(std::span(numbers).first(names.size()), line);
+      ++count;
+    }
+  } catch (const io::error::duplicated_column_in_header& e) {
+    throw_bad_input({file},
+                    std::string("column '") + e.column_name + "' stands twice in the header line");
+  } catch (const io::error::header_missing&) {
+    throw_bad_input({file},
+                    "has no header line; it must name the columns, such as '" + names[0] + "'");
+  } catch (const io::error::too_few_columns& e) {
+    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
+  } catch (const io::error::too_many_columns& e) {
+    throw_bad_input({file, e.file_line}, "has more fields than the header line");
+  } catch (const io::error::line_length_limit_exceeded& e) {
+    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
+  } catch (const io::error::base& e) {
+    throw_bad_input({file}, e.what());
+  }
+  // A cut within the last field can leave a number: a file that says its rows ends its last line too.
+  if (const auto promised = comments.find("rows");
+      promised != comments.end() &&
+      (promised->second != std::to_string(count) || text.back() != '\n'))
+    throw_bad_input({file}, "has " + std::to_string(count) + " rows where its header says " +
+                                promised->second +
+                                ", or its last line has no end; is it truncated?");
 }
 
 }  // namespace viscontact

@@ -2,25 +2,18 @@
 // numbers.
 #pragma once
 
-// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
-// all the same.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wstringop-truncation"
-#include <libfccp/csv.h>
-#pragma GCC diagnostic pop
-
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 
@@ -63,6 +56,17 @@ void remove_trailing_blank_lines(std::string& text);
 /// Text fit to be shown in a message: its beginning, if it is long.
 std::string shortened(const std::string& text);
 
+/// Most columns that can be asked of a file.
+constexpr std::size_t kMostCsvColumns = 16;
+
+/// What read_csv does, for any number of columns: calls `add_row` with the fields of each row and its
+/// line in the file. The library is instantiated in csv.cpp alone, because each number of columns
+/// costs seconds to compile.
+void read_csv_rows(
+    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
+    CsvComments& comments, std::set<std::string>& contradictions,
+    const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row);
+
 /// The asked columns of a CSV file, in the order of `names`; the file may have them in another
 /// order, and others besides. The first `required` columns must be there, the others read as empty
 /// where they are not. Blank lines after the last row are no rows. Throws Error(kBadInput) with file and line for a missing column, a row of
@@ -71,61 +75,14 @@ std::string shortened(const std::string& text);
 template <std::size_t columns>
 CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {
-  const std::string file = path.string();
-  std::string text = read_file(path);
-  remove_trailing_blank_lines(text);
+  static_assert(columns <= kMostCsvColumns);
   CsvFile<columns> result;
-  result.comments = read_csv_comments(text, &result.contradictions);
-  std::istringstream stream(text);
-  // Fields are taken as text: the library's own conversion to double does not round-trip.
-  using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
-                               io::throw_on_overflow, io::single_line_comment<'#'>>;
-  try {
-    Reader reader("", stream);  // it would cut a long name; errors get ours below
-    std::apply(
-        [&](const auto&... name) {
-          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
-        },
-        names);
-    for (std::size_t i = 0; i < required; ++i)
-      if (!reader.has_column(names[i]))
-        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
-                                    hint_of_separator(text));
-    std::array<char*, columns> fields{};
-    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
-      CsvRow<columns> row;
-      row.line = static_cast<int>(reader.get_file_line());
-      for (std::size_t i = 0; i < columns; ++i) {
-        if (fields[i] == nullptr || *fields[i] == '\0') continue;
-        row.fields[i] = parse_number(fields[i]);
-        if (!row.fields[i])
-          throw_bad_input({file, row.line},
-                          names[i] + " is not a finite number ('" + shortened(fields[i]) + "')");
-      }
-      result.rows.push_back(row);
-    }
-  } catch (const io::error::duplicated_column_in_header& e) {
-    throw_bad_input({file},
-                    std::string("column '") + e.column_name + "' stands twice in the header line");
-  } catch (const io::error::header_missing&) {
-    throw_bad_input({file},
-                    "has no header line; it must name the columns, such as '" + names[0] + "'");
-  } catch (const io::error::too_few_columns& e) {
-    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
-  } catch (const io::error::too_many_columns& e) {
-    throw_bad_input({file, e.file_line}, "has more fields than the header line");
-  } catch (const io::error::line_length_limit_exceeded& e) {
-    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
-  } catch (const io::error::base& e) {
-    throw_bad_input({file}, e.what());
-  }
-  // A cut within the last field can leave a number: a file that says its rows ends its last line too.
-  if (const auto promised = result.comments.find("rows");
-      promised != result.comments.end() &&
-      (promised->second != std::to_string(result.rows.size()) || text.back() != '\n'))
-    throw_bad_input({file}, "has " + std::to_string(result.rows.size()) +
-                                " rows where its header says " + promised->second +
-                                ", or its last line has no end; is it truncated?");
+  read_csv_rows(path, names, required, result.comments, result.contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  auto& row = result.rows.emplace_back();
+                  std::copy_n(fields.begin(), columns, row.fields.begin());
+                  row.line = line;
+                });
   return result;
 }
 

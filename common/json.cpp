@@ -14,7 +14,7 @@
 namespace viscontact {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // which the parser passes over
+constexpr std::string_view kJsonByteOrderMark = "\xEF\xBB\xBF";  // which the parser passes over
 
 /// Accepts every event of the parser and keeps where and why it stopped. The parser's own
 /// exceptions do not say where a number is that no double can hold.
@@ -67,7 +67,7 @@ class LineScan {
       : text_(text), file_(std::move(file)), lines_(lines) {}
 
   void run() {
-    if (text_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
+    if (text_.starts_with(kJsonByteOrderMark)) at_ = kJsonByteOrderMark.size();
     while (at_ < text_.size()) step();
   }
 

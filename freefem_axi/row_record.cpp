@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <regex>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -23,9 +22,22 @@ namespace {
 namespace fs = std::filesystem;
 
 /// True for "K-of-T.HOST.PROCESS" (Share's writers in pipeline/tabulate_stage.cpp): what else begins like a journal's name is the user's.
-bool is_writer_name(const std::string& name) {
-  static const std::regex kWriter(R"(\d+-of-\d+\..+\.\d+)");
-  return std::regex_match(name, kWriter);
+bool is_writer_name(std::string_view name) {
+  const auto skip = [&name](std::string_view text) {
+    if (!name.starts_with(text)) return false;
+    name.remove_prefix(text.size());
+    return true;
+  };
+  const auto skip_number = [&name] {
+    const auto digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    name.remove_prefix(digits);
+    return digits > 0;
+  };
+  if (!skip_number() || !skip("-of-") || !skip_number() || !skip(".")) return false;
+  const auto host = name.rfind('.');
+  if (host == 0 || host == std::string_view::npos) return false;
+  name.remove_prefix(host + 1);
+  return skip_number() && name.empty();
 }
 
 /// The journals of a table, by name.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "viscontact/common/csv.hpp"
+#include "viscontact/common/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact {

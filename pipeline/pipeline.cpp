@@ -9,6 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/common/number.hpp"
 #include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/pipeline/run_checks.hpp"

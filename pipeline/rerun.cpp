@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RerunOptions {
   std::string file, output, folder;
   bool changed_inputs = false, dry_run = false;
 };
@@ -68,7 +68,7 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
 }
 
 /// The command that writes `output` in place of the file of this provenance. Throws Error(kWrongUsage) if it cannot be told to.
-std::vector<std::string> with_output(const Options& o, const Provenance& provenance) {
+std::vector<std::string> with_output(const RerunOptions& o, const Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
     auto& word = command[place.word];
@@ -150,7 +150,7 @@ std::string in_words(const std::vector<std::string>& command) {
   return text;
 }
 
-void rerun(const Options& o) {
+void rerun(const RerunOptions& o) {
   auto provenance = read_provenance(o.file);
   if (!provenance || provenance->command.empty())
     throw_bad_input({o.file},
@@ -211,7 +211,7 @@ void rerun(const Options& o) {
 void add_rerun(CLI::App& app) {
   auto* command = app.add_subcommand(
       "rerun", "the command that made a file once more, if its inputs are the same");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RerunOptions>();
   command
       ->add_option("FILE", o->file,
                    "a file that Viscontact wrote: table, fit, trajectory, report, picture, ...")

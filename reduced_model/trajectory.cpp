@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "viscontact/common/csv.hpp"
+#include "viscontact/common/number.hpp"
 
 namespace viscontact {
 namespace {

@@ -83,12 +83,12 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
-struct Frame {
+struct Wrapping {
   std::string before, after;
   std::string_view forbidden;  ///< between them
 };
 
-Frame frame_of(TextKind kind) {
+Wrapping wrapping_of(TextKind kind) {
   switch (kind) {
     case TextKind::kHashComment:
       return {"# provenance: ", "", ""};
@@ -195,7 +195,7 @@ std::size_t path_in_word(const std::string& word) {
 
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
   const auto place = place_in(kind, text);
-  const auto [before, after, forbidden] = frame_of(kind);
+  const auto [before, after, forbidden] = wrapping_of(kind);
   return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after + "\n" +
          text.substr(place);
 }

@@ -21,7 +21,7 @@
 namespace viscontact {
 namespace {
 
-struct Options {
+struct SweepOptions {
   std::string case_file, fit, output, reference, plot, x, y;
   std::vector<std::string> vary, models, columns;
   std::uint64_t samples = 0, seed = 1;
@@ -30,7 +30,7 @@ struct Options {
 };
 
 /// The command line, and where it is silent the case's [sweep].
-SweepPlan plan_of(const Options& o, const Case& c) {
+SweepPlan plan_of(const SweepOptions& o, const Case& c) {
   SweepPlan plan = planned(c);
   if (!o.fit.empty()) plan.fit = read_fit(o.fit);
   if (!o.vary.empty()) {
@@ -49,7 +49,7 @@ SweepPlan plan_of(const Options& o, const Case& c) {
 }
 
 /// What to draw: the command line, else the case's [sweep] as far as it fits what is varied and run, else the first keys and the smallest gaps.
-SweepPlot picture_of(const Options& o, const Case& c, const SweepPlan& plan) {
+SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan) {
   const SweepRequest request = c.sweep.value_or(SweepRequest{});
   const auto is_varied = [&](const std::string& key) {
     return std::ranges::find(plan.variations, key, &Variation::key) != plan.variations.end();
@@ -143,7 +143,7 @@ std::string failures_in_words(const SweepOutcome& outcome) {
   return text.empty() ? text : text + " (the column 'failure' says why)";
 }
 
-void run(const Options& o) {
+void run(const SweepOptions& o) {
   check_models("--models", o.models);
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
@@ -198,7 +198,7 @@ void run(const Options& o) {
 void add_sweep(CLI::App& app) {
   auto* command =
       app.add_subcommand("sweep", "a case run with many numbers: a row of figures each");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<SweepOptions>();
   command
       ->add_option("CASE", o->case_file,
                    "case file (TOML); its [sweep] holds defaults for what follows")

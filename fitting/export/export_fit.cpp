@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"

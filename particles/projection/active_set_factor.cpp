@@ -10,12 +10,6 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Eigen's factorisation, which tells how many entries the factor will have before it is computed.
-class Cholesky : public Eigen::SimplicialLLT<SparseMatrix> {
- public:
-  Eigen::Index symbolic_entries() const { return m_nonZerosPerCol.sum(); }
-};
-
 /// The lower triangle of W + epsilon between the `active` contacts. All other contacts are rows of
 /// the identity, so that the pattern does not depend on which are active.
 template <int D>
@@ -51,6 +45,12 @@ SparseMatrix lower_triangle(const ContactGraph<D>& graph, const std::vector<char
 
 template <int D>
 struct ActiveSetFactor<D>::Factor {
+  /// Eigen's factorisation, which tells how many entries the factor will have before it is computed.
+  class Cholesky : public Eigen::SimplicialLLT<SparseMatrix> {
+   public:
+    Eigen::Index symbolic_entries() const { return m_nonZerosPerCol.sum(); }
+  };
+
   std::vector<char> active;  // the contacts that were factorised
   Cholesky cholesky;
   bool pays = false;

@@ -36,19 +36,19 @@ int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* 
 
 constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back with a smaller step
 
-struct Deleters {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-};
-template <class T>
-using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
-
 }  // namespace
 
 /// The objects of SUNDIALS in the order in which they need each other, and the functions that CVODE
 /// calls. The argument `self` of these functions is the Cvode.
 struct Cvode::Sundials {
+  struct Deleters {
+    void operator()(N_Vector vector) const { N_VDestroy(vector); }
+    void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+    void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+  };
+  template <class T>
+  using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;
+
   explicit Sundials(int dimension)
       : state(N_VNew_Serial(dimension, context)),
         interpolated(N_VClone(state.get())),

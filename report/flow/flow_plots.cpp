@@ -29,7 +29,7 @@ constexpr double kNoColourBar = 30;
 constexpr double kGapReach =
     2.5;  // of a gap's view: there the film of a plane is 7 times as thick as in its middle
 
-struct View {
+struct PlotView {
   Window window;
   double plot_width = 0, plot_height = 0;  // pixels
   /// How much larger heights are drawn than widths.
@@ -37,7 +37,7 @@ struct View {
 };
 
 /// At equal scales on both axes.
-View unstretched(const Window& window) {
+PlotView unstretched(const Window& window) {
   const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
   return {window, window.width() * scale, window.height() * scale};
 }
@@ -46,7 +46,7 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-View surroundings(const CurvedMesh& mesh, double radius, double gap) {
+PlotView surroundings(const CurvedMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   Window fluid;
   for (const auto& [rho, z] : mesh.nodes)
@@ -63,7 +63,7 @@ View surroundings(const CurvedMesh& mesh, double radius, double gap) {
 }
 
 /// `reach` in the width of the film's middle, sqrt(2 gap radius).
-View gap_view(const CurvedMesh& mesh, double radius, double gap, double reach = kGapReach) {
+PlotView gap_view(const CurvedMesh& mesh, double radius, double gap, double reach = kGapReach) {
   constexpr double kOfSphere = 0.9;  // of the radius, at most
   constexpr double kMargin = 0.08;   // of the height
   constexpr double kFlattest = 0.4;  // of a view drawn at equal scales
@@ -91,7 +91,7 @@ void mirror(std::vector<Polyline>& lines) {
 }
 
 /// Without points that are less than a pixel from the one before.
-std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const View& view) {
+std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
   std::vector<Polyline> result;
@@ -150,7 +150,8 @@ std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pi
 }
 
 /// The sphere as a surface, the walls and the neighbour as lines.
-std::vector<Curve> outlines(const CurvedMesh& mesh, const View& view, double radius, double gap) {
+std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double radius,
+                            double gap) {
   const auto& window = view.window;
   namespace label = boundary_label;
   constexpr int kPieces = 6, kSamples = 200;
@@ -216,7 +217,7 @@ std::string velocity_arrow(const ForceTableRow& row, double radius, const Window
       middle - half, middle + half);
 }
 
-Curve streamlines(const Flow& flow, const View& view) {
+Curve streamlines(const Flow& flow, const PlotView& view) {
   constexpr int kLines = 14;  // about, on each side
   std::vector<std::array<double, 2>> gradient;
   for (std::size_t i = 0; i < flow.velocity.size(); ++i)
@@ -238,7 +239,7 @@ Curve streamlines(const Flow& flow, const View& view) {
                   "lines linewidth 1 linecolor rgb '#202020'", thinned(lines, view));
 }
 
-std::vector<std::string> layout(const View& view, double right, double below, double width,
+std::vector<std::string> layout(const PlotView& view, double right, double below, double width,
                                 double height) {
   return {"unset grid", "set border linewidth 1 back", "set tics out nomirror",
           fmt::format("set lmargin at screen {:.6f}", kLeft / width),
@@ -255,7 +256,7 @@ std::vector<std::string> layout(const View& view, double right, double below, do
 }
 
 Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabulation& tabulation,
-                  const View& view) {
+                  const PlotView& view) {
   constexpr double kVisible = 1.05;
   Panel panel;
   const auto container = container_in_words(tabulation);
@@ -270,7 +271,7 @@ Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabu
   return panel;
 }
 
-std::string draw(Panel panel, const View& view, double right) {
+std::string draw(Panel panel, const PlotView& view, double right) {
   constexpr double kLegendRow = 20;
   const auto legends =
       std::ranges::count_if(panel.curves, [](const Curve& curve) { return !curve.legend.empty(); });
@@ -285,7 +286,7 @@ std::string draw(Panel panel, const View& view, double right) {
 }
 
 /// A value for each place of the plot that an eye tells apart.
-ColourField colour_field(const LinearField& values, const View& view) {
+ColourField colour_field(const LinearField& values, const PlotView& view) {
   const auto& window = view.window;
   constexpr double kCell = 1.5;  // pixels: gnuplot's time goes with their number
   ColourField field{static_cast<std::size_t>(view.plot_width / kCell),
@@ -300,7 +301,7 @@ ColourField colour_field(const LinearField& values, const View& view) {
 }
 
 std::string plot_pressure_and_streamlines(const std::string& what, const RowPicture& picture,
-                                          const Tabulation& tabulation, const View& view,
+                                          const Tabulation& tabulation, const PlotView& view,
                                           const ColourField& pressure,
                                           const PressureColours& colours) {
   Panel panel = empty_panel(what, picture, tabulation, view);

@@ -91,9 +91,9 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kWidth = 860;
-constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                 "#E69F00", "#56B4E9", "#000000"};
+constexpr int kSweepWidth = 860;
+constexpr std::array kCurveColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                      "#E69F00", "#56B4E9", "#000000"};
 
 std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot) {
   SweepRows rows(path);
@@ -107,7 +107,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
     panel.curves.push_back(
         {plot.columns.size() == 1 ? "" : plot.columns[i],
          fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
-                     kColours[i % kColours.size()]),
+                     kCurveColours[i % kCurveColours.size()]),
          {}});
   std::vector<double> xs, ys;
   while (rows.next())
@@ -125,7 +125,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
   panel.y_log = is_logarithmic(ys);
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
     if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
-  return draw_svg({panel}, kWidth, 520);
+  return draw_svg({panel}, kSweepWidth, 520);
 }
 
 std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
@@ -208,7 +208,7 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
         "'#fee838')");
   }
   panel.field = std::move(field);
-  return draw_svg({panel}, kWidth, 620);
+  return draw_svg({panel}, kSweepWidth, 620);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace viscontact {
 namespace {
 
 using Index = std::uint32_t;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kOutside = std::numeric_limits<double>::quiet_NaN();
 
 /// A pair of points in either order, as one key.
 std::uint64_t pair_key(Index a, Index b) {
@@ -125,7 +125,7 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
 
 std::vector<double> pixels(const LinearField& field, const Window& window, std::size_t columns,
                            std::size_t rows) {
-  std::vector<double> picture(columns * rows, kNothing);
+  std::vector<double> picture(columns * rows, kOutside);
   const double width = window.width() / static_cast<double>(columns);
   const double height = window.height() / static_cast<double>(rows);
   // The pixels whose centres are between two coordinates, as a range of one direction.

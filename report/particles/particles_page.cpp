@@ -30,8 +30,8 @@ using Bytes = std::vector<unsigned char>;
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kMostBytes = 24'000'000;  // of the page
-constexpr std::size_t kMostParticles = 200'000;
-constexpr int kColours = 24;
+constexpr std::size_t kMostInPage = 200'000;
+constexpr int kPageColours = 24;
 
 template <class Number>
 void append(Bytes& bytes, Number value) {
@@ -103,7 +103,7 @@ struct PageContent {
 PageContent choice_of(const Playback& playback, std::size_t every_frame) {
   PageContent choice;
   choice.every_frame = every_frame;
-  choice.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
+  choice.every_particle = playback.radii.size() / (kMostInPage + 1) + 1;
   for (std::size_t f = 0; f < playback.frames.size(); f += every_frame) choice.frames.push_back(f);
   if (!choice.frames.empty() && choice.frames.back() + 1 != playback.frames.size())
     choice.frames.push_back(playback.frames.size() - 1);
@@ -227,9 +227,9 @@ std::string data_of(const Playback& playback, const PageContent& choice, const C
                     const Grid& grid, double lowest) {
   const auto room = view_box_of(playback, choice.frames);
   std::string colours;
-  for (int c = 0; c < kColours; ++c)
+  for (int c = 0; c < kPageColours; ++c)
     colours += fmt::format("{}\"{}\"", c == 0 ? "" : ",",
-                           film_colour(static_cast<double>(c) / (kColours - 1)));
+                           film_colour(static_cast<double>(c) / (kPageColours - 1)));
   Bytes radii, ids, times, planes;
   for (std::size_t k = 0; k < playback.radii.size(); k += choice.every_particle)
     append(radii, playback.radii[k]);
@@ -279,8 +279,8 @@ std::string legend(double lowest, bool touching) {
   std::string text;
   if (lowest < 0) {
     std::string colours;
-    for (int c = kColours - 1; c >= 0; --c)
-      colours += "," + film_colour(static_cast<double>(c) / (kColours - 1));
+    for (int c = kPageColours - 1; c >= 0; --c)
+      colours += "," + film_colour(static_cast<double>(c) / (kPageColours - 1));
     std::string ticks;
     for (const double tick : film_ticks(lowest))
       ticks += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100 * (1 - tick / lowest),

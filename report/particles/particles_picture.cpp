@@ -27,7 +27,7 @@ using particles::dot;
 using particles::norm;
 
 /// Page coordinates (y down) of a panel whose corner is the origin.
-struct View {
+struct Projection {
   Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};  ///< unit; `toward`: the reader
   double scale = 1;                                     ///< page over length
   double left = 0, top = 0;                             ///< of the panel along `right`, `up` [L]
@@ -36,8 +36,8 @@ struct View {
   double y(const Vector& p) const { return scale * (top - dot(up, p)); }
 };
 
-View view_of(int dimension) {
-  View view;
+Projection view_of(int dimension) {
+  Projection view;
   if (dimension == 2) return view;
   const double turn = 30 * std::numbers::pi / 180, from_above = 20 * std::numbers::pi / 180;
   const double c = std::cos(turn), s = std::sin(turn), ca = std::cos(from_above),
@@ -51,16 +51,16 @@ View view_of(int dimension) {
 struct Drawing {
   const Playback& playback;
   ViewBox room;
-  View view;
+  Projection view;
   double width = 0, height = 0;  ///< of a panel on the page
   double lowest = 0;             ///< gamma
   std::size_t every = 1;         ///< particles drawn
 };
 
-constexpr int kColours = 20;
-constexpr std::size_t kMostParticles = 20000;  // of a panel: more are a grey field
+constexpr int kContactColours = 20;
+constexpr std::size_t kMostInPanel = 20000;  // of a panel: more are a grey field
 
-std::string path_of(const Polygon& polygon, const View& view) {
+std::string path_of(const Polygon& polygon, const Projection& view) {
   std::string path;
   for (const auto& p : polygon)
     path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", view.x(p), view.y(p));
@@ -120,26 +120,27 @@ std::string plane_3d_patches(const Drawing& d, const Frame& frame, bool from_fre
   return text;
 }
 
-/// 0: touching without film; 1 to kColours: the darker, the more the film remembers.
+/// 0: touching without film; 1 to kContactColours: the darker, the more the film remembers.
 std::size_t colour_class(double gamma, double lowest) {
   if (!(gamma < 0) || !(lowest < 0)) return 0;
   return 1 + static_cast<std::size_t>(
-                 std::lround(std::clamp(gamma / lowest, 0.0, 1.0) * (kColours - 1)));
+                 std::lround(std::clamp(gamma / lowest, 0.0, 1.0) * (kContactColours - 1)));
 }
 
 std::string class_colour(std::size_t colour) {
   return colour == 0 ? kTouchingColour
-                     : film_colour(static_cast<double>(colour - 1) / (kColours - 1));
+                     : film_colour(static_cast<double>(colour - 1) / (kContactColours - 1));
 }
 
 /// A particle's contacts are drawn with it: over it and what is behind, under what is in front.
-struct Line {
+struct ContactLine {
   std::size_t colour = 0;
   double width = 0;
   std::string path;
 };
 
-Line line_of(const Drawing& d, const Frame& frame, const particles::CurrentContact& contact) {
+ContactLine line_of(const Drawing& d, const Frame& frame,
+                    const particles::CurrentContact& contact) {
   const auto second = static_cast<std::size_t>(contact.second);
   const Vector to = position(d.playback, frame, second);
   double radius = d.playback.radii[second];
@@ -152,7 +153,7 @@ Line line_of(const Drawing& d, const Frame& frame, const particles::CurrentConta
     from = position(d.playback, frame, first);
     radius = std::min(radius, static_cast<double>(d.playback.radii[first]));
   }
-  Line line;
+  ContactLine line;
   line.colour = colour_class(contact.gamma, d.lowest);
   line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
                                 : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
@@ -178,8 +179,8 @@ std::string discs(const Drawing& d, const Frame& frame) {
   for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every) text += circle(d, frame, k);
   text += "</g>\n" + plane_2d_lines(d, frame);
   // One path for each colour; the width is that of the contacts' mean radius.
-  std::array<Line, kColours + 1> lines;
-  std::array<int, kColours + 1> counts{};
+  std::array<ContactLine, kContactColours + 1> lines;
+  std::array<int, kContactColours + 1> counts{};
   for (const auto& contact : frame.contacts) {
     if (!drawn(d, contact)) continue;
     const auto line = line_of(d, frame, contact);
@@ -259,12 +260,12 @@ int columns_for(int panels, double width_over_height) {
 std::string colour_bar(double lowest, bool touching, double left, double top, double width) {
   constexpr int kHeight = 12;
   std::string text;
-  const double step = width / kColours;
-  for (int c = 0; c < kColours; ++c)
+  const double step = width / kContactColours;
+  for (int c = 0; c < kContactColours; ++c)
     text += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n",
         left + width - (c + 1) * step, top, step + 0.3, kHeight,
-        film_colour(static_cast<double>(c) / (kColours - 1)));
+        film_colour(static_cast<double>(c) / (kContactColours - 1)));
   text += "<g font-size=\"12\" text-anchor=\"middle\">\n";
   for (const double tick : film_ticks(lowest)) {
     const double x = left + width * (1 - tick / lowest);
@@ -290,7 +291,7 @@ std::string particles_picture(const Playback& playback, const std::string& title
             0,
             0,
             lowest_gamma(playback),
-            playback.radii.size() / (kMostParticles + 1) + 1};
+            playback.radii.size() / (kMostInPanel + 1) + 1};
   double wide = 0, high = 0;  // of a panel [L]
   {
     Interval x, y;

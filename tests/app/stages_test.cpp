@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <sstream>
 
 #include "tests/app/program.hpp"
 #include "tests/app/sample_files.hpp"

@@ -16,6 +16,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
 #include "viscontact/common/csv.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"

@@ -1,0 +1,1 @@
+// Has no code: the target that compiles the headers of all tests needs a source.
