@@ -25,6 +25,9 @@ function(viscontact_library name)
   target_link_libraries(${target} PUBLIC ${parts} ${arg_PUBLIC}
                         PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:viscontact_warnings>)
   if(NOT arg_HEADERS)
+    # These parts print, draw and start the parts that compute: -O1 takes two thirds of the time of -O3
+    # to compile them.
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     return()
   endif()
 
