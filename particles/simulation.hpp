@@ -47,7 +47,7 @@ struct StepReport {
   /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
   /// linearised gaps; no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts that the step was divided into, a power of 2.
+  /// Number of parts that the step was divided into, 1 to 2^kMostHalvings.
   int parts = 0;
   /// Number of contacts that turn further than kLargestTurn (contact_geometry.hpp) although the
   /// step has been divided into its smallest parts.
@@ -76,8 +76,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// Computes one step of length h. The step is shorter if `end` comes before its end by more than
-  /// a millionth of h. There is no step if less than a millionth of h is left until `end`.
+  /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
+  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, there
+  /// is no step. The millionth keeps rounding errors of the times from causing tiny steps.
   ///
   /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
   /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the

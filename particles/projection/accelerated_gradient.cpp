@@ -1,3 +1,5 @@
+// Accelerated projected gradient for the dual problem (5.4) of docs/physics.md, scaled as in
+// contact_graph.hpp (Nesterov; O'Donoghue & Candes 2015; Mazhar et al. 2015).
 #include <algorithm>
 #include <vector>
 
@@ -7,10 +9,10 @@
 namespace viscontact::particles {
 namespace {
 
-/// What a pass over the contacts from y to x = P(y - g(y)/L) finds.
+/// Sums over the contacts in a step from y to x = P(y - g(y)/L), P the projection on the bounds.
 struct Sums {
   double square = 0;  ///< |x - y|^2
-  double uphill = 0;  ///< g(y).(x - x before)
+  double uphill = 0;  ///< g(y).(x - previous x)
   Sums& operator+=(const Sums& other) {
     square += other.square;
     uphill += other.uphill;
@@ -26,7 +28,8 @@ SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
   const std::size_t count = graph.count();
   const std::size_t numbers = graph.bodies() * D;
   auto& pool = graph.pool();
-  // x: iterates; y: extrapolated; g: gradients, linear in their points, so that one product with W serves both.
+  // x: iterates. y: extrapolated points. g: gradients; they are linear in their points, so that one
+  // product with W serves both x and y.
   std::vector<double> x = graph.z, y = graph.z, next(count), g_x(count), g_y(count), g_next(count);
   std::vector<double> bodies_y(numbers), bodies_x(numbers), bodies_next(numbers), step;
   const auto gradient = [&](const std::vector<double>& bodies, std::vector<double>& g,
@@ -51,7 +54,8 @@ SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
   g_y = g_x;
   bodies_y = bodies_x;
   double theta = 1;
-  double steepness = 1;  // L: of W, whose diagonal is 1
+  // L, an estimate of the largest eigenvalue of W, whose diagonal is 1.
+  double steepness = 1;
   constexpr double kSteeper = 1.3, kFlatter = 0.99;
   while (solved.residual > 1 && solved.iterations < max_iterations) {
     Sums sums;
@@ -68,10 +72,11 @@ SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
       });
       graph.to_bodies(next, bodies_next);
       ++solved.iterations;
-      // (x - y)^T W (x - y), of displacements that are linear in x and y.
+      // (x - y)^T W (x - y), from the displacements, which are linear in x and y.
       step = bodies_y;
       const double curvature = graph.combine(bodies_next, -1, step);
-      // Equal but for rounding is not steeper.
+      // The margin 1e-9 allows for rounding errors: a curvature equal to L must not count as
+      // larger.
       if (curvature <= steepness * sums.square * (1 + 1e-9) || solved.iterations >= max_iterations)
         break;
       steepness *= kSteeper;

@@ -1,3 +1,5 @@
+// Projected Gauss-Seidel for the dual problem (5.4) of docs/physics.md, scaled as in
+// contact_graph.hpp. Kept as the simplest method, to compare the others with.
 #include <vector>
 
 #include "viscontact/particles/projection/projection.hpp"
@@ -10,8 +12,8 @@ SolverResult gauss_seidel(ContactGraph<D>& graph, int max_iterations,
   const std::size_t count = graph.count();
   std::vector<double> y(graph.bodies() * D);
   SolverResult solved;
-  // The displacements y of the bodies are updated contact by contact. They are computed anew
-  // before a solution is accepted, because the updates gather rounding errors.
+  // The displacements y of the bodies are updated contact by contact. They are computed again from
+  // z before a solution is accepted, because the updates accumulate rounding errors.
   const auto gradient_of = [&](std::size_t c) {
     return graph.linear_term[c] + graph.to_contact(c, y.data());
   };
@@ -37,7 +39,7 @@ SolverResult gauss_seidel(ContactGraph<D>& graph, int max_iterations,
     else
       for (std::size_t c = count; c-- > 0;) relax(c);
     ++solved.iterations;
-    // `largest` is the largest of the contacts' residuals as the sweep met them.
+    // `largest` is the largest residual that the sweep found at a contact before it changed it.
     if ((largest <= 1 || solved.iterations == max_iterations) && update_residuals()) break;
   }
   return solved;
