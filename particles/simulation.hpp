@@ -77,8 +77,8 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
 
   /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
-  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, there
-  /// is no step. The millionth keeps rounding errors of the times from causing tiny steps.
+  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`,
+  /// there is no step. The millionth keeps rounding errors of the times from causing tiny steps.
   ///
   /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
   /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the
