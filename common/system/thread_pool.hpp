@@ -27,7 +27,7 @@ class ThreadPool {
   static constexpr std::size_t kBlock = 16384;
 
   /// Calls body(begin, end) for each block of [0, count). If a body throws, the exception is thrown
-  /// again when all blocks have ended.
+  /// again when no body runs any more.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
