@@ -79,6 +79,7 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
 template <int D>
 Contact<D> resolved_contact_of(const Particles& p, const Film& film,
                                std::span<const PlanePosition> places, double tolerated) {
+  // The rounding error of the gap is taken as 4 units in the last place of the sum of the sizes.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   auto contact = contact_of<D>(p, film, places);
   const auto j = static_cast<std::size_t>(film.second);

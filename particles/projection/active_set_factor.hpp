@@ -1,5 +1,6 @@
 // A sparse Cholesky factor of the matrix W of contact_graph.hpp (docs/physics.md (5.4)), between
-// chosen contacts and with diagonal 1. It serves as a solver and as a preconditioner.
+// chosen contacts and with diagonal 1. It serves as a solver and as a preconditioner. The contacts
+// of the factor are called active here, because their gaps are 0; their z is above the bound.
 #pragma once
 
 #include <memory>

@@ -10,9 +10,10 @@ namespace viscontact::particles {
 /// The primal-dual active set method (Hintermueller, Ito & Kunisch 2003, "The primal-dual active
 /// set strategy as a semismooth Newton method"). With g the gradient, each iteration takes the
 /// contacts with z - g >= bound into a set, and also those that miss this condition by no more than
-/// their allowed residual. A factor of W gives the impulses at which g = 0 in this set; the other
-/// contacts stay at their bounds. The method ends when all residuals are allowed. A chain of any
-/// length takes a few iterations.
+/// their allowed residual. In the paper these contacts are called active, because their gaps are 0;
+/// their z is free. A factor of W gives the impulses at which g = 0 in this set; the other contacts
+/// stay at their bounds. The method ends when all residuals are allowed. A chain of any length
+/// takes a few iterations.
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` factorisations. If it has not converged then, or if W is singular or has no

@@ -369,6 +369,7 @@ SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
   constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
   const bool has_chains =
       graph.largest_island > kLongChain && graph.count() < graph.bodies() + graph.bodies() / 8;
+  // A guess with a residual of at most this fraction of the allowed residual counts as exact.
   constexpr double kNearlySolved = 1e-4;
   if (has_chains && iteration.residual() > kNearlySolved) {
     solved = active_set_newton(graph, kNewtonIterations);

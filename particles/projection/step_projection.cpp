@@ -202,6 +202,7 @@ void StepProjection<D>::find_impulses_at_work() {
 /// impulses of all contacts of its island.
 template <int D>
 typename StepProjection<D>::Scale StepProjection<D>::scale_of(const Contact<D>& here) {
+  // Rounding errors are taken as 128 units in the last place of the lengths that are added up below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   Scale scale{0, std::numeric_limits<double>::infinity(), std::abs(here.gap)};
   double around = 0;
@@ -315,9 +316,9 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   return closed;
 }
 
-/// Returns `films` and, from the fourth round on, also the pairs that they may close in turn. A
-/// blow goes through a chain of particles; without this function each round would find only the
-/// next one. The depth of the search doubles in each round.
+/// Returns `films` and, from the third round on, also the pairs that they may close in turn. A blow
+/// goes through a chain of particles; without this function each round would find only the next
+/// one. The depth of the search is 1 in the third round and doubles in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_pairs_reached_from(
     const std::vector<std::size_t>& films, int round) {
