@@ -60,8 +60,8 @@ struct StepReport {
 ///     D_ij >= 0,   gamma_ij <= 0,   D_ij gamma_ij = 0,
 ///     M d^2x/dt^2 = M f + sum lambda_ij G_ij^T,   dgamma_ij/dt = -lambda_ij,
 ///
-/// where velocities are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on G_ij
-/// v >= 0 where gamma_ij = 0 and D_ij = 0.
+/// where velocities are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
+/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0.
 ///
 /// Each step solves one convex projection, (5.3), by its dual (5.4) (contact_graph.hpp). The pull
 /// of a film is bounded by the impulse that the film has absorbed. A pair therefore separates

@@ -11,6 +11,7 @@ namespace viscontact::particles {
 
 /// Content of a restart file: a line of text that names the format and the byte order, a line with
 /// the SHA-256 of the rest, and the rest in binary, in the byte order of this machine.
+/// The ids of the particles are not stored, because the case gives them.
 std::string write_restart(const State& state);
 
 /// Reads a restart file of this or the previous version. Throws Error(kBadInput), which names the

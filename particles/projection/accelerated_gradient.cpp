@@ -56,8 +56,8 @@ SolverResult accelerated_gradient(ContactGraph<D>& graph, int max_iterations,
   double theta = 1;
   // L, an estimate of the largest eigenvalue of W, whose diagonal is 1.
   double steepness = 1;
-  // L grows by the first factor whenever the objective curves more than L says. In each iteration it
-  // shrinks by the second factor, so that the steps can become longer again.
+  // L grows by the first factor whenever the objective curves more than L says. In each iteration
+  // it shrinks by the second factor, so that the steps can become longer again.
   constexpr double kSteeper = 1.3, kFlatter = 0.99;
   while (solved.residual > 1 && solved.iterations < max_iterations) {
     Sums sums;

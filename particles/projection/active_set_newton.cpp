@@ -21,7 +21,8 @@ class Newton {
     compute_gradient();
   }
 
-  /// Predicts the set of contacts and solves for their impulses. Returns false if W has no factor.
+  /// Predicts the set of contacts with z free and solves for their impulses. Returns false if W has
+  /// no factor.
   bool step() {
     bool changed = false;
     for (std::size_t c = 0; c < graph_.count(); ++c) {

@@ -47,8 +47,9 @@ struct Contact {
 ///
 /// The code scales the problem so that W has the diagonal 1. With w = W_cc = h/m_i + h/m_j of
 /// contact c, the unknowns are z = sqrt(w) p. B z denotes the displacements y = h M^-1 G^T p that
-/// the scaled impulses z cause. The gradient of contact c is then b_c/sqrt(w) + (e.(y_j -
-/// y_i))/sqrt(w), and z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
+/// the scaled impulses z cause. The gradient of contact c and the quadratic form are then
+///
+///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
 class ContactGraph {
  public:

@@ -151,8 +151,8 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
 }
 
 /// Impulse at work on a particle that takes part in no other contact: the larger of what forces and
-/// gravity give it in the step and of its change of momentum [M L/T]. `moves` is its displacement h
-/// u* [L].
+/// gravity give it in the step and of its change of momentum [M L/T]. `moves` is its
+/// displacement h u* [L].
 template <int D>
 typename StepProjection<D>::ParticleScale StepProjection<D>::scale_of_particle(
     std::int32_t particle, const double* moves) const {
@@ -202,7 +202,7 @@ void StepProjection<D>::find_impulses_at_work() {
 /// impulses of all contacts of its island.
 template <int D>
 typename StepProjection<D>::Scale StepProjection<D>::scale_of(const Contact<D>& here) {
-  // Rounding errors are taken as 128 units in the last place of the lengths that are added up below.
+  // Rounding errors are taken as 128 units in the last place of the lengths that are added below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   Scale scale{0, std::numeric_limits<double>::infinity(), std::abs(here.gap)};
   double around = 0;
