@@ -26,6 +26,7 @@ struct WallShift {
   double shift = 0;  ///< q_s [L]
   /// The largest |relative residual| of the rows.
   double largest_relative_residual = 0;
+  /// Root mean square of the relative residuals.
   double rms_relative_residual = 0;
   std::vector<ShiftedRow> rows;  ///< in the order of the table
 };

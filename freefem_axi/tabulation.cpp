@@ -137,6 +137,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
+  // Well within the range 1e-12..1e20 in which the solver's penalty gives correct forces.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

@@ -47,7 +47,7 @@ Fit exact_plane_fit(double viscosity, double radius) {
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = radius;
-  // Viscontact computes the exact drag to full precision for these gaps. See plane_drag.hpp.
+  // Nearly all normal doubles; LubricationForce::interval() is the exact range.
   fit.gap_interval = {1e-300, 1e300};
   fit.geometry = "plane, unbounded";
   fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;

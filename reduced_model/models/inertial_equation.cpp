@@ -67,8 +67,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
                                  motion_.inertial_relative_tolerance * resistance * q) /
                                 m;
-  // With so much inertia, the balance below has fewer digits than the momentum, whatever the
-  // tolerance.
+  // With so much inertia, and at least three digits in the momentum, the balance below has fewer
+  // digits than the momentum, whatever the tolerance.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
@@ -82,6 +82,7 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double correction = -m / resistance * rate;
   const double neglected =
       std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
+  // The balance counts only if both values agree to within a few times the error bound.
   if (neglected < momentum_error &&
       std::abs(balance + correction - by_momentum) < 4 * momentum_error)
     return {q, balance + correction, neglected, resistance};
