@@ -16,8 +16,8 @@ namespace viscontact {
 enum class BelowInterval {
   /// Unknown: a call is an error.
   kError,
-  /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. Theory adds to k/q only a
-  /// term that varies as ln q, which this limit leaves out.
+  /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. What theory
+  /// adds to k/q varies only as ln q; this limit takes it as constant.
   kLubricationLimit,
   /// The same with the coefficient k of theory (Fit::leading_coefficient).
   kTheoryLimit
