@@ -1,3 +1,5 @@
+// Reads the case file of one sphere (case_file.hpp). Each function reads one section or key, checks
+// it and applies defaults. Lengths, masses and times are in the units of the case.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +25,8 @@ constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between
 constexpr Allowed kOdeTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
                                    "between 1e-13 and 1e-2"};
 
-/// Runs a check of a value that lies deeper than the reader, so that its error names the key and
-/// the line.
+/// Calls `check`, which tests a value in another part of the program, and gives its error the key
+/// and the line of this file.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check) {
   try {
@@ -34,7 +36,7 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
   }
 }
 
-/// `gaps`: a list, or { from, to, count, spacing }.
+/// Reads `gaps` [L]: a list, or { from, to, count, spacing }. Returns them in rising order.
 std::vector<double> read_gaps(const TomlSection& tabulation) {
   if (tabulation.is_array("gaps")) {
     auto gaps = tabulation.numbers("gaps", kPositive);
@@ -67,7 +69,7 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
 }
 
 void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation) {
-  if (!tabulation_section.has("geometry")) return;  // a plane
+  if (!tabulation_section.has("geometry")) return;  // the default geometry is a plane
   const auto section = tabulation_section.section("geometry");
   tabulation.geometry = section.text("kind");
   const auto& geometry = at_key(
@@ -81,7 +83,8 @@ void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation
   section.finish();
 }
 
-/// `container`: { radius, height } that hold sphere and neighbour at every gap, or "unbounded".
+/// Reads `container`: { radius, height } [L], which must contain the sphere and its neighbour at
+/// every gap, or "unbounded".
 void read_container(const TomlSection& section, const RequiredSpace& room, Tabulation& tabulation) {
   if (!find_geometry(tabulation.geometry).takes_container) {
     if (section.has("container"))
@@ -111,8 +114,8 @@ void read_container(const TomlSection& section, const RequiredSpace& room, Tabul
         fmt::format("is {}; it must be greater than {}, what the largest gap, the sphere and "
                     "its neighbour need",
                     container.height, room.container_height));
-  // Beyond, FreeFEM's mesh generator cannot make edges that are short enough for the gap
-  // (graded_boundary.idp); that much wider, the fluid may as well be unbounded.
+  // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
+  // gap (graded_boundary.idp). A container of this size hardly differs from unbounded fluid.
   constexpr double kLargest = 2e5;
   for (const auto& [key, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
@@ -137,7 +140,7 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
                  "contains the same velocity twice; each velocity must be there once");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   read_geometry(section, tabulation);
-  // Below, the matrices are beyond double precision.
+  // At smaller gaps the matrices exceed double precision.
   constexpr double kSmallestGap = 1e-8;
   if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)
     section.fail("gaps",
@@ -148,7 +151,8 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
       find_geometry(tabulation.geometry).room(radius, widest, tabulation.geometry_parameters);
   if (!(room.largest_gap > 0))
     section.fail("geometry", "leaves no room for the sphere; give it a larger radius");
-  // Two lengths that are subtracted: equal up to rounding is equal.
+  // largest_gap is the difference of two lengths. A gap that equals it up to rounding errors is
+  // allowed.
   if (!(widest <= room.largest_gap * (1 + 1e-12)))
     section.fail("gaps", fmt::format("goes up to {}; in this {} a gap must be at most {}", widest,
                                      tabulation.geometry, room.largest_gap));
@@ -157,7 +161,7 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   return tabulation;
 }
 
-/// The value that a word stands for.
+/// Returns the value that belongs to a word, from a list of all words that are allowed.
 template <class Value>
 Value one_of(const TomlSection& section, std::string_view key,
              std::initializer_list<std::pair<std::string_view, Value>> words) {
@@ -181,7 +185,7 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   } else {
     auto& settings = fit.settings;
     const std::string basis_key = section.has("terms") ? "terms" : "basis";
-    // Defaults are those of the command `fit`.
+    // The defaults are those of the command `fit`.
     const std::string basis = section.has(basis_key) ? section.text(basis_key) : "lecture";
     if (basis_key == "terms" && section.has("basis"))
       section.fail("basis", "must be left out where terms gives a basis of its own");
@@ -217,7 +221,8 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   return fit;
 }
 
-/// One entry of external_force with `until`: a piece of a force that begins where the piece before ends.
+/// Reads an entry of external_force with `until`: a piece of a force, which begins where the piece
+/// before it ends.
 ExternalForce::Piece read_piece(const TomlSection& entry) {
   ExternalForce::Piece piece{entry.number("until", kPositive), 0};
   if (entry.has("polynomial")) {
@@ -237,17 +242,20 @@ ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
           entry.has("phase") ? entry.number("phase", kFinite) : 0};
 }
 
-/// Where a file of the case is: at its path from the case's folder, or in that folder itself, where a run keeps its copies.
+/// Path of a file that the case names: relative to the folder of the case or, if it is not there,
+/// in that folder itself, where a run keeps its copies.
 std::filesystem::path force_file(const std::filesystem::path& folder,
                                  const std::filesystem::path& file) {
   const auto copy = folder / file.filename();
-  std::error_code ignored;  // of a name that no file can have: reading it says so
+  // Set for a name that no file can have; reading the file reports it.
+  std::error_code ignored;
   return !std::filesystem::exists(folder / file, ignored) && std::filesystem::exists(copy, ignored)
              ? copy
              : folder / file;
 }
 
-/// `external_force`: entries with `until` follow each other and make one force; each other entry, a sinusoid or a file, is added to it.
+/// Reads `external_force` [M L/T^2]. The entries with `until` follow each other and make one force.
+/// Every other entry, a sinusoid or a file, is added to this force.
 ExternalForce read_forces(const TomlSection& motion, double end_time,
                           const std::filesystem::path& case_folder,
                           std::vector<std::filesystem::path>& files) {
@@ -284,7 +292,7 @@ double read_time_step(const TomlSection& section, double end_time) {
   return step;
 }
 
-/// `models` of [motion]: which to run.
+/// Reads `models` of [motion]: the names of the models to run.
 std::vector<std::string> read_models(const TomlSection& section) {
   if (!section.has("models")) return {};
   auto models = section.texts("models");
@@ -292,7 +300,7 @@ std::vector<std::string> read_models(const TomlSection& section) {
   return models;
 }
 
-/// `roughness`: the heights on sphere and plane, whose sum is below the radius.
+/// Reads `roughness`: its heights on sphere and plane [L], whose sum must be less than the radius.
 std::array<double, 2> read_roughness(const TomlSection& contact, double radius) {
   const auto roughness = contact.numbers("roughness", kNotNegative);
   if (roughness.size() != 2)
@@ -307,10 +315,9 @@ std::array<double, 2> read_roughness(const TomlSection& contact, double radius) 
   return {roughness[0], roughness[1]};
 }
 
-/// The numerical settings of the models, each with its default where the case leaves it out:
-/// time steps are end_time/4000, as in the lecture's case; surfaces are smooth; the threshold gap
-/// is a tenth of the radius, or of the initial gap where that is smaller. A section that is there
-/// is checked whether or not a model will use it.
+/// Reads the numerical settings of the models. Defaults: time steps of end_time/4000, as in the
+/// lecture's case; smooth surfaces; a threshold gap of a tenth of the radius, or of the initial gap
+/// if that is smaller. A section that exists is checked even if no model uses it.
 void read_numerical_settings(const TomlSection& root, double radius, Motion& motion) {
   constexpr int kSteps = 4000;
   constexpr double kRelativeTolerance = 1e-9;
@@ -409,7 +416,7 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
   fluid.finish();
   const auto sphere = root.section("sphere");
   c.radius = sphere.number("radius", kPositive);
-  // The mass matters to the motion only.
+  // Only the motion depends on the mass.
   const double mass =
       root.has("motion") || sphere.has("mass") ? sphere.number("mass", kPositive) : 1;
   sphere.finish();
@@ -442,7 +449,7 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
                                 "tabulation.geometry is {}",
                                 model, c.tabulation->geometry));
   if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
-  // Without [motion] these are not read, but they are no strangers.
+  // Without [motion] these sections are not read, but they are allowed.
   for (const auto* key : {"reference", "inertial", "viscous_contact"}) (void)root.has(key);
   root.finish();
   return c;
@@ -458,7 +465,8 @@ Case read_case(const std::filesystem::path& path) {
 
 namespace {
 
-/// The case's text with those sections empty that it leaves out, so that their keys can be set.
+/// The text of a case, with empty sections added for those that it lacks, so that their keys can be
+/// set.
 std::string with_numerical_settings(std::string text, const std::filesystem::path& path) {
   const auto root = TomlSection::parse(text, path.string());
   for (const auto* section : {"reference", "inertial", "viscous_contact"})

@@ -1,4 +1,6 @@
-// A case file (TOML): one sphere in one fluid, and what is to be computed of it.
+// A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
+// Lengths, masses and times are in any one consistent system of units. A new key needs an entry in
+// docs/case-file.md.
 #pragma once
 
 #include <cstdint>
@@ -18,60 +20,65 @@
 
 namespace viscontact {
 
-/// How the force is fitted, or what stands in for tabulation and fitting.
+/// How the drag is fitted, or what replaces tabulation and fit.
 struct FitRequest {
   FitSettings settings;
-  std::optional<std::filesystem::path> file;    ///< a fit file to use as it is
-  BelowInterval below = BelowInterval::kError;  ///< what the drag is beyond the fit's interval
+  /// A fit file that replaces tabulation and fit.
+  std::optional<std::filesystem::path> file;
+  /// Drag below and above the interval of the fit.
+  BelowInterval below = BelowInterval::kError;
   AboveInterval above = AboveInterval::kError;
-  bool exact = false;  ///< no fit: the exact drag near a plane in a half-space
+  /// True: the exact drag near a plane replaces the fit.
+  bool exact = false;
 };
 
-/// A minimal gap from the literature, to be shown beside the computed ones.
+/// A minimal gap from the literature, shown beside the computed ones.
 struct PublishedGap {
   double minimal_gap = 0;  ///< [L], > 0
   std::string source;
 };
 
-/// What `viscontact sweep` varies; its command line may say otherwise.
+/// What `viscontact sweep` varies. Options on its command line replace these values.
 struct SweepRequest {
   std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
-  std::vector<std::string> models;  ///< names; empty: the command's default
-  std::string reference;            ///< empty: the command's default
-  std::string x, y;                 ///< keys of the plot's axes; may be empty
+  std::vector<std::string> models;  ///< names; empty: the default of the command
+  std::string reference;            ///< a model; empty: the default of the command
+  std::string x, y;                 ///< keys on the axes of the plot; may be empty
   std::vector<std::string> plot;    ///< columns to draw
-  std::uint64_t samples = 0;        ///< random samples; 0: the whole grid
+  std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
 };
 
 struct Case {
   std::string title;
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double radius = 0;     ///< r [L], > 0
-  std::string text;      ///< the file as it was read
-  // A part is there if the file has its sections; a command that needs it asks with the functions
-  // below.
+  std::string text;      ///< content of the file
+  // A part exists if the file has its sections. Commands that need a part call the required_...
+  // functions below.
   std::optional<Tabulation> tabulation;
   std::optional<FitRequest> fit;
-  std::optional<Motion> motion;     ///< with the settings of the models, or their defaults
-  std::vector<std::string> models;  ///< names of the models of motion to run; empty: all
+  std::optional<Motion> motion;  ///< with the settings of the models, or their defaults
+  /// Names of the models to run; empty: all models.
+  std::vector<std::string> models;
   std::optional<PublishedGap> published;
   std::optional<SweepRequest> sweep;
   std::filesystem::path path;
-  std::vector<std::filesystem::path> force_files;  ///< that the external force was read from
+  std::vector<std::filesystem::path> force_files;  ///< files from which the external force was read
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with file, line, key, value and what is
-/// allowed.
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// A case to be read again and again with other numbers.
+/// A case file that is read once and evaluated many times with other numbers.
 class CaseTemplate {
  public:
-  /// Reads and parses the file. Throws as read_case.
+  /// Reads and parses the file. Throws the errors of read_case.
   explicit CaseTemplate(const std::filesystem::path& path);
 
-  /// The case with these numbers at these keys, such as "fluid.viscosity" or "motion.external_force[0].value". Throws Error(kBadInput) as
-  /// read_case does, and for a key that leads nowhere.
+  /// The case with these numbers at these keys, such as "fluid.viscosity" or
+  /// "motion.external_force[0].value". Throws the errors of read_case, and Error(kBadInput) for a
+  /// key that the case cannot have.
   Case with(std::span<const std::pair<std::string, double>> numbers) const;
 
  private:
@@ -80,7 +87,7 @@ class CaseTemplate {
   TomlSection root_;
 };
 
-/// The parts of a case that a command cannot do without. Throw Error(kBadInput) naming the missing
+/// The parts of a case that a command needs. Throws Error(kBadInput), which names the missing
 /// section.
 const Tabulation& required_tabulation(const Case& c);
 const FitRequest& required_fit(const Case& c);

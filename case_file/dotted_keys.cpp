@@ -1,3 +1,5 @@
+// Scans a TOML text for long dotted keys without parsing it (dotted_keys.hpp). The scan must skip
+// strings and comments, which may contain dots.
 #include "viscontact/case_file/dotted_keys.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +12,8 @@
 namespace viscontact {
 namespace {
 
-/// The first place at or after `at` that is behind the string whose opening quote is there; the
-/// text's end if the string is not closed.
+/// Position after the string whose opening quote is at `at`; the end of the text if the string is
+/// not closed.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string three(3, quote);
@@ -19,18 +21,18 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   const std::size_t width = is_long ? 3 : 1;
   for (std::size_t i = at + width; i < text.size(); ++i) {
     if (quote == '"' && text[i] == '\\')
-      ++i;  // of the next character, which may be a quote, too
+      ++i;  // also skips the next character, which may be a quote
     else if (is_long ? text.substr(i).starts_with(three) : text[i] == quote)
       return i + width;
     else if (!is_long && text[i] == '\n')
-      return i;  // not valid, as the parser will say
+      return i;  // not valid TOML; the parser reports it
   }
   return text.size();
 }
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// Ends a dotted key, or stands where none can be.
+/// True for characters that end a dotted key or cannot be in one.
 bool ends_a_key(char c) { return std::string_view("=,[]{}\n#").find(c) != std::string_view::npos; }
 
 std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
@@ -43,7 +45,7 @@ std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
 }  // namespace
 
 void check_dotted_keys(const std::string& text, const std::string& file) {
-  constexpr int kMostParts = 16;  // the longest key of a case has five
+  constexpr int kMostParts = 16;  // the longest key of a case has five parts
   const std::string_view all = text;
   int line = 1, parts = 0;
   bool after_dot = false;

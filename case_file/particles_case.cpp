@@ -1,3 +1,4 @@
+// Reads the case file of many particles and checks the state at the start (particles_case.hpp).
 #include "viscontact/case_file/particles_case.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ using particles::Vector;
 using particles::operator-;
 using particles::operator*;
 
+// Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
 constexpr double kLargest = 1e100;
 constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargest; },
                                "at most 1e100 in magnitude"};
@@ -35,7 +37,7 @@ constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
 
-/// An array with a number for each dimension.
+/// Reads an array with one number for each dimension.
 Vector read_vector(const TomlSection& section, std::string_view key, int dimension) {
   const auto numbers = section.numbers(key, kModerate);
   if (numbers.size() != static_cast<std::size_t>(dimension))
@@ -45,7 +47,7 @@ Vector read_vector(const TomlSection& section, std::string_view key, int dimensi
   return {numbers[0], numbers[1], dimension == 3 ? numbers[2] : 0.0};
 }
 
-/// A vector, or pieces { until, value } that reach the end.
+/// Reads a constant vector, or pieces { until, value } that must last until end_time [T].
 PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, int dimension,
                               double end_time) {
   PiecewiseConstant function;
@@ -71,7 +73,8 @@ PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, 
   if (before < end_time * (1 - 1e-9))
     section.fail(key, fmt::format("ends at {}; it must reach viscous_contact.end_time, {}", before,
                                   end_time));
-  // At the end itself round-off must not find it over.
+  // The last piece is extended, so that rounding errors of the time do not put the end of the last
+  // step after it.
   function.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
   return function;
 }
@@ -122,7 +125,8 @@ void add(Particles& p, const Vector& centre, const Vector& velocity, double radi
   p.masses.push_back(mass);
 }
 
-/// Names a particle of a table in a case whose file gives ids: they go on after the largest.
+/// Gives an id to a particle of a table [[particle]] if the CSV file gives ids: the largest id plus
+/// 1.
 void add_id(Particles& p, const TomlSection& section) {
   const auto largest = std::ranges::max(p.ids);
   if (largest == std::numeric_limits<std::int32_t>::max())
@@ -133,7 +137,7 @@ void add_id(Particles& p, const TomlSection& section) {
   p.ids.push_back(largest + 1);
 }
 
-/// How messages name a particle.
+/// Describes particles in messages.
 class ParticleNames {
  public:
   ParticleNames(const ParticlesCase& c, std::vector<int> lines)
@@ -201,14 +205,14 @@ void check_start(const ParticlesCase& c, const ParticleNames& names) {
   }
 }
 
-/// The place of each particle in the arrays, by its id.
+/// The number of each particle, by its id.
 std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
   std::unordered_map<std::int32_t, std::int32_t> places;
   for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
   return places;
 }
 
-/// [[force]]: the same force on particles named by their ids.
+/// Reads [[force]]: the same force on all particles whose ids it names.
 void read_forces_by_id(const TomlSection& root, int dimension, double end_time, ParticlesCase& c) {
   const auto places = places_by_id(c.particles);
   for (const auto& section : root.sections("force")) {

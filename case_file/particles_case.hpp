@@ -1,4 +1,5 @@
-// The case file of many particles.
+// The case file of many particles (docs/case-file.md, "Many particles"). Lengths, masses and times
+// are in any one consistent system of units.
 #pragma once
 
 #include <filesystem>
@@ -8,21 +9,24 @@
 
 namespace viscontact {
 
-/// What a user asked for (case-file.md, "Many particles").
+/// Content of a case file of many particles.
 struct ParticlesCase {
   std::filesystem::path path;
-  std::string text;  ///< of the file
+  std::string text;  ///< content of the file
   std::string title;
   particles::Setting setting;
-  particles::Particles particles;        ///< those of the CSV file, then those of the tables
-  std::filesystem::path particles_file;  ///< empty: none
+  /// The particles of the CSV file, followed by those of the tables [[particle]].
+  particles::Particles particles;
+  std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< [T], > 0
   double frame_interval = 0;             ///< [T], > 0
 };
 
-/// Reads and checks it. Throws Error(kBadInput) with file, line, key, value and what is allowed: among others for no particle, two that overlap or one
-/// on the wrong side of a plane at the start, by more than solver.tolerance mean radii; a particle smaller than a hundred times that, or further away than
-/// particles::largest_resolved_distance.
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed. Also throws if there is no particle; if, at the start, two particles
+/// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
+/// if a radius is less than a hundred times that length; or if a particle is further from the
+/// origin than particles::largest_resolved_distance.
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 }  // namespace viscontact

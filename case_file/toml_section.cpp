@@ -1,3 +1,4 @@
+// Reads TOML tables with toml++ (toml_section.hpp).
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <fmt/format.h>
@@ -16,15 +17,15 @@ struct TomlSection::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
-  std::string path;             // "tabulation.container", empty for the root
-  std::set<std::string> asked;  // keys
+  std::string path;             // "tabulation.container"; empty for the root
+  std::set<std::string> asked;  // keys that were asked for
 };
 
 namespace {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// A value for a message.
+/// The text of a value in a message.
 std::string show(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   std::ostringstream text;
@@ -61,11 +62,13 @@ TomlSection TomlSection::with_numbers(
       auto* parent =
           dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
       if (parent == nullptr) refuse("is not a key of this case");
-      parent->insert_or_assign(path.substr(dot + 1), value);  // the reader knows whether it is one
+      // The reader of the case checks whether this key exists.
+      parent->insert_or_assign(path.substr(dot + 1), value);
     } else if (auto* decimal = place->as_floating_point()) {
       **decimal = value;
     } else if (place->is_integer()) {
-      // An integer's node holds no fraction; its place is taken by another one.
+      // The node of an integer cannot store a fraction, so it is replaced by a node of a decimal
+      // number.
       const auto dot = path.rfind('.');
       const auto bracket = path.rfind('[');
       if (bracket != std::string::npos && path.back() == ']') {
@@ -130,8 +133,8 @@ int TomlSection::count(std::string_view key, int least, int most) const {
   const std::string allowed = fmt::format("it must be a whole number from {} to {}", least, most);
   if (!has(key)) fail(key, "is missing; " + allowed);
   const auto* node = node_->table->get(key);
-  if (const auto decimal = node->value_exact<double>();
-      decimal && *decimal == std::floor(*decimal))  // of which show() leaves out the point
+  // show() leaves out the decimal point of such a number, so this message needs a case of its own.
+  if (const auto decimal = node->value_exact<double>(); decimal && *decimal == std::floor(*decimal))
     fail(key, fmt::format("is {:.1f}; {}, without a decimal point", *decimal, allowed));
   const auto value = node->is_integer() ? node->value<int>() : std::nullopt;
   if (!value || *value < least || *value > most)

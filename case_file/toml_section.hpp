@@ -1,5 +1,5 @@
-// A table of a TOML file, read strictly: every key is asked for by name, and one that nobody asked
-// for is an error.
+// A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
+// not asked for is an error.
 #pragma once
 
 #include <memory>
@@ -14,45 +14,49 @@
 
 namespace viscontact {
 
-/// Every function throws Error(kBadInput) with file, line, key and what is allowed for a missing
-/// key (optional_... excepted), a wrong type, a value that is not finite or not allowed.
+/// A table of a TOML file. All functions that read a value throw Error(kBadInput), with the file,
+/// the line, the key and what is allowed, if the key is missing, the value has the wrong type, or
+/// the value is not finite or not allowed.
 class TomlSection {
  public:
-  /// The root table of a text; `file` is for messages. Throws Error(kBadInput) with the line where
-  /// the text is no TOML.
+  /// The root table of a TOML text. `file` is its name in messages. Throws Error(kBadInput) with
+  /// the line if the text is not valid TOML.
   static TomlSection parse(const std::string& text, const std::string& file);
 
-  /// A root table like this root, with other numbers: each at a path such as "motion.external_force[0].value". Of a path only its last key may be
-  /// new. Throws Error(kBadInput) if it leads nowhere or to something that is no number.
+  /// A copy of this root table with other numbers, each at a path such as
+  /// "motion.external_force[0].value". Only the last key of a path may be new. Throws
+  /// Error(kBadInput) if a path leads to no key or to a value that is not a number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
   bool has(std::string_view key) const;
-  bool is_text(std::string_view key) const;   ///< the key is there and holds text
-  bool is_array(std::string_view key) const;  ///< the key is there and holds an array
+  bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
+  bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
 
-  /// The key holds an array whose first element is a table.
+  /// True if the key exists and its value is an array whose first element is a table.
   bool is_array_of_tables(std::string_view key) const;
 
   double number(std::string_view key, const Allowed& allowed) const;
-  int count(std::string_view key, int least, int most) const;  ///< a whole number in [least, most]
+  int count(std::string_view key, int least, int most) const;  ///< an integer in [least, most]
   std::string text(std::string_view key) const;
-  std::vector<double> numbers(std::string_view key,
-                              const Allowed& allowed) const;   ///< an array of at least one number
+  /// An array of at least one number.
+  std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
   TomlSection section(std::string_view key) const;
-  std::vector<TomlSection> sections(
-      std::string_view key) const;  ///< an array of tables, at least one
+  /// An array of at least one table.
+  std::vector<TomlSection> sections(std::string_view key) const;
 
-  /// Throws for a key of this table that none of the functions above was asked for.
+  /// Throws Error(kBadInput) if this table has a key that none of the functions above was called
+  /// for.
   void finish() const;
 
-  /// Throws Error(kBadInput) at this key's line (this table's, if the key is not there):
-  /// "section.key what".
+  /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
+  /// line of this table if the key does not exist.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 
  private:
   struct Node;
-  /// As fail; of a section of the root without a line, since it stands nowhere.
+  /// Same as fail, but without a line if this is the root table, in which a missing section has no
+  /// line.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   explicit TomlSection(std::shared_ptr<Node> node) : node_(std::move(node)) {}
   std::shared_ptr<Node> node_;

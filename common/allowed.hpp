@@ -1,10 +1,11 @@
-// What a number of a user's may be, and how to say so.
+// Conditions on numbers that users give, with the words for messages.
 #pragma once
 
 #include <string_view>
 
 namespace viscontact {
 
+/// A test of a number, and words that complete the sentence "it must be a number ...".
 struct Allowed {
   bool (*test)(double value);
   std::string_view words;

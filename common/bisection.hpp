@@ -1,10 +1,11 @@
-// Where a condition begins to hold.
+// Finds by bisection where a condition becomes true.
 #pragma once
 
 namespace viscontact {
 
-/// The number at which a condition begins to hold that does not at `from` but does at `to`, to neighbouring numbers; `to` if it holds there alone. If it changes
-/// more than once in between, one of the places.
+/// Returns the smallest double at which a condition is true, where the condition is false at `from`
+/// and true at `to`; `to` if it is true only there. If the condition changes more than once in
+/// between, returns one of the places where it becomes true.
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;

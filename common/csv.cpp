@@ -1,3 +1,4 @@
+// Comments, hints and blank lines of CSV files (csv.hpp).
 #include "viscontact/common/csv.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@
 namespace viscontact {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // as some spreadsheets write it
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some spreadsheets write it
 
 }  // namespace
 
@@ -44,7 +45,7 @@ std::string hint_of_separator(const std::string& text) {
 void remove_trailing_blank_lines(std::string& text) {
   const auto last = text.find_last_not_of(" \t\r\n,");
   if (last == std::string::npos) return;
-  // Empty fields at the end of the last row are part of it.
+  // Empty fields at the end of the last row belong to it.
   const auto end_of_row = text.find('\n', last);
   if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
 }
@@ -55,7 +56,8 @@ CsvComments read_csv_comments(const std::string& text, std::set<std::string>* co
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.empty() || line[0] != '#') continue;
-    while (line.back() == '\r' || line.back() == ',') line.pop_back();  // not '#'
+    // The '#' at the begin of the line ends this loop at the latest.
+    while (line.back() == '\r' || line.back() == ',') line.pop_back();
     const auto colon = line.find(": ");
     const auto start = line.find_first_not_of("# \t");
     if (colon == std::string::npos || start >= colon) continue;

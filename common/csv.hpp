@@ -1,5 +1,4 @@
-// CSV files as Viscontact writes them: "# key: value" lines, then a header line, then rows of
-// numbers.
+// CSV files as Viscontact writes them: lines "# key: value", a header line, and rows of numbers.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +16,11 @@
 
 namespace viscontact {
 
-/// The "# key: value" lines at the head of a file, in order of key.
+/// The lines "# key: value" at the head of a file, sorted by key.
 using CsvComments = std::map<std::string, std::string>;
 
-/// One row: the fields of the asked columns as numbers (empty: nothing), and its line in the file.
+/// A row: the fields of the requested columns as numbers (nothing for an empty field), and the
+/// number of its line in the file.
 template <std::size_t columns>
 struct CsvRow {
   std::array<std::optional<double>, columns> fields;
@@ -30,30 +30,33 @@ struct CsvRow {
 template <std::size_t columns>
 struct CsvFile {
   CsvComments comments;
-  std::set<std::string> contradictions;  ///< keys that stand twice, with different values
+  std::set<std::string> contradictions;  ///< keys that occur twice with different values
   std::vector<CsvRow<columns>> rows;
 };
 
-/// The "# key: value" lines of `text`, without commas at their end, which spreadsheets add. Of a key that stands twice the last; it is put into
-/// `contradictions` if the values differ.
+/// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add.
+/// If a key occurs twice, the last value counts; if the values differ, the key is added to
+/// `contradictions`.
 CsvComments read_csv_comments(const std::string& text,
                               std::set<std::string>* contradictions = nullptr);
 
-/// "# key: value" lines for `comments`.
+/// The lines "# key: value" for `comments`.
 std::string write_csv_comments(const CsvComments& comments);
 
-/// A comment that must be there as a finite number. Throws Error(kBadInput) naming file and key.
+/// The value of a comment that must be a finite number. Throws Error(kBadInput), which names the
+/// file and the key, if it is missing or is no number.
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
-/// For a message about missing columns: the header line; or ", whose fields seem to be separated by ..." if the header line has no comma but that.
+/// Text to be added to a message about missing columns: ", 'the header line'", or the probable
+/// reason why its columns were not found (quotes, another separator, UTF-16).
 std::string hint_of_separator(const std::string& text);
 
-/// Removes the lines at the end of `text` that hold nothing but spaces, tabs and commas, as editors
-/// and spreadsheets leave them: they are no rows. Blank lines above the last row stay.
+/// Removes the lines at the end of `text` that contain only spaces, tabs and commas, which editors
+/// and spreadsheets leave. Blank lines above the last row stay.
 void remove_trailing_blank_lines(std::string& text);
 
-/// Text fit to be shown in a message: its beginning, if it is long.
+/// A text for a message: its first 60 characters and "..." if it is longer.
 std::string shortened(const std::string& text);
 
 /// Most columns that can be asked of a file.
@@ -67,11 +70,13 @@ void read_csv_rows(
     CsvComments& comments, std::set<std::string>& contradictions,
     const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row);
 
-/// The asked columns of a CSV file, in the order of `names`; the file may have them in another
-/// order, and others besides. The first `required` columns must be there, the others read as empty
-/// where they are not. Blank lines after the last row are no rows. Throws Error(kBadInput) with file and line for a missing column, a row of
-/// another length, a field that is neither empty nor a finite number, or fewer rows than a line "#
-/// rows: N" promises (a truncated file).
+/// Reads the columns `names` of a CSV file, in this order. The file may have its columns in another
+/// order, and further columns. The first `required` columns must exist; the fields of others are
+/// empty if their column is missing. Blank lines after the last row are ignored.
+///
+/// Throws Error(kBadInput) with file and line for a missing column, a row with more or fewer fields
+/// than the header line, a field that is neither empty nor a finite number, and a number of rows
+/// that differs from a line "# rows: N" (which shows that the file was cut short).
 template <std::size_t columns>
 CsvFile<columns> read_csv(const std::filesystem::path& path,
                           const std::array<std::string, columns>& names, std::size_t required) {

@@ -1,5 +1,5 @@
-// The one way to fail: every error that a user can cause or meet is a viscontact::Error, caught
-// once in app/.
+// The error type of Viscontact. Every error that a user can cause or meet is thrown as
+// viscontact::Error and caught once, in app/.
 #pragma once
 
 #include <stdexcept>
@@ -7,17 +7,22 @@
 
 namespace viscontact {
 
-/// What kind of fault ends a computation; results/exit_code.hpp says which exit code each becomes.
+/// Kind of an error. results/exit_code.hpp gives the exit code of each kind.
 enum class ErrorKind {
-  kWrongUsage,       ///< what was asked for: an option, or a combination of them
-  kBadInput,         ///< a file or a value in it
-  kNotConverged,     ///< a computation did not reach what was asked
-  kExternalProgram,  ///< FreeFEM or gnuplot failed or is missing
-  kInterrupted,      ///< by the user; everything finished so far is kept
+  /// An option, or a combination of options, is wrong.
+  kWrongUsage,
+  /// A file, or a value in a file, is wrong.
+  kBadInput,
+  /// A computation did not reach the accuracy or tolerance that was asked for.
+  kNotConverged,
+  /// FreeFEM or gnuplot failed or is missing.
+  kExternalProgram,
+  /// The user interrupted; everything finished so far is kept.
+  kInterrupted,
 };
 
-/// An error fit for a user: `what()` reads "FILE:LINE: what is wrong (the value); what is allowed
-/// or what to do".
+/// An error with a message for users. `what()` has the form "FILE:LINE: what is wrong (the value);
+/// what is allowed or what to do".
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
@@ -27,13 +32,13 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// A place in an input file; `line` 0 means the file as a whole.
+/// A position in an input file. `line` is 0 if the file as a whole is meant.
 struct FilePosition {
   std::string file;
   int line = 0;
 };
 
-/// Bad input at a place: throws Error(kBadInput, "FILE:LINE: message").
+/// Throws Error(kBadInput) with the message "FILE:LINE: message".
 [[noreturn]] inline void throw_bad_input(const FilePosition& at, const std::string& message) {
   const std::string line = at.line > 0 ? ":" + std::to_string(at.line) : "";
   throw Error(ErrorKind::kBadInput, at.file + line + ": " + message);

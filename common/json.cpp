@@ -1,3 +1,5 @@
+// JSON with lines: a check of the syntax, a scan for lines and repeated keys, then the library's
+// own parser (json.hpp).
 #include "viscontact/common/json.hpp"
 
 #include <fmt/format.h>
@@ -14,12 +16,12 @@
 namespace viscontact {
 namespace {
 
-constexpr std::string_view kJsonByteOrderMark = "\xEF\xBB\xBF";  // which the parser passes over
+constexpr std::string_view kJsonByteOrderMark = "\xEF\xBB\xBF";  // the parser skips it
 
-/// Accepts every event of the parser and keeps where and why it stopped. The parser's own
-/// exceptions do not say where a number is that no double can hold.
+/// Accepts all events of the parser and records where and why it stopped. The exceptions of the
+/// parser do not say where a number is that is too large for a double.
 struct SyntaxCheck {
-  std::size_t position = 0;  // bytes read when the parser stopped
+  std::size_t position = 0;  // number of bytes read when the parser stopped
   std::string cause;
 
   bool null() { return true; }
@@ -44,13 +46,13 @@ struct SyntaxCheck {
 void check_syntax(const std::string& text, const std::string& file) {
   SyntaxCheck check;
   if (Json::sax_parse(text, &check)) {
-    // The parser takes a NUL character for the end of the text, whatever follows.
+    // The parser takes a NUL character for the end of the text and ignores what follows.
     const auto nul = text.find('\0');
     if (nul == std::string::npos) return;
     check.position = nul + 1;
     check.cause = "a NUL character";
   }
-  // The last byte that was read is the offending one.
+  // The last byte that was read caused the error.
   const auto at = std::min(check.position > 0 ? check.position - 1 : 0, text.size());
   const auto before = std::string_view(text).substr(0, at);
   const auto newline = before.rfind('\n');
@@ -59,8 +61,8 @@ void check_syntax(const std::string& text, const std::string& file) {
                   fmt::format("is not valid JSON at column {} ({})", column, check.cause));
 }
 
-/// Walks through a valid text, notes the lines of values and refuses keys that stand twice. Not
-/// recursive: a text may be nested more deeply than the stack.
+/// Goes through a valid text, records the line of each value, and throws Error(kBadInput) if a key
+/// occurs twice in an object. It uses no recursion, because deep nesting could overflow the stack.
 class LineScan {
  public:
   LineScan(std::string_view text, std::string file, std::map<std::string, int>& lines)
@@ -75,9 +77,10 @@ class LineScan {
   struct Level {
     bool is_object = false;
     bool key_is_next = false;
-    std::size_t index = 0;       // of the element of an array
-    std::string path, key;       // of the container, and of its present member
-    std::set<std::string> keys;  // of an object
+    std::size_t index = 0;  // number of the element, in an array
+    // Path of the array or object, and key of its present member.
+    std::string path, key;
+    std::set<std::string> keys;  // of an object, so far
   };
 
   void step() {
@@ -107,7 +110,7 @@ class LineScan {
     ++at_;
   }
 
-  /// The string that begins here, with its quotes; passes over it.
+  /// Returns the string that begins here, with its quotes, and moves to its end.
   std::string_view read_string() {
     const auto begin = at_++;
     while (text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
@@ -124,9 +127,9 @@ class LineScan {
                                   level.path, level.path.empty() ? "" : ".", level.key));
   }
 
-  /// Notes the line of the value that begins here, and returns its path.
+  /// Records the line of the value that begins here, and returns its path.
   std::string begin_value() {
-    constexpr std::size_t kDeepest = 8;  // a path for each level of a deep text is too much
+    constexpr std::size_t kDeepest = 8;  // more levels would cost too much memory
     if (levels_.size() > kDeepest) return {};
     std::string path;
     if (!levels_.empty()) {
@@ -150,6 +153,7 @@ class LineScan {
 }  // namespace
 
 std::string cause_in_words(const Json::exception& error) {
+  // The text of an error has this form:
   // "[json.exception.parse_error.101] parse error at line 1, column 2: what is wrong"
   constexpr std::size_t kLongest = 200;
   const std::string what = error.what();

@@ -1,4 +1,4 @@
-// JSON texts, read so that an error can name the line of a value.
+// Reads JSON texts (RFC 8259) in such a way that an error can name the line of a value.
 #pragma once
 
 #include <map>
@@ -9,19 +9,20 @@ namespace viscontact {
 
 using Json = nlohmann::ordered_json;
 
-/// A JSON text that was read, with the line on which each of its values stands.
+/// A JSON text that has been read, with the line of each of its values.
 class JsonDocument {
  public:
-  /// Reads a whole text; `file` is its name for messages. Throws Error(kBadInput): with line,
-  /// column and cause where the text is not JSON or a number is too large for a double, and with
-  /// the line where an object has a key for the second time.
+  /// Reads a whole text; `file` is its name in messages. Throws Error(kBadInput) with line, column
+  /// and cause if the text is not valid JSON or a number is too large for a double, and with the
+  /// line if an object has the same key twice.
   static JsonDocument parse(const std::string& text, std::string file);
 
   const Json& root() const { return root_; }
   const std::string& file() const { return file_; }
 
-  /// The line of the value at a path such as "terms[2].name". Where there is none, or it lies
-  /// deeper than eight levels, the line of what would contain it; the whole text is "".
+  /// Line of the value at a path such as "terms[2].name"; the path of the whole text is "". If
+  /// there is no such value, or it lies deeper than eight levels, returns the line of what would
+  /// contain it.
   int line_of(std::string path) const;
 
  private:
@@ -30,8 +31,8 @@ class JsonDocument {
   std::map<std::string, int> lines_;
 };
 
-/// What an error of the JSON library says, without the library's own name for it and without a
-/// place; at most some 200 characters.
+/// Text of an error of the JSON library, without the library's error name and without a position,
+/// shortened to about 200 characters.
 std::string cause_in_words(const Json::exception& error);
 
 }  // namespace viscontact

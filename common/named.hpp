@@ -1,4 +1,5 @@
-// Tables of named things: the geometries, bases, terms and models that there are.
+// Finds rows by name in the tables of geometries, bases, terms and models. Each row of a table has
+// a member `name`.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace viscontact {
 
-/// The names in a table, separated by commas.
+/// All names in a table, separated by commas.
 template <class Table>
 std::string names_of(const Table& table) {
   std::string names;
@@ -17,14 +18,15 @@ std::string names_of(const Table& table) {
   return names;
 }
 
-/// The row of that name, or nullptr.
+/// The row with this name, or nullptr.
 template <class Table>
 auto find_named(const Table& table, std::string_view name) -> decltype(&*table.begin()) {
   const auto found = std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });
   return found == table.end() ? nullptr : &*found;
 }
 
-/// The row of that name. Throws Error(kBadInput) that lists the names there are.
+/// The row with this name. Throws Error(kBadInput), which lists all names, if there is none; `kind`
+/// is the word for a row in the message.
 template <class Table>
 const auto& require_named(const Table& table, std::string_view name, const std::string& kind) {
   if (const auto* row = find_named(table, name)) return *row;

@@ -1,3 +1,4 @@
+// Conversion of numbers by <charconv> (number.hpp).
 #include "viscontact/common/number.hpp"
 
 #include <array>
@@ -9,7 +10,7 @@ namespace viscontact {
 
 std::string format_number(double value) {
   assert(std::isfinite(value));
-  std::array<char, 32> buffer{};  // the longest is -2.2250738585072014e-308
+  std::array<char, 32> buffer{};  // the longest text is -2.2250738585072014e-308
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
 }
@@ -17,7 +18,7 @@ std::string format_number(double value) {
 std::optional<double> parse_number(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  // from_chars takes a minus, not a plus.
+  // std::from_chars accepts a minus but no plus.
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

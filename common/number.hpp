@@ -1,4 +1,4 @@
-// Numbers to text and back, without loss and without regard to the locale.
+// Converts numbers to text and back without loss. The locale has no effect.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,12 @@
 
 namespace viscontact {
 
-/// The shortest decimal text that reads back to the same double; value must be finite.
+/// The shortest decimal text that reads back to the same double. `value` must be finite.
 std::string format_number(double value);
 
-/// The double nearest to the decimal text (surrounding blanks allowed); nothing if the text is not
-/// one finite number that a double can hold (so not "nan", "inf", "1e400", "1e-400" or "1.5x").
+/// The double nearest to a decimal text, which blanks may surround. Returns nothing if the text is
+/// not one finite number in the range of a double; "nan", "inf", "1e400", "1e-400" and "1.5x" are
+/// not.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace viscontact

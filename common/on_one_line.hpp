@@ -1,4 +1,4 @@
-// Text for a place that holds one line.
+// Turns a text of several lines into one line.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// The text with its line ends as spaces.
+/// The text with a space in place of each line end.
 inline std::string on_one_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;

@@ -1,4 +1,4 @@
-// A number that may be missing, as small as a number.
+// A number that may be missing, in the size of a double.
 #pragma once
 
 #include <cassert>
@@ -7,12 +7,14 @@
 
 namespace viscontact {
 
-/// What std::optional<double> is for values that are never NaN, in the size of a double: rows of millions hold several.
+/// Like std::optional<double>, but in the size of a double, because millions of rows store several
+/// of these values. NaN stands for a missing value, so that a value must not be NaN.
 class OptionalDouble {
  public:
   constexpr OptionalDouble() = default;
-  constexpr OptionalDouble(double value)
-      : value_(value) {}  // NOLINT(google-explicit-constructor): as std::optional
+  // The conversion is implicit, as in std::optional.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  constexpr OptionalDouble(double value) : value_(value) {}
 
   bool has_value() const { return !std::isnan(value_); }
   explicit operator bool() const { return has_value(); }
@@ -22,7 +24,7 @@ class OptionalDouble {
   }
   double value() const { return **this; }
 
-  /// Equal values, or both missing.
+  /// True if both values are equal or both are missing.
   friend bool operator==(const OptionalDouble& a, const OptionalDouble& b) {
     return a.value_ == b.value_ || (!a && !b);
   }

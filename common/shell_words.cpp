@@ -1,3 +1,4 @@
+// Splits and quotes words (shell_words.hpp). Backslashes have no special meaning in split_words.
 #include "viscontact/common/shell_words.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Command lines taken apart into words, and words made fit for a shell.
+// Splits command lines into words, and quotes words for a POSIX shell.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace viscontact {
 
-/// The words of a command line: blanks part them, except between ' or ". Throws Error(kWrongUsage) for a quote
-/// without an end.
+/// The words of a command line. Blanks separate them, except between ' or ". Throws
+/// Error(kWrongUsage) if a quote is not closed.
 std::vector<std::string> split_words(const std::string& text);
 
-/// A word as a POSIX shell must be given it.
+/// A word in the form in which a POSIX shell reads it as one word.
 std::string shell_word(const std::string& text);
 
 }  // namespace viscontact

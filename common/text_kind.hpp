@@ -1,9 +1,10 @@
-// The kinds of text that Viscontact writes.
+// The kinds of text files that Viscontact writes.
 #pragma once
 
 namespace viscontact {
 
-/// By how a kind of text can carry a line that its readers pass over: "#" is that of CSV and Python.
+/// A kind of text, by how it marks a comment line: "#" (CSV, Python), JSON, SVG, HTML, XML, C or
+/// Fortran.
 enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran };
 
 }  // namespace viscontact

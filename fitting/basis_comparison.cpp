@@ -1,3 +1,4 @@
+// One fit for each basis; only the basis differs.
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"

@@ -1,4 +1,5 @@
-// One table fitted in every basis.
+// Fits of one table in several bases, and the choice between them by Akaike's information
+// criterion.
 #pragma once
 
 #include <optional>
@@ -11,17 +12,18 @@
 
 namespace viscontact {
 
+/// A fit in one basis, or the reason why there is none.
 struct BasisResult {
   std::string basis;
   std::optional<Fit> fit{};
-  std::string failure;  ///< why there is no fit
+  std::string failure;  ///< message of the error if there is no fit
 };
 
-/// Fits every named basis, and that of `settings` if it is a user's own, each with the other settings. Errors of a single basis are
-/// kept in its result.
+/// Fits the table in every named basis, and in that of `settings` if it is a list of terms. All
+/// other settings are the same. The error of a basis that fails is kept in its result.
 std::vector<BasisResult> compare_bases(const ForceTable& table, const FitSettings& settings);
 
-/// The result with the least information criterion; nothing if none has one.
+/// The result with the smallest information criterion; null if no result has one.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
 }  // namespace viscontact

@@ -1,3 +1,5 @@
+// Chi-squared, leave-one-out residuals (PRESS, Allen 1974), Akaike's criterion (Hurvich & Tsai
+// 1989), outliers, and warnings in words.
 #include "viscontact/fitting/diagnose.hpp"
 
 #include <fmt/format.h>
@@ -18,14 +20,16 @@ double gap_of_row(const ForceTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution, within 1 % from two degrees of freedom on (Wilson & Hilferty 1931).
+/// The 99 % quantile of the chi-squared distribution (Wilson & Hilferty 1931). Its error is within
+/// 1 % for two or more degrees of freedom.
 double chi_squared_quantile(double freedom) {
+  // The 99 % quantile of the normal distribution.
   constexpr double kGaussianQuantile = 2.3263;
   const double part = 2 / (9 * freedom);
   return freedom * std::pow(1 - part + kGaussianQuantile * std::sqrt(part), 3);
 }
 
-/// One Gaussian residual in two million lies as far out.
+/// True beyond 5 times the scale: one Gaussian residual in two million is as large.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for a row that a robust loss sets aside.
@@ -33,8 +37,8 @@ bool is_outlier(const FittedSystem& system, Loss loss, Eigen::Index row) {
   return loss != Loss::kSquared && is_far(system.scaled_residual(row));
 }
 
-/// Compares each row's residual with the error estimate of the same row: an estimate of another
-/// row, which may be much larger, says nothing about it. Outliers count in chi_squared only.
+/// Compares the residual of each row with the error estimate of the same row, because the estimate
+/// of another row may be much larger. Outliers count in chi_squared only.
 void compare_with_estimates(const ForceTable& table, const FittedSystem& system, Loss loss,
                             FitDiagnostics& d) {
   bool every_row = true;
@@ -66,10 +70,11 @@ void compare_with_estimates(const ForceTable& table, const FittedSystem& system,
   d.misfit = beyond_quantile && d.rows_beyond_estimate > 0 ? Misfit::kBasis : Misfit::kData;
 }
 
-/// The leverage of each row: the diagonal of the projection onto the columns of `matrix`.
+/// Leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
-  // Columns of length 1, as in the least squares: the leverages do not depend on their scale, the rounding does.
+  // The columns are scaled to length 1, as in the least squares. The leverages do not depend on the
+  // scale of the columns, but their rounding does.
   const Eigen::VectorXd over_length = matrix.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = matrix * over_length.asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
@@ -78,8 +83,8 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   return q.rowwise().squaredNorm();
 }
 
-/// True for each row that is alone at the smallest or at the largest gap of the table. The fit of
-/// the other rows has to extrapolate to such a row; to every other row it interpolates.
+/// True for each row that is alone at the smallest or largest gap of the table. The fit of the
+/// other rows extrapolates to such a row and interpolates to every other one.
 std::vector<bool> end_rows(const ForceTable& table) {
   const auto [smallest, largest] = std::ranges::minmax(table.rows, {}, &ForceTableRow::gap);
   std::vector<bool> is_end;
@@ -89,7 +94,7 @@ std::vector<bool> end_rows(const ForceTable& table) {
   return is_end;
 }
 
-/// Takes the residual of a row that was left out, if it is the largest so far.
+/// Replaces `largest` by `row` if the residual of `row` is larger.
 void take_largest(std::optional<LeftOutRow>& largest, const LeftOutRow& row) {
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
@@ -102,6 +107,7 @@ void leave_one_out(const ForceTable& table, const FittedSystem& system, FitDiagn
   double squares = 0;
   std::optional<LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
+    // This row determines a coefficient alone, so the fit of the other rows does not exist.
     if (1 - leverage(i) < round_off) return;
     const double predicted = std::abs(system.relative_residual(i) / (1 - leverage(i)));
     squares += predicted * predicted;
@@ -135,7 +141,7 @@ std::vector<Outlier> outliers(const ForceTable& table, const FittedSystem& syste
   return found;
 }
 
-/// Looks at the fitted resistance over its interval.
+/// Warns if the fitted resistance is not positive or does not decrease with the gap.
 void warn_of_shape(const Fit& fit, std::vector<std::string>& warnings) {
   bool positive = true, decreasing = true;
   for (const double gap : spread_gaps(fit.gap_interval)) {
@@ -173,7 +179,8 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
       continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
-    // Two standard errors: one fit in twenty of pure noise. Nor can it be known better than the table.
+    // Pure noise exceeds two standard errors in one fit of twenty. Besides, the fit cannot know the
+    // coefficient better than the error estimates of the table allow.
     const double error =
         std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
     if (d.degrees_of_freedom > 0 && std::abs(departure) > error)
@@ -201,7 +208,8 @@ FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, con
   if (fit.loss != Loss::kSquared) d.outliers = outliers(table, system);
   warn_of_shape(fit, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
-  // A tenth: more than the lecture's five terms miss on forty gaps (0.05), and not to be called lubrication theory any more.
+  // This threshold is above the 0.05 by which the lecture's five terms miss a row on forty gaps. A
+  // formula that misses a row by a tenth is no longer lubrication theory.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(

@@ -1,4 +1,5 @@
-// Judges a fit by its residuals, beside the error estimates of the table's rows.
+// Diagnostics of a fit: its residuals, compared with the error estimates of the table's rows. Units
+// are those of the table. The thresholds of the warnings are in diagnose.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +9,20 @@
 
 namespace viscontact {
 
-/// The least squares behind a fit: rows as in the table, one column a free coefficient.
+/// The least squares problem of a fit: a row for each row of the table, a column for each fitted
+/// coefficient.
 struct FittedSystem {
-  Eigen::MatrixXd weighted_matrix;  ///< weight * term(gap), and times the root of the loss's weight
-  Eigen::VectorXd weighted_residual;  ///< likewise, fit - table
+  /// Weight * term(gap), times the square root of the weight that the loss gives the row.
+  Eigen::MatrixXd weighted_matrix;
+  /// (Fit - table), times the same weights.
+  Eigen::VectorXd weighted_residual;
+  /// Fit/table - 1.
   Eigen::VectorXd relative_residual;
-  Eigen::VectorXd scaled_residual;  ///< residual as the loss sees it: over the scale of all
+  /// Weighted residual over the scale of all residuals, which the loss is a function of.
+  Eigen::VectorXd scaled_residual;
 };
 
-/// Judges a fit whose other members are complete.
+/// The diagnostics of a fit whose other members are complete.
 FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, const Fit& fit);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Assembles the equations of a fit from the rows of a table, solves them, and fills in the fit.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@
 namespace viscontact {
 namespace {
 
-/// Stokes flow is linear in the velocity: at equal gaps F/u must agree to within the rows' own error estimates, where they have any.
+/// Throws Error(kBadInput) if F/u differs between rows of equal gap by more than their error
+/// estimates. Stokes flow is linear in the velocity. Rows without an estimate are not checked.
 void check_linearity(const ForceTable& table) {
   std::map<double, const ForceTableRow*> first_at;
   for (const auto& row : table.rows) {
@@ -33,7 +35,8 @@ void check_linearity(const ForceTable& table) {
   }
 }
 
-/// The coefficient to hold. Throws Error(kBadInput) if neither settings nor table have one.
+/// The value of the fixed coefficient of 1/q [M L^2/T^2]. Throws Error(kBadInput) if the basis has
+/// no such term, or if neither settings nor table give a value.
 double held_leading(const ForceTable& table, const FitSettings& settings) {
   if (find_named(settings.basis.terms, kLeadingTerm) == nullptr)
     throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be held");
@@ -60,11 +63,15 @@ void check_gaps(const ForceTable& table, const FitSettings& settings) {
                             gaps.size(), settings.basis.name, needed));
 }
 
-/// What the least squares are made of, a row for each of the table's.
+/// The equations of the least squares, with a row for each row of the table.
 struct Equations {
-  Eigen::VectorXd force;  // at the first row's velocity
-  Eigen::VectorXd left;   // what the held term leaves of it to the others
-  Eigen::MatrixXd terms;  // a column for each term that is not held
+  // The forces, scaled to the velocity of the first row.
+  Eigen::VectorXd force;
+  // The forces minus the fixed term.
+  Eigen::VectorXd left;
+  // A column for each fitted term.
+  Eigen::MatrixXd terms;
+  // The weight of each row: 1/force or 1.
   Eigen::VectorXd weight;
 };
 
@@ -97,10 +104,10 @@ Equations assemble(const ForceTable& table, const FitSettings& settings, double 
   return equations;
 }
 
-/// Coefficients and covariance, with a zero row and column for what is held.
+/// Sets coefficients and covariance. A fixed coefficient has a row and a column of zeros.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
                       double held, Fit& fit) {
-  std::vector<Eigen::Index> columns;  // of the solution; -1: held
+  std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed
   Eigen::Index free = 0;
   for (const auto& term : settings.basis.terms) {
     const std::string name(term.name);

@@ -1,4 +1,5 @@
-// The fit of a force table: linear least squares for the coefficients of a basis.
+// The fit of a force table (physics.md (3.2)): linear least squares for the coefficients of a
+// basis. Units are those of the table.
 #pragma once
 
 #include <optional>
@@ -10,25 +11,29 @@
 
 namespace viscontact {
 
-/// How a table is fitted.
+/// The choices of a fit.
 struct FitSettings {
   Basis basis = find_basis("lecture");
   Weights weights = Weights::kRelative;
   Loss loss = Loss::kSquared;
-  /// True: the coefficient of 1/q is not fitted but held at `leading_value`, or at what theory says (ForceTable::leading_coefficient).
+  /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
+  /// (ForceTable::leading_coefficient).
   bool hold_leading = false;
-  std::optional<double>
-      leading_value{};  ///< of the force at the table's first velocity, as in the fit file [M L^2/T^2]
+  /// Fixed coefficient of 1/q in the force at the table's first velocity, as in the fit file
+  /// [M L^2/T^2].
+  std::optional<double> leading_value{};
 };
 
-/// Fits a table. Rows of other velocities than the first row's count as F (u0 / u): Stokes
-/// flow is linear. table_sha256 and versions are left to the caller.
-/// Throws Error(kBadInput) for fewer different gaps than free coefficients or than two, rows of equal gap whose F/u
-/// differ by more than their error estimates, or a leading coefficient to hold that the basis or the table has not;
-/// Error(kNotConverged) from the least squares.
+/// Fits a table. The force F in a row of another velocity u than the first row's u0 counts as
+/// F (u0/u), because Stokes flow is linear. The caller sets table_sha256 and versions. Throws
+/// Error(kBadInput) if there are fewer different gaps than fitted coefficients or than two, if rows
+/// of equal gap have values of F/u that differ by more than their error estimates, or if a
+/// coefficient is to be fixed that the basis or the table does not have; and Error(kNotConverged)
+/// from the least squares.
 Fit fit_force_table(const ForceTable& table, const FitSettings& settings);
 
-/// The same with a basis by name, every row counted. Throws Error(kBadInput) for an unknown basis too.
+/// The same with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
+/// basis, too.
 Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
 
 }  // namespace viscontact

@@ -1,3 +1,5 @@
+// Least squares in three steps: columns scaled by powers of two, solution by Ceres, iterative
+// refinement in extended precision.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -16,7 +18,7 @@
 namespace viscontact {
 namespace {
 
-/// The residuals A x - b as one block, their Jacobian A.
+/// The residuals A x - b as one block with the Jacobian A.
 class LinearResiduals : public ceres::CostFunction {
  public:
   LinearResiduals(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side)
@@ -41,18 +43,20 @@ class LinearResiduals : public ceres::CostFunction {
   const Eigen::VectorXd& right_hand_side_;
 };
 
-/// Columns divided by powers of two, so that they are about equally long and no entry is rounded.
+/// Powers of two. The columns divided by them have lengths from 1 to 2, and no entry is rounded.
 Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
   return matrix.colwise().norm().unaryExpr(
       [](double norm) { return norm > 0 ? std::exp2(std::floor(std::log2(norm))) : 1.0; });
 }
 
-/// Iterative refinement of solution and residual together (Bjorck 1967): r + A x = b, A^T r = 0 with sums in extended precision. Refining x
-/// alone does not help where the residual is large.
+/// Iterative refinement of solution and residual together (Bjorck 1967): solves r + A x = b,
+/// A^T r = 0 with sums in extended precision. Refinement of x alone does not help if the residual
+/// is large.
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  constexpr int kSteps = 4;  // each gains the digits that the conditioning leaves
+  // Each step gains as many digits as the conditioning leaves; further steps change nothing.
+  constexpr int kSteps = 4;
   const Eigen::Index columns = matrix.cols();
   const auto long_matrix = matrix.cast<long double>();
   const LongVector b = right_hand_side.cast<long double>();
@@ -83,8 +87,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   if (!matrix.allFinite() || !right_hand_side.allFinite())
     throw Error(ErrorKind::kBadInput,
                 "a gap or a force is too small or too large: a term of the fit overflows");
-  // Ceres starts at x = 0, where the cost is |b|^2 / 2. Ceres 2.2 fails if this is infinite, 2.1 goes
-  // on to coefficients that are not finite.
+  // Ceres starts at x = 0, where the cost is |b|^2/2. If this is infinite, Ceres 2.2 fails, and
+  // Ceres 2.1 continues to coefficients that are not finite.
   if (!std::isfinite(right_hand_side.squaredNorm()))
     throw Error(ErrorKind::kBadInput,
                 "the forces are too large or too different to be fitted in double precision");
@@ -111,14 +115,13 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  // The problem is linear: without damping the first step is the solution, the next ones are
-  // iterative refinement, and the iteration ends where the cost cannot fall any more in double
-  // precision.
+  // The problem is linear, so without damping the first step is the solution. The next steps are
+  // iterative refinement, until the cost cannot fall further in double precision.
   options.initial_trust_region_radius = 1e32;
   options.max_trust_region_radius = 1e32;
   options.min_lm_diagonal = 1e-32;
   options.jacobi_scaling = false;
-  // What round-off makes of a further step may well raise the cost: such steps are dropped, they are no failure.
+  // Round-off may let a further step raise the cost. Such a step is dropped and is no failure.
   options.max_num_iterations = 4;
   options.max_num_consecutive_invalid_steps = 20;
   options.function_tolerance = 1e-16;
@@ -136,7 +139,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   if (freedom > 0) {
     ceres::Covariance::Options covariance_options;
     covariance_options.algorithm_type = ceres::DENSE_SVD;
-    covariance_options.min_reciprocal_condition_number = 1e-32;  // judged above, on singular values
+    // The singular values above have already decided on the rank.
+    covariance_options.min_reciprocal_condition_number = 1e-32;
     ceres::Covariance covariance(covariance_options);
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unit(matrix.cols(),
                                                                                 matrix.cols());

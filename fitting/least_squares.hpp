@@ -1,22 +1,24 @@
-// Linear least squares by Ceres: columns scaled, solution refined, covariance, condition number.
+// Linear least squares by Ceres, with scaled columns, refined solution, covariance and condition
+// number. A change must keep the digits of the NIST reference problems in the tests.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace viscontact {
 
+/// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
   Eigen::VectorXd coefficients;
-  /// Of the coefficients, from the residuals' own variance s^2 = |A x - b|^2 / (rows - columns);
-  /// zero where rows == columns.
+  /// Covariance of the coefficients, with the variance s^2 = |A x - b|^2/(rows - columns) of the
+  /// residuals; zero if rows == columns.
   Eigen::MatrixXd covariance;
-  double condition_number = 0;  ///< of A with its columns scaled to length 1, >= 1
+  /// Condition number of A with its columns scaled to length 1, >= 1.
+  double condition_number = 0;
 };
 
-/// The x that minimises |A x - b|_2; A is rows x columns, rows >= columns, every entry finite.
-/// Throws Error(kBadInput) when an entry is not finite or |b|^2 overflows, and
-/// Error(kNotConverged) when the columns are linearly dependent to working precision, or
-/// Ceres fails.
+/// The x that minimises |A x - b|_2. A is rows x columns with rows >= columns. Throws
+/// Error(kBadInput) if an entry is not finite or if |b|^2 overflows, and Error(kNotConverged) if
+/// the columns are linearly dependent to working precision or if Ceres fails.
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side);
 

@@ -1,3 +1,4 @@
+// Iteratively reweighted least squares with the losses of Huber and Cauchy.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
@@ -28,7 +29,8 @@ std::unique_ptr<ceres::LossFunction> make_loss(Loss loss) {
   return std::make_unique<ceres::TrivialLoss>();
 }
 
-/// 1.4826 makes the median of |z| the standard deviation of Gaussian z.
+/// The scale of the residuals. The factor 1.4826 makes the median of |z| the standard deviation of
+/// Gaussian z.
 double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
   std::vector<double> sizes(static_cast<std::size_t>(residual.size()));
   std::ranges::transform(residual, sizes.begin(), [](double r) { return std::abs(r); });
@@ -39,14 +41,16 @@ double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
   return 1.4826 * *middle * std::sqrt(rows / freedom);
 }
 
-/// Reweights until the residuals settle, from `solution` on.
+/// Reweights the rows, starting from `solution`, until the residuals do not change.
 void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
              const ceres::LossFunction& loss, RobustSolution& solution) {
-  // The scale follows the residuals at first and is then held, as only with a fixed scale the iteration goes downhill.
+  // At first the scale is computed again in each step. Then it is constant, because only with a
+  // constant scale the sum of losses falls in every step.
   constexpr int kStepsWithScale = 20;
   constexpr int kMostSteps = 1000;
-  constexpr double kSettled = 1e-9;  // of the scale: far below what the data can tell
-  // Residuals that are round-off are no outliers.
+  // Part of the scale, far below what the data can distinguish.
+  constexpr double kSettled = 1e-9;
+  // Residuals of the size of round-off must not make outliers.
   const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
   Eigen::VectorXd residual = matrix * solution.least_squares.coefficients - right_hand_side;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -56,7 +60,7 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
       std::array<double, 3> rho{};
       const double z = residual(i) / solution.scale;
       loss.Evaluate(z * z, rho.data());
-      // A row that lies beyond all measure keeps a trace, so that no division by zero follows.
+      // A row with an extreme residual keeps a tiny weight, so that no division by zero follows.
       solution.row_weights(i) = std::max(rho[1], std::numeric_limits<double>::min());
     }
     const Eigen::VectorXd root = solution.row_weights.cwiseSqrt();
@@ -70,7 +74,8 @@ void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_si
   throw Error(ErrorKind::kNotConverged, "the robust fit does not converge; try another loss");
 }
 
-/// From that of least squares, s^2 (A^T A)^-1 with s^2 = |r|^2 / (n - p).
+/// The covariance of the M-estimate, from that of least squares, which is s^2 (A^T A)^-1 with
+/// s^2 = |r|^2/(n - p).
 Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
                                   const Eigen::VectorXd& right_hand_side,
                                   const LeastSquaresSolution& plain,
@@ -103,7 +108,8 @@ RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
   solution.scale =
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == Loss::kSquared) return solution;
-  // Huber's sum has one minimum; Cauchy's may have several: from Huber's, the one that most rows agree on.
+  // Huber's sum has one minimum, Cauchy's may have several. The iteration with Cauchy's loss starts
+  // from Huber's solution to find the minimum that most rows agree on.
   const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
   iterate(matrix, right_hand_side, *make_loss(Loss::kHuber), solution);

@@ -1,3 +1,4 @@
+// Gauss-Newton iteration for the one unknown shift.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,8 @@ namespace {
 
 double resistance_of(const ForceTableRow& row) { return -row.force / row.reference_velocity; }
 
-/// The gap at which the smooth wall has that resistance, which decreases with the gap. By bisection in ln q.
+/// The gap at which the smooth wall has this resistance, by bisection in ln q. The resistance
+/// decreases with the gap.
 double smooth_gap_of(const LubricationForce& smooth, double resistance, const ForceTableRow& row) {
   auto [low, high] = smooth.interval();
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
@@ -38,7 +40,8 @@ WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth
                             "must be equal",
                             rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
   WallShift result;
-  double least = 0;  // the shift may not leave the smooth force's interval at any row
+  // Bounds of the shift, so that all shifted gaps are in the interval of the smooth force.
+  double least = 0;
   double most = smooth.interval()[1];
   for (const auto& row : rough.rows) {
     const double shift = smooth_gap_of(smooth, resistance_of(row), row) - row.gap;
@@ -47,12 +50,14 @@ WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth
     most = std::min(most, smooth.interval()[1] - row.gap);
   }
 
-  // Gauss-Newton in one unknown, from the median of the rows' own shifts: every row is monotone in it.
+  // Gauss-Newton in one unknown, from the median of the shifts of single rows. The residual of each
+  // row is a monotone function of the shift.
   auto shifts = result.rows;
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);
   double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
   constexpr int kMostSteps = 100;
-  constexpr double kTolerance = 1e-14;  // of the smallest shifted gap: round-off
+  // Relative to the shifted gap of the first row: round-off.
+  constexpr double kTolerance = 1e-14;
   for (int step = 0;; ++step) {
     if (step == kMostSteps)
       throw Error(ErrorKind::kNotConverged, "no common shift of the wall fits the table");

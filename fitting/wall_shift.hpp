@@ -1,4 +1,5 @@
-// A rough wall as a smooth one that lies deeper: the shift at which the smooth wall's drag is the rough wall's.
+// The shift of a rough wall: how far below its crests it acts like a smooth one (Lefebvre 2008,
+// "Rugosité"; Vinogradova & Yakubov 2006). Units are those of the table.
 #pragma once
 
 #include <vector>
@@ -8,26 +9,32 @@
 
 namespace viscontact {
 
-/// One row of the rough wall's table.
+/// The result for one row of the rough wall's table.
 struct ShiftedRow {
-  double gap = 0;                      ///< q [L], from the roughness's crests
-  double shift = 0;                    ///< s [L] with R_smooth(q + s) = R_rough(q)
-  double relative_residual = 0;        ///< R_smooth(q + q_s) / R_rough(q) - 1, q_s the common shift
-  double relative_error_estimate = 0;  ///< of the rough wall's force
+  /// Gap from the crests of the roughness, q [L].
+  double gap = 0;
+  /// The shift of this row alone, s [L], from R_smooth(q + s) = R_rough(q).
+  double shift = 0;
+  /// R_smooth(q + q_s)/R_rough(q) - 1, with the common shift q_s.
+  double relative_residual = 0;
+  /// Relative error estimate of the rough wall's force.
+  double relative_error_estimate = 0;
 };
 
+/// The common shift of all rows, with its residuals.
 struct WallShift {
-  double shift = 0;                      ///< q_s [L], common to all rows
-  double largest_relative_residual = 0;  ///< in absolute value
+  double shift = 0;  ///< q_s [L]
+  /// The largest |relative residual| of the rows.
+  double largest_relative_residual = 0;
+  /// Root mean square of the relative residuals.
   double rms_relative_residual = 0;
   std::vector<ShiftedRow> rows;  ///< in the order of the table
 };
 
-/// Fits q_s in R_rough(q) = R_smooth(q + q_s) to a table, by relative least squares (Lefebvre 2008, "Rugosité";
-/// Vinogradova & Yakubov 2006: a rough sphere drags like a smooth one shifted).
-///
-/// Throws Error(kBadInput) if viscosity or radius of table and smooth force differ, or a row's drag is beyond what the smooth
-/// force has in its interval; Error(kNotConverged) if the least squares fail.
+/// Fits q_s in R_rough(q) = R_smooth(q + q_s) to a table by relative least squares: the drag near a
+/// rough wall is that near a smooth wall at a larger distance. Throws Error(kBadInput) if viscosity
+/// or radius of table and smooth force differ, or if the drag of a row is outside the range of the
+/// smooth force in its interval; Error(kNotConverged) if the least squares fail.
 WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The command line and the environment of FreeFEM processes.
 #include "viscontact/freefem_axi/freefem.hpp"
 
 #include <fmt/format.h>
@@ -11,14 +12,15 @@
 namespace viscontact {
 namespace {
 
-// FreeFEM of Debian 12 (4.11) and 13 (4.15) looks for its own files in folders that do not exist
-// (/etc/freefem++.pref names them), so Viscontact names the folders in which Debian installs them.
+// The packages of Debian 12 (FreeFEM 4.11) and 13 (4.15) look for their own files in folders that
+// do not exist (/etc/freefem++.pref names them). Viscontact therefore names the folders in which
+// Debian installs these files.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
 
 constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
 
-/// The time limit that the user has set; nothing if there is none.
+/// The time limit that the user has set, or nothing.
 std::optional<std::chrono::seconds> time_limit_of_user() {
   constexpr int kLongest = 10'000'000;  // four months
   const char* text = std::getenv(kTimeLimit);
@@ -57,14 +59,16 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit) {
   const auto scripts = std::filesystem::absolute(freefem.script_folder);
-  // A path, not a name to look for, is one from our own working folder.
+  // A name with a slash is a path relative to our working folder; it is made absolute because
+  // FreeFEM runs in another folder.
   const bool is_path = freefem.executable.find('/') != std::string::npos;
   const std::string executable =
       is_path ? std::filesystem::absolute(freefem.executable).string() : freefem.executable;
   std::vector<std::string> command = {executable, "-nw", "-v", "0", (scripts / script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  // One process per row fills the cores; threads inside one would only get in each other's way.
-  // In the scripts' folder: FreeFEM looks for includes in the working folder first, and a user's may hold files of those names.
+  // One process for each row already uses all cores, so threads in one process would only disturb
+  // the others. The working folder is that of the scripts, because FreeFEM looks for includes there
+  // first, and a user's folder may contain files with the same names.
   const auto result =
       run_process(command,
                   {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),

@@ -1,4 +1,5 @@
-// FreeFEM as a program that is given a script and numbers, and answers with lines.
+// Runs FreeFEM as a separate process: it is given a script and numbers, and answers with lines of
+// text. A change must keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>
@@ -12,39 +13,41 @@
 
 namespace viscontact {
 
-/// Which FreeFEM, where the scripts of this folder are, and how long FreeFEM may take.
+/// The FreeFEM program, the folder of the scripts, and the time limits.
 struct FreeFem {
-  std::string executable;  ///< name on PATH, or path
+  std::string executable;  ///< a name to look for on PATH, or a path
+  /// Folder share/viscontact/freefem_axi with the scripts.
   std::filesystem::path script_folder;
-  /// The longest time for one row. The slowest row that was measured took less than two minutes.
+  /// Time limit for one row. The slowest row that was measured took less than two minutes.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
-  /// The longest time for the question which version it is; FreeFEM answers within a second.
+  /// Time limit for the question of its version, which FreeFEM answers within a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
 };
 
-/// The environment variable VISCONTACT_FREEFEM if set, else FreeFem++-nw; the scripts beside or
-/// above this executable (share/viscontact/freefem_axi). VISCONTACT_FREEFEM_TIME_LIMIT, if set, is
-/// both time limits in seconds. Throws Error(kExternalProgram) if the scripts are nowhere,
-/// Error(kWrongUsage) if that limit is no whole number of seconds from 1 to 10 million.
+/// The executable is that of the environment variable VISCONTACT_FREEFEM if it is set, else
+/// FreeFem++-nw. The script folder is share/viscontact/freefem_axi beside or above this program.
+/// VISCONTACT_FREEFEM_TIME_LIMIT, if set, is the number of seconds of both time limits. Throws
+/// Error(kExternalProgram) if there is no script folder, and Error(kWrongUsage) if the limit is not
+/// a whole number from 1 to 10 million.
 FreeFem default_freefem();
 
-/// Runs a script with "-name value" arguments, on one thread. Kills FreeFEM after `time_limit`,
-/// which is the row's limit unless given.
-/// Throws Error(kExternalProgram) with what to do if FreeFEM is not there; the script's own failure
-/// is in the result, and so is `timed_out`.
+/// Runs a script with arguments "-name value" on one thread. After `time_limit`, which is row_limit
+/// unless given, FreeFEM is killed and `timed_out` is set in the result. If the script fails, the
+/// result says so. Throws Error(kExternalProgram) with a remedy if FreeFEM cannot be started.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
-/// What an error says of a FreeFEM that was killed at its time limit, and what can be done.
+/// The part of an error message that says that FreeFEM was killed at its time limit, and the
+/// remedy.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
-/// The rest of the first line of `output` that starts with `prefix` and a space; empty if there is
-/// none.
+/// The rest of the first line of `output` that starts with `prefix` and a space; empty if no line
+/// does.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version that FreeFEM gives of itself. Throws Error(kExternalProgram) if it does not run or
-/// does not answer within its time limit.
+/// The version that FreeFEM prints. Throws Error(kExternalProgram) if FreeFEM does not run or does
+/// not answer within its time limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The registry of geometries. Lengths are in the units of the case.
 #include "viscontact/freefem_axi/geometry.hpp"
 
 #include <algorithm>
@@ -26,12 +27,12 @@ RequiredSpace space_above_floor(double radius, double gap, Parameters) {
   return {radius, gap + 2 * radius};
 }
 
-/// Two radii of ripples lie around the axis.
+/// The space above a rippled floor, which must have two radii of ripples around the axis.
 RequiredSpace room_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
-/// The middle of the gap is at mid-height.
+/// The space for two spheres whose gap has its middle at half the height of the container.
 RequiredSpace room_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};
@@ -39,13 +40,14 @@ RequiredSpace room_of_pair(double radius, double gap, Parameters parameters) {
 
 bool has_velocity(Parameters parameters) { return parameters[1] != 0; }
 
-/// The gap is that to the nearest wall: up to concentric.
+/// The gap is that to the nearest wall, so it is largest if sphere and cavity are concentric.
 RequiredSpace room_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
-// Lubrication theory (Cox & Brenner 1967; Jeffrey & Onishi 1984): k = 6 pi mu r_eff^2, 1/r_eff = 1/r + 1/r_neighbour (a cavity's radius is negative), times
-// the velocity of approach over the sphere's; a quarter of it where the neighbour does not hold the fluid.
+// Lubrication theory (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
+// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity is negative. k is multiplied with the
+// velocity of approach over that of the sphere, and is a quarter of this at a shear-free neighbour.
 double leading_of_plane(double, Parameters) { return 1; }
 double leading_of_free_surface(double, Parameters) { return 0.25; }
 double leading_of_pair(double radius, Parameters parameters) {

@@ -1,4 +1,5 @@
-// What the sphere approaches.
+// The registry of geometries: what the sphere approaches. Lengths are in any one unit. A new
+// geometry needs a script and a row in geometry.cpp; docs/extending.md shows how.
 #pragma once
 
 #include <limits>
@@ -10,39 +11,46 @@
 
 namespace viscontact {
 
-/// A number that says more about a neighbour: a key of the case file's `geometry` and a flag of the
-/// script.
+/// A parameter of a geometry: a key of `geometry` in the case file and a flag of the script.
 struct GeometryParameter {
-  std::string_view key;
-  std::string_view flag;
-  Allowed allowed;
-  std::optional<double> fallback;  ///< for a case that does not say; none: it must
+  std::string_view key;   ///< in the case file
+  std::string_view flag;  ///< of the script
+  Allowed allowed;        ///< the values that are accepted
+  /// Value for a case without this key; nothing if the key is required.
+  std::optional<double> fallback;
 };
 
-/// What a sphere at some gap and its neighbour need around them [L].
+/// The space that a sphere at some gap and its neighbour need [L].
 struct RequiredSpace {
-  double container_radius = 0;  ///< a closed cylinder must be wider than this
-  double container_height = 0;  ///< and higher than this
-  double largest_gap = std::numeric_limits<double>::infinity();  ///< inclusive
+  double container_radius = 0;  ///< the container's radius must be larger
+  double container_height = 0;  ///< the container's height must be larger
+  double largest_gap = std::numeric_limits<double>::infinity();  ///< largest gap that is allowed
 };
 
-/// A kind of neighbour. One is added by writing its script and its row in geometry.cpp.
+/// A kind of neighbour.
 struct Geometry {
-  std::string_view name;    ///< `kind` in the case file
-  std::string_view script;  ///< in this folder; docs/extending.md says what it is given and answers
+  /// The name, which is `kind` in the case file.
+  std::string_view name;
+  /// The script in the folder scripts/. docs/extending.md says which arguments it gets and what it
+  /// prints.
+  std::string_view script;
+  /// The parameters, in the order of all spans of parameters below.
   std::span<const GeometryParameter> parameters;
-  bool takes_container;  ///< false: it is its own
-  /// True if the neighbour itself moves, so that it may pull the sphere along; null: it never does.
+  /// False if the geometry is closed and needs no container.
+  bool takes_container;
+  /// True if the neighbour itself moves, so that it may pull the sphere along. Null: it never
+  /// moves.
   bool (*moves)(std::span<const double> parameters);
-  /// Theory's coefficient k of R ~ k/q near contact over that of a plane, 6 pi mu r^2: the relative curvature and velocity; null: not known.
+  /// Coefficient k of R ~ k/q near contact in theory, over that of a plane, 6 pi mu r^2 [1]. It
+  /// depends on curvature and velocity of the neighbour. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
-  /// For a sphere of radius r [L], a gap [L] and the parameters in the order above.
+  /// The space for a sphere of radius r [L] at a gap [L].
   RequiredSpace (*room)(double radius, double gap, std::span<const double> parameters);
   /// True if the exact drag near a plane (lubrication/plane_drag.hpp) is the drag of this geometry.
   bool has_exact_drag = false;
 };
 
-/// The geometry of that name. Throws Error(kBadInput) that lists the names there are.
+/// The geometry with this name. Throws Error(kBadInput), which lists the names, if there is none.
 const Geometry& find_geometry(std::string_view name);
 
 }  // namespace viscontact

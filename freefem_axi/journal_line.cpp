@@ -1,3 +1,4 @@
+// The line is "HASH row NUMBERS VERSION CHECKSUM" or "HASH failed GAP VELOCITY REASON CHECKSUM".
 #include "viscontact/freefem_axi/journal_line.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +18,12 @@ constexpr std::string_view kFinished = "row";
 constexpr std::string_view kFailed = "failed";
 
 std::string checksum(std::string_view text) {
+  // 64 bits of SHA-256 are enough to detect damage.
   constexpr std::size_t kDigits = 16;
   return sha256(text).substr(0, kDigits);
 }
 
-/// Reads as many numbers as there are places for them; false if there are not so many.
+/// Reads a number into each of `places`. Returns false if a word is missing or is not a number.
 bool read_numbers(std::istream& words, std::initializer_list<double*> places) {
   for (double* place : places) {
     std::string word;

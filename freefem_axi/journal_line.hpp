@@ -1,4 +1,5 @@
-// The lines of a journal: a row that is finished, or one that failed.
+// The lines of a journal, each for a finished or a failed row. Numbers are in the units of the
+// case. A change must keep journals of interrupted tabulations readable.
 #pragma once
 
 #include <compare>
@@ -11,17 +12,18 @@
 
 namespace viscontact {
 
-/// What tells the rows of a tabulation apart.
+/// The gap and velocity of a row, by which the rows of a tabulation are told apart.
 struct GridPoint {
   double gap = 0;                 ///< q [L]
   double reference_velocity = 0;  ///< u0 [L/T]
-  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy takes the 0 that <=> is compared with for a pointer
+  // clang-tidy takes the 0 that <=> is compared with for a pointer.
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const GridPoint&, const GridPoint&) = default;
 };
 
 struct FinishedRow {
   ForceTableRow row;
-  std::string freefem_version;  ///< of the FreeFEM that computed it
+  std::string freefem_version;  ///< version of the FreeFEM that computed it
 };
 
 struct FailedRow {
@@ -31,16 +33,18 @@ struct FailedRow {
 
 using JournalEntry = std::variant<FinishedRow, FailedRow>;
 
+/// A line of a journal.
 struct JournalLine {
+  /// Hash of the tabulation that the row belongs to (tabulation.hpp).
   std::string tabulation_hash;
   JournalEntry entry;
 };
 
-/// The line, with its end. It closes with a checksum: what a crash, a full disk or two writers at
-/// once left of a line is not taken for one.
+/// The text of the line with its line end. The line contains a checksum, so that the remains of a
+/// line after a crash, a full disk or two simultaneous writers are not read as a row.
 std::string write_journal_line(const JournalLine& line);
 
-/// What a line (without its end) says, if it is whole.
+/// Reads a line (without its line end). Returns nothing if the line is incomplete or damaged.
 std::optional<JournalLine> read_journal_line(std::string_view line);
 
 }  // namespace viscontact

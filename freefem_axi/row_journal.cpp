@@ -1,3 +1,4 @@
+// Opens, locks and appends to a journal.
 #include "viscontact/freefem_axi/row_journal.hpp"
 
 #include <fcntl.h>

@@ -1,8 +1,8 @@
-// Finished rows on disk while a tabulation runs, so that none is lost or computed twice.
-//
-// Beside TABLE.csv stand TABLE.csv.rows, of the tabulation on this machine, and one
-// TABLE.csv.rows.WRITER for each process of a cluster: a file has one writer, whatever the file
-// system thinks of locks. Journals are only ever appended to. All are read together (row_record.hpp).
+// A journal stores the finished rows of a running tabulation on disk, so that no row is lost or
+// computed twice. Beside TABLE.csv there is TABLE.csv.rows for the tabulation on this machine, and
+// a TABLE.csv.rows.WRITER for each process of a cluster. Each file has one writer, because some
+// file systems do not support locks. A change must keep that journals are only appended to;
+// row_record.hpp reads all of them together.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,27 @@
 
 namespace viscontact {
 
-/// TABLE.csv.rows, or TABLE.csv.rows.WRITER.
+/// The path TABLE.csv.rows, or TABLE.csv.rows.WRITER if there is a writer.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer = {});
 
-/// The end of a journal, to which one process at a time appends.
+/// A journal that is open for appending. One process at a time has it.
 class RowJournal {
  public:
-  /// Opens or makes the file. Throws Error(kBadInput) if it cannot be written or another process
-  /// holds it.
+  /// Opens the file, or makes it. Throws Error(kBadInput) if it cannot be written or if another
+  /// process has locked it.
   RowJournal(std::filesystem::path path, std::string tabulation_hash);
 
-  /// Appends a row, or why it failed; on disk when this returns. Throws Error(kBadInput) if the
-  /// disk does not take it.
+  /// Appends a finished or failed row, which is on disk when the function returns. Throws
+  /// Error(kBadInput) if it cannot be written.
   void append(const JournalEntry& entry);
 
  private:
   std::filesystem::path path_;
   std::string hash_;
   Descriptor file_;
-  bool at_line_start_ = true;  ///< false behind a line that a crash or a full disk tore
+  /// False after a line that a crash or a full disk left incomplete.
+  bool at_line_start_ = true;
 };
 
 }  // namespace viscontact

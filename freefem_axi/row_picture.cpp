@@ -1,3 +1,4 @@
+// Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -13,12 +14,13 @@
 namespace viscontact {
 namespace {
 
-/// Reads the numbers that pictures.idp writes.
+/// Reads the meshes that pictures.idp writes.
 class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// The next mesh, with that many columns for each node; those after (rho, z) go to `fields`.
+  /// Reads the next mesh, with `columns` numbers for each node. Those after (rho, z) go to
+  /// `fields`.
   CurvedMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields) {
     std::string line;
     while (std::getline(stream_, line) && !line.starts_with("viscontact-mesh ")) {
@@ -50,6 +52,7 @@ class PictureReader {
                 "the mesh and flow that FreeFEM wrote for a picture are incomplete");
   }
   static std::size_t size_from(std::istream& stream) {
+    // A larger number can only come from a damaged line; it would exhaust the memory.
     constexpr std::size_t kLargest = 100'000'000;
     std::size_t size = 0;
     if (!(stream >> size) || size > kLargest) fail();
@@ -101,7 +104,7 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
 }
 
 std::string write_vtu(const Flow& flow) {
-  constexpr int kQuadraticTriangle = 22;  // VTK's number of the cell type
+  constexpr int kQuadraticTriangle = 22;  // number of this cell type in VTK
   constexpr std::size_t kNodes = 6;
   const auto& mesh = flow.mesh;
   const auto at_point = [&](const std::vector<double>& field) {
@@ -128,7 +131,8 @@ std::string write_vtu(const Flow& flow) {
   text += data_array(R"(type="Float64" NumberOfComponents="3")", points, vector(mesh.nodes));
   text += "</Points>\n<Cells>\n";
   text += data_array(R"(type="Int64" Name="connectivity")", cells, [&](std::size_t i) {
-    // VTK's middles follow the sides, ours the opposite vertices.
+    // The mid-side nodes of VTK are in the order of the sides, those of CurvedMesh in the order of
+    // the opposite vertices.
     const auto& [v0, v1, v2, m0, m1, m2] = mesh.triangles[i];
     return fmt::format("{} {} {} {} {} {}", v0, v1, v2, m2, m0, m1);
   });

@@ -1,4 +1,5 @@
-// One row of a tabulation with its flow and its meshes, to be drawn.
+// One row of a tabulation with its flow and its meshes, for pictures. Lengths, masses and times are
+// in the units of the case. A change must agree with scripts/pictures.idp.
 #pragma once
 
 #include <array>
@@ -9,22 +10,26 @@
 
 namespace viscontact {
 
-/// Labels of boundary edges that a picture tells apart (axisymmetric_stokes.idp); every other one is a no-slip wall or neighbour.
+/// Labels of boundary edges that a picture distinguishes, as in axisymmetric_stokes.idp. All other
+/// labels are those of no-slip walls or neighbours.
 namespace boundary_label {
 inline constexpr int kSphere = 2;
 inline constexpr int kAxis = 3;
 inline constexpr int kShearFree = 5;
-inline constexpr int kInterface = 8;  ///< inside the fluid, or where unbounded fluid is cut off
+/// Inside the fluid, or where unbounded fluid is cut off.
+inline constexpr int kInterface = 8;
+/// The same, on the circle where the far block begins.
 inline constexpr int kFarInterface = 9;
 }  // namespace boundary_label
 
-/// Triangles with quadratic sides in the half-plane of the axis: (rho, z) [L], the origin at the neighbour's nearest point.
+/// Triangles with quadratic sides in the half-plane (rho, z) [L]. The origin is the point of the
+/// neighbour that is nearest to the sphere.
 struct CurvedMesh {
-  /// Three vertices, then the middles of the sides opposite to them.
+  /// Three vertices, then the mid-side nodes opposite to them.
   using Triangle = std::array<std::size_t, 6>;
   struct Edge {
     int label = 0;
-    std::array<std::size_t, 3> nodes{};  ///< both ends, then the middle
+    std::array<std::size_t, 3> nodes{};  ///< both ends, then the mid-side node
   };
 
   std::vector<std::array<double, 2>> nodes;
@@ -32,29 +37,31 @@ struct CurvedMesh {
   std::vector<Edge> boundary;
 };
 
-/// The fields at the nodes of a mesh.
+/// The flow at the nodes of a mesh.
 struct Flow {
   CurvedMesh mesh;
   std::vector<std::array<double, 2>> velocity;  ///< (u_rho, u_z) [L/T]
-  std::vector<double>
-      pressure;  ///< [M/(L T^2)]; mean 0 in a container, 0 far away in unbounded fluid
-  std::vector<double>
-      stream_function;  ///< psi [L^3/T]: u_rho = -(1/rho) dpsi/dz, u_z = (1/rho) dpsi/drho; 0 on the axis
+  /// [M/(L T^2)]; its mean is 0 in a container, and it is 0 far away in unbounded fluid.
+  std::vector<double> pressure;
+  /// psi [L^3/T], with u_rho = -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; 0 on the axis.
+  std::vector<double> stream_function;
 };
 
+/// A row with what a picture shows of it.
 struct RowPicture {
   ForceTableRow row;
   Flow flow;  ///< on the finest mesh
-  CurvedMesh
-      coarsest;  ///< the mesh that the finest one was made from, by cutting triangles into four
+  /// The mesh that the finest mesh was made from, by repeated division of triangles into four.
+  CurvedMesh coarsest;
 };
 
-/// Solves one row again, for its picture. Throws Error(kExternalProgram) as solve_row does, or if what FreeFEM wrote is not whole.
+/// Solves one row again for its picture. Throws the errors of solve_row(), and
+/// Error(kExternalProgram) if the mesh or the flow that FreeFEM wrote is incomplete.
 RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                                  double reference_velocity);
 
-/// The text of a VTK file (.vtu) for ParaView: quadratic triangles at (rho, z, 0) with the point data velocity, pressure and
-/// stream_function, in the case's units.
+/// The text of a VTK file (.vtu) for ParaView: quadratic triangles at (rho, z, 0) with the point
+/// data velocity, pressure and stream_function in the units of the case.
 std::string write_vtu(const Flow& flow);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Reads all journals of a table, merges their rows, and removes what a written table contains.
 #include "viscontact/freefem_axi/row_record.hpp"
 
 #include <fcntl.h>
@@ -21,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True for "K-of-T.HOST.PROCESS" (Share's writers in pipeline/tabulate_stage.cpp): what else begins like a journal's name is the user's.
+/// True for "K-of-T.HOST.PROCESS", the writers of pipeline/tabulate_stage.cpp. Other files whose
+/// names begin like that of a journal belong to the user.
 bool is_writer_name(std::string_view name) {
   const auto skip = [&name](std::string_view text) {
     if (!name.starts_with(text)) return false;
@@ -40,7 +42,7 @@ bool is_writer_name(std::string_view name) {
   return skip_number() && name.empty();
 }
 
-/// The journals of a table, by name.
+/// The paths of a table's journals, sorted.
 std::vector<fs::path> journals_of(const fs::path& table_path) {
   const fs::path own = journal_path(table_path);
   std::vector<fs::path> journals;
@@ -57,7 +59,8 @@ std::vector<fs::path> journals_of(const fs::path& table_path) {
   return journals;
 }
 
-/// Calls `use` with each whole line of a journal; a journal that is removed meanwhile has none.
+/// Calls `use` with each complete line of a journal. A journal that another process removes
+/// meanwhile counts as empty.
 template <class Use>
 void for_each_line(const fs::path& journal, const Use& use) {
   std::string text;
@@ -87,7 +90,7 @@ std::optional<ForceTable> find_table(const fs::path& table_path,
   try {
     auto table = read_force_table(table_path);
     if (table.case_hash == tabulation_hash) return table;
-  } catch (const Error&) {  // no table at all
+  } catch (const Error&) {  // the file is not a table
   }
   return {};
 }
@@ -102,7 +105,8 @@ RowRecord read_row_record(const fs::path& table_path, const std::string& tabulat
       else if (const auto* failed = std::get_if<FailedRow>(&line.entry))
         record.failed[failed->point] = failed->reason;
     });
-  // The table after the journals: whoever writes it removes them afterwards.
+  // The table must be read after the journals, because its writer removes the journals after
+  // writing it.
   if (const auto table = find_table(table_path, tabulation_hash)) {
     const auto version = table->versions.find("FreeFEM");
     for (const auto& row : table->rows)
@@ -143,7 +147,8 @@ ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record)
 
 void remove_journals(const fs::path& table_path, const std::string& tabulation_hash) {
   for (const auto& journal : journals_of(table_path)) {
-    // Locked while it is looked at and removed: a process that opens it now looks again.
+    // The journal is locked while it is read and removed. A process that opens it meanwhile finds
+    // that it was removed or replaced, and opens it again.
     const Descriptor file(::open(journal.c_str(), O_RDWR | O_CLOEXEC));
     if (file.get() < 0) continue;
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) continue;

@@ -1,5 +1,5 @@
-// What is known of a tabulation's rows, from the table and from the journals of all processes that
-// work on it.
+// The finished and failed rows of a tabulation, collected from the table and from the journals of
+// all processes that work on it. Numbers are in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -13,32 +13,36 @@
 
 namespace viscontact {
 
+/// The rows by gap and velocity.
 struct RowRecord {
   std::map<GridPoint, FinishedRow> finished;
-  std::map<GridPoint, std::string> failed;  ///< why; a row that was finished later is here no more
+  /// The reasons of failed rows. A row that was finished later is not among them.
+  std::map<GridPoint, std::string> failed;
 };
 
-/// The points of a tabulation in the order of its table: gaps in the given order, for each velocity.
+/// The points of a tabulation in the order of its table: for each velocity, the gaps in the given
+/// order.
 std::vector<GridPoint> grid_of(const Tabulation& tabulation);
 
-/// The table in that file if there is one and it is of that tabulation.
+/// The table in the file, or nothing if there is none or if it belongs to another tabulation.
 std::optional<ForceTable> find_table(const std::filesystem::path& table_path,
                                      const std::string& tabulation_hash);
 
-/// All that the journals and the table hold of that tabulation.
+/// All rows of the tabulation in the journals and in the table.
 RowRecord read_row_record(const std::filesystem::path& table_path,
                           const std::string& tabulation_hash);
 
-/// The points of `points` that are not finished.
+/// Those of `points` that are not finished.
 std::vector<GridPoint> missing_points(const RowRecord& record,
                                       const std::vector<GridPoint>& points);
 
-/// The table, once no point is missing.
+/// The table of all rows. No point may be missing.
 ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
 
-/// Takes the rows of a table that is written out of its journals, and removes those that then hold none: rows of
-/// another tabulation, which are in no table yet, stay. A journal that another process holds is left as it is.
-/// Throws Error(kBadInput) where a journal cannot be replaced.
+/// Removes the rows of a tabulation from its journals, once its table has been written. Rows of
+/// other tabulations stay, because no table contains them yet; a journal without such rows is
+/// deleted. A journal that another process has locked is not changed. Throws Error(kBadInput) if a
+/// journal cannot be replaced.
 void remove_journals(const std::filesystem::path& table_path, const std::string& tabulation_hash);
 
 }  // namespace viscontact

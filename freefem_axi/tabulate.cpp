@@ -1,3 +1,4 @@
+// Distributes the rows over threads, each of which waits for one FreeFEM process at a time.
 #include "viscontact/freefem_axi/tabulate.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +15,9 @@
 namespace viscontact {
 namespace {
 
-/// Asked before the rows: if FreeFEM is missing, that is said once. A worker with a name has nobody who reads
-/// what it says: it leaves the reason in its journal too.
+/// The version of FreeFEM. It is asked before the first row, so that a missing FreeFEM is reported
+/// once and not for each row. Nobody may read the messages of a worker with a name, so this worker
+/// also writes the reason to its journal.
 std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& points,
                         const std::filesystem::path& journal_file, const std::string& hash) {
   try {
@@ -29,7 +31,7 @@ std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& p
   }
 }
 
-/// The row, or why FreeFEM failed at it.
+/// Solves one row. Returns the row, or the reason why FreeFEM failed.
 JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tabulation& tabulation,
                    const GridPoint& point) {
   try {
@@ -53,7 +55,7 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
   const std::string version = version_for(worker, missing, journal_file, hash);
   RowJournal journal(journal_file, hash);
 
-  std::mutex mutex;  // of the journal, the failures and the report
+  std::mutex mutex;  // protects the journal, the failures and the report
   std::vector<std::string> failures;
   std::exception_ptr fatal;
   std::atomic<std::size_t> next = 0;
@@ -70,7 +72,7 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
             failures.push_back(failed->reason);
         }
       } catch (...) {
-        // Not the row's fault (Ctrl-C, a full disk): no other row would do better.
+        // The cause is not the row (Ctrl-C, a full disk), so other rows would fail as well.
         const std::scoped_lock lock(mutex);
         if (!fatal) fatal = std::current_exception();
         next = missing.size();

@@ -1,4 +1,5 @@
-// The driver: a tabulation's rows over several FreeFEM processes.
+// Computes the rows of a tabulation with several FreeFEM processes at once. A change must keep each
+// finished row on disk before the next one starts.
 #pragma once
 
 #include <filesystem>
@@ -12,30 +13,30 @@ namespace viscontact {
 
 struct TabulateProgress {
   std::size_t rows_done = 0, rows = 0;
-  double seconds_left = 0;  ///< estimated from the rows done so far; 0 until there is one
+  double seconds_left = 0;  ///< [s], estimated from the finished rows; 0 before the first
 };
 
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
-/// Who computes rows.
+/// One of the processes that compute rows.
 struct RowWorker {
   FreeFem freefem;
-  int jobs = 1;      ///< FreeFEM processes at once
-  std::string name;  ///< the writer of its journal (row_journal.hpp); empty: this machine's own
+  int jobs = 1;  ///< number of FreeFEM processes at once
+  /// Writer of the worker's journal (row_journal.hpp); empty for the journal of this machine.
+  std::string name;
 };
 
-/// Computes those of `points` that are not finished, by this worker or any other: asked again
-/// before each row. Finished rows, and why others failed, go to the worker's journal beside
-/// `table_path` at once. `report` is called after each row, one call at a time.
-///
-/// A row that fails does not stop the others: Error(kExternalProgram) at the end names each. Throws
-/// Error(kInterrupted) on Ctrl-C.
+/// Computes those of `points` that neither this worker nor another one has finished; this is
+/// checked again before each row. Each finished row, and the reason of each failed one, is written
+/// at once to the worker's journal beside `table_path`. `report` is called after each row, never
+/// twice at once. A row that fails does not stop the others. At the end Error(kExternalProgram)
+/// names all failed rows. Throws Error(kInterrupted) after Ctrl-C.
 void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
                   const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);
 
-/// Computes all rows and returns the whole table, as compute_rows does. The journals are left in
-/// place, to be removed when the table is written.
+/// Computes all rows as compute_rows() does and returns the table. The caller removes the journals
+/// after the table has been written.
 ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
                     const std::filesystem::path& table_path, const TabulateReport& report);
 

@@ -1,3 +1,5 @@
+// The arguments of a row, the call of FreeFEM, and the result. Units are those of the case, but for
+// solve_scale().
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -16,18 +18,19 @@
 namespace viscontact {
 namespace {
 
-// Each row is solved on three meshes, the coarsest with that many cells across the film, each twice as fine as the one before; where the
-// accuracy is not met, again from finer ones (drag.idp). These reach 1e-5 over gaps of 1e-6 to 10 radii, in about a second (bench/README.md);
-// with fewer cells the film would have one layer.
+// Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
+// each of the others is twice as fine as the one before it. If the accuracy is not reached, further
+// sequences start from finer meshes (drag.idp). The first sequence reaches 1e-5 for gaps of 1e-6 to
+// 10 radii in about a second (bench/README.md). With fewer cells the film would have one layer.
 constexpr int kCoarsestCells = 2;
 constexpr int kLevels = 3;
 constexpr int kAttempts = 3;
 
-// Raised whenever a change of the scripts changes what they compute, so that tables made before are
-// made again.
+// Revision of the scripts. Raise it when a change of the scripts changes their results: tables of
+// another revision are then computed again.
 constexpr int kMethod = 3;
 
-/// The end of a program's output, on one line.
+/// The last lines of a program's output, joined to one line.
 std::string last_lines(const std::string& output) {
   constexpr std::size_t kLines = 4;
   std::vector<std::string> lines;
@@ -38,13 +41,13 @@ std::string last_lines(const std::string& output) {
   return fmt::format("{}", fmt::join(lines, " | "));
 }
 
-/// The numbers of the script's line "viscontact-result".
+/// The first numbers of the script's line "viscontact-result".
 struct Answer {
   double force = 0, estimate = 0, unknowns = 0, order = 0;
 };
 
-/// Throws Error(kExternalProgram) that names the row if FreeFEM failed, was killed after
-/// `time_limit`, or gave no such line.
+/// Reads these numbers. Throws Error(kExternalProgram), which names the row, if FreeFEM failed, was
+/// killed after `time_limit`, or did not print the line.
 Answer read_answer(const ProcessResult& result, double gap, double reference_velocity,
                    std::chrono::seconds time_limit) {
   std::istringstream answer(line_after(result.output, "viscontact-result"));
@@ -95,7 +98,7 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const double coefficient =
       stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
-  if (!std::isfinite(coefficient)) return std::nullopt;  // a table could not hold it
+  if (!std::isfinite(coefficient)) return std::nullopt;  // too large for a table
   return coefficient;
 }
 
@@ -123,7 +126,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                         "-levels",    std::to_string(kLevels),
                                         "-attempts",  std::to_string(kAttempts)};
   if (geometry.takes_container) {
-    const auto container = tabulation.container.value_or(Container{});  // 0: unbounded
+    const auto container = tabulation.container.value_or(Container{});  // 0 means unbounded
     arguments.insert(arguments.end(), {"-containerRadius", format_number(container.radius),
                                        "-containerHeight", format_number(container.height)});
   }
@@ -134,6 +137,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
+  // Well within the range 1e-12..1e20 in which the solver's penalty gives correct forces.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

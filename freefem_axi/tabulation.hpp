@@ -1,4 +1,5 @@
-// What is to be tabulated, and one row of it.
+// The tabulation of the lubrication force (physics.md, section 2): its inputs, and the solution of
+// one row. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <optional>
@@ -16,54 +17,59 @@ struct Container {
   double radius = 0, height = 0;
 };
 
-/// F_lub over a grid of gaps and velocities, for a sphere and its neighbour on the axis. Lengths in any one unit.
+/// The inputs of a table of F_lub over a grid of gaps and velocities, for a sphere and its
+/// neighbour on the axis.
 struct Tabulation {
   double viscosity = 0;                      ///< mu [M/(L T)], > 0
   double radius = 0;                         ///< r [L], > 0
-  std::vector<double> gaps;                  ///< q [L], > 0
-  std::vector<double> reference_velocities;  ///< u0 [L/T], none 0
-  std::optional<Container>
-      container;  ///< larger than the geometry's RequiredSpace; none: unbounded fluid, or the geometry is its own
-  double relative_accuracy = 0;             ///< asked of every row, in (0, 1)
+  std::vector<double> gaps;                  ///< q [L], all > 0
+  std::vector<double> reference_velocities;  ///< u0 [L/T], none of them 0
+  /// Larger than the RequiredSpace of the geometry. Nothing: the fluid is unbounded, or the
+  /// geometry takes no container.
+  std::optional<Container> container;
+  double relative_accuracy = 0;             ///< asked of every row [1], in (0, 1)
   std::string geometry = "plane";           ///< name of a Geometry
   std::vector<double> geometry_parameters;  ///< in the order of Geometry::parameters
 };
 
-/// In words, for a table's header: "closed cylinder, radius 40, height 80", "unbounded", or "none" where the geometry is its own.
+/// The container in words for the header of a table: "closed cylinder, radius 40, height 80",
+/// "unbounded", or "none" if the geometry takes no container.
 std::string container_in_words(const Tabulation& tabulation);
 
-/// In words, for a table's header: "sphere, radius 2, velocity_ratio 0".
+/// The geometry in words for the header of a table: "sphere, radius 2, velocity_ratio 0".
 std::string geometry_in_words(const Tabulation& tabulation);
 
-/// True if the geometry's parameters say that what the sphere approaches moves itself.
+/// True if the neighbour moves, according to the parameters of the geometry.
 bool neighbour_moves(const Tabulation& tabulation);
 
-/// Theory's coefficient k of R ~ k/q near contact [M L/T]; nothing where it is not known
-/// or beyond the range of a double.
+/// Coefficient k of R ~ k/q near contact in theory [M L/T]. Nothing if it is not known or too large
+/// for a double.
 std::optional<double> leading_coefficient(const Tabulation& tabulation);
 
-/// SHA-256 of all that the force depends on: the table made from equal inputs has an equal hash.
+/// SHA-256 of everything that the forces depend on. Equal inputs have equal hashes.
 std::string tabulation_hash(const Tabulation& tabulation);
 
-/// The flags that the geometry's script is given for one (q, u0).
+/// The arguments of the geometry's script for one row (q, u0).
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// What the results of a solve are multiplied with. Stokes flow is linear in the viscosity and in
-/// the velocity, so that both may be replaced by 1 where FreeFEM's arithmetic would fail.
+/// The units of viscosity and speed in which FreeFEM solves. Stokes flow is linear in both, so both
+/// may be replaced by 1 if FreeFEM's arithmetic would fail. The force in these units is then
+/// multiplied with them.
 struct SolveScale {
   double viscosity = 1;  ///< [M/(L T)], > 0
   double speed = 1;      ///< [L/T], > 0
 };
 
-/// 1 for an ordinary viscosity and velocity, whose rows are solved as they are; else the viscosity
-/// and the absolute velocity themselves. Beyond 1e-12 and 1e20 the solver's penalty, 1e30, would
-/// give wrong forces without a word.
+/// The value 1 for both if viscosity and velocity are within 1e-9..1e9: such rows are solved as
+/// they are. Otherwise the viscosity and the absolute velocity themselves. Below 1e-12 and above
+/// 1e20 the penalty of the solver, 1e30, would give wrong forces without an error.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 
-/// Solves one (q, u0) in a FreeFEM process, which is given `further_arguments` too; all that it wrote goes to `output`, if that is not
-/// null: in units of solve_scale. Throws Error(kExternalProgram) with FreeFEM's last lines if it fails
-/// or takes longer than its limit, Error(kBadInput) if the force is beyond the range of a double.
+/// Solves one row (q, u0) in a FreeFEM process. `further_arguments` are added to its command line.
+/// If `output` is not null, it is set to everything that FreeFEM printed, in the units of
+/// solve_scale(). Throws Error(kExternalProgram) with the last lines of FreeFEM if it fails or
+/// exceeds its time limit, and Error(kBadInput) if the force is outside the range of a double.
 ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
                         double reference_velocity,
                         const std::vector<std::string>& further_arguments = {},

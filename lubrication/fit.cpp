@@ -1,3 +1,5 @@
+// Names of weights and losses, the fit that stands for the exact drag of a plane, and the change of
+// viscosity.
 #include "viscontact/lubrication/fit.hpp"
 
 #include <fmt/format.h>
@@ -45,6 +47,7 @@ Fit exact_plane_fit(double viscosity, double radius) {
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = radius;
+  // Nearly all normal doubles; LubricationForce::interval() is the exact range.
   fit.gap_interval = {1e-300, 1e300};
   fit.geometry = "plane, unbounded";
   fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;

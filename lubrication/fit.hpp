@@ -1,5 +1,6 @@
-// A fit of the lubrication force: coefficients of a basis at one velocity, with what is needed to
-// trust and to use it.
+// A fit of the lubrication force: the coefficients of a basis at one velocity (physics.md (3.2)),
+// its interval of gaps and its diagnostics. Lengths, masses and times are in the units of the
+// table. A change must agree with docs/fit.schema.json.
 #pragma once
 
 #include <array>
@@ -14,36 +15,43 @@
 
 namespace viscontact {
 
-/// What the least squares minimises: residuals over the force (`relative`) or residuals as they are
-/// (`absolute`).
+/// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
 enum class Weights { kRelative, kAbsolute };
 
 std::string_view to_string(Weights weights);
 
-/// "relative" or "absolute". Throws Error(kBadInput) for another word.
+/// Translates "relative" or "absolute". Throws Error(kBadInput) for another word.
 Weights parse_weights(std::string_view word);
 
-/// How a residual z (over the residuals' own scale) counts: z^2/2; Huber 1964: as |z| beyond 1.345; Cauchy:
-/// (c^2/2) ln(1 + (z/c)^2) with c = 2.385. Both constants keep 95 % of least squares' efficiency on Gaussian residuals (Holland & Welsch 1977).
+/// How a residual z counts, where z is in units of the residuals' own scale:
+///   kSquared  z^2/2
+///   kHuber    z^2/2, and linear in |z| for |z| > 1.345 (Huber 1964)
+///   kCauchy   (c^2/2) ln(1 + (z/c)^2), c = 2.385
+/// With these constants the efficiency on Gaussian residuals is 95 % of that of least squares
+/// (Holland & Welsch 1977).
 enum class Loss { kSquared, kHuber, kCauchy };
 
-/// "none", "huber", "cauchy".
+/// "none", "huber" or "cauchy".
 std::string_view to_string(Loss loss);
 
-/// Throws Error(kBadInput) for another word.
+/// The inverse of to_string(). Throws Error(kBadInput) for another word.
 Loss parse_loss(std::string_view word);
 
+/// One term of a fit with its coefficient.
 struct FitTerm {
-  std::string name;        ///< of a Term
-  double coefficient = 0;  ///< [force / dimension of the term]
-  double standard_error =
-      0;  ///< same dimension, >= 0; from the misfit, as if it were random noise (it is not)
-  bool held = false;  ///< given, not fitted: its standard error is 0
+  std::string name;        ///< name of a Term
+  double coefficient = 0;  ///< [M L/T^2 over the dimension of the term]
+  /// Standard error of the coefficient, in the same dimension, >= 0. Its formula treats the misfit
+  /// as independent random noise, which it is not.
+  double standard_error = 0;
+  /// True for a fixed coefficient: it was given and not fitted, and its standard error is 0.
+  bool held = false;
 };
 
 /// F_lub(q, u0) = sum of coefficient * term(q) for q in gap_interval.
 struct Fit {
-  std::string basis;                        ///< name of a Basis; kOwnTerms: a user's own list
+  /// Name of a Basis, kOwnTerms for a user's list of terms, or kExactPlane.
+  std::string basis;
   double reference_velocity = 0;            ///< u0 [L/T], not 0
   double viscosity = 0;                     ///< mu [M/(L T)], > 0
   double radius = 0;                        ///< r [L], > 0
@@ -51,35 +59,44 @@ struct Fit {
   Weights weights = Weights::kRelative;
   Loss loss = Loss::kSquared;
   std::vector<FitTerm> terms;
-  double largest_relative_residual = 0;  ///< of all rows, outliers too
+  /// Largest |fit/force - 1| of all rows, outliers included, >= 0.
+  double largest_relative_residual = 0;
+  /// Root mean square of fit/force - 1 over the rows, >= 0.
   double rms_relative_residual = 0;
-  double condition_number = 1;                  ///< of the scaled, weighted columns
-  std::vector<std::vector<double>> covariance;  ///< of the coefficients
-  std::string geometry;                         ///< the table's, in words; may be empty
-  std::optional<double>
-      leading_coefficient{};  ///< k of R = k/q [M L/T] in theory, if the table says it
-  std::optional<FitDiagnostics> diagnostics{};  ///< none in a fit that was written by hand
-  std::string table_sha256;                     ///< of the table file; may be empty
+  /// Condition number of the matrix of the scaled, weighted columns, >= 1.
+  double condition_number = 1;
+  /// Covariance matrix of the coefficients, in the order of `terms`.
+  std::vector<std::vector<double>> covariance;
+  /// What the sphere approaches, in the words of the table; may be empty.
+  std::string geometry;
+  /// Coefficient k of R ~ k/q in theory [M L/T], if the table states it.
+  std::optional<double> leading_coefficient{};
+  std::optional<FitDiagnostics> diagnostics{};  ///< nothing in a fit that was written by hand
+  std::string table_sha256;                     ///< checksum of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };
 
-/// The name of the basis that is none: the exact drag of a sphere near a plane in a half-space (plane_drag.hpp), for every gap > 0.
+/// The name that stands in place of a basis for the exact drag of a sphere near a plane in a
+/// half-space (plane_drag.hpp). It needs no terms and is known for every gap > 0.
 inline constexpr std::string_view kExactPlane = "exact_plane";
 
-/// What stands for the exact drag where a fit is wanted: no terms, no misfit. Its interval says where the doubles end.
+/// A fit object without terms or misfit that stands for the exact drag of a plane. Its interval is
+/// the range of gaps for which doubles represent the drag. `viscosity` [M/(L T)] > 0, `radius` [L]
+/// > 0.
 Fit exact_plane_fit(double viscosity, double radius);
 
 /// True if `fit` stands for the exact drag.
 bool is_exact_plane(const Fit& fit);
 
-/// The fit of the same flow in a fluid of another viscosity > 0: Stokes flow is linear in it.
+/// The fit for a fluid of another viscosity [M/(L T)] > 0. Stokes flow is linear in the viscosity,
+/// so all coefficients are multiplied by the same factor.
 Fit with_viscosity(Fit fit, double viscosity);
 
 /// Reads a fit file and checks it against docs/fit.schema.json. Throws Error(kBadInput) with the
-/// line, the offending key and what is allowed.
+/// line, the key and what is allowed.
 Fit read_fit(const std::filesystem::path& path);
 
-/// The same of a fit file's text; `file` is its name for messages.
+/// Does the same with the text of a fit file. `file` is its name in messages.
 Fit parse_fit(const std::string& text, const std::string& file);
 
 /// The text of the fit file (JSON).

@@ -1,3 +1,4 @@
+// The words that stand for the values of Misfit in fit files.
 #include "viscontact/lubrication/fit_diagnostics.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The keys of the object "diagnostics". Files of earlier versions lack some of them and must stay
+// readable. Units are those of fit_diagnostics.hpp.
 #include "viscontact/lubrication/fit_diagnostics_json.hpp"
 
 namespace viscontact {
@@ -19,12 +21,12 @@ std::vector<Outlier> read_outliers(const JsonObject& json) {
   return outliers;
 }
 
-/// A number, or nothing where the key is missing, as in files of earlier versions, or null.
+/// The number at `key`, or nothing if it is null or if a file of an earlier version lacks the key.
 std::optional<double> optional_number(const JsonObject& json, const std::string& key) {
   return json.has(key) ? json.number_or_null(key) : std::nullopt;
 }
 
-/// `which` is "inner" or "end".
+/// Reads the left-out row of this kind: `which` is "inner" or "end".
 std::optional<LeftOutRow> read_left_out_row(const JsonObject& json, const std::string& which) {
   const auto gap = optional_number(json, "leave_one_out_" + which + "_gap");
   const auto residual = optional_number(json, "leave_one_out_" + which + "_largest");

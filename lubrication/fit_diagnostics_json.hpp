@@ -1,4 +1,4 @@
-// The "diagnostics" of a fit file.
+// Reads and writes the object "diagnostics" of a fit file (docs/fit.schema.json).
 #pragma once
 
 #include "viscontact/lubrication/fit_diagnostics.hpp"
@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// Throws Error(kBadInput) naming the offending key.
+/// Throws Error(kBadInput), which names the key, for a missing, unknown or wrong value.
 FitDiagnostics read_diagnostics(const JsonObject& json);
 
 Json write_diagnostics(const FitDiagnostics& diagnostics);

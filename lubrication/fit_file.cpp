@@ -1,4 +1,5 @@
-// The fit file: docs/fit.schema.json in words of C++.
+// Reads and writes the fit file. Keys, types and ranges are those of docs/fit.schema.json, and a
+// change of one must be made in the other. Lengths, masses and times are in the units of the table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -102,7 +103,7 @@ Fit parse_fit(const std::string& text, const std::string& file) {
   fit.condition_number = root.number_above("condition_number", 1, true);
   fit.covariance = read_covariance(root, fit.terms.size());
   fit.table_sha256 = root.text("table_sha256");
-  if (root.has("provenance")) (void)root.object("provenance");  // must be an object, no more
+  if (root.has("provenance")) (void)root.object("provenance");  // checks that it is an object
   (void)root.object("versions");
   for (const auto& [program, version] : root.at("versions").items()) {
     if (!version.is_string())
@@ -137,7 +138,7 @@ std::string write_fit(const Fit& fit) {
   if (fit.diagnostics) json["diagnostics"] = write_diagnostics(*fit.diagnostics);
   json["table_sha256"] = fit.table_sha256;
   json["versions"] = fit.versions;
-  // A table's header may hold bytes that are no UTF-8.
+  // The header of a table may contain bytes that are not UTF-8, which dump() would refuse.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,3 +1,4 @@
+// Reads and writes the CSV file of a force table. Units are those of force_table.hpp.
 #include "viscontact/lubrication/force_table.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ const std::array<std::string, 8> kColumns = {
     "gap",         "reference_velocity",      "force",
     "drag_factor", "relative_error_estimate", "degrees_of_freedom",
     "seconds",     "observed_order"};
+// The first three of kColumns: a fit needs no more than gap, velocity and force.
 constexpr std::size_t kRequiredColumns = 3;
 constexpr std::string_view kVersionPrefix = "version of ";
 const std::string kNeighbourMoves = "neighbour_moves";

@@ -1,5 +1,6 @@
-// The table that the tabulation writes and the fit reads: the lubrication force over a grid of gaps
-// and velocities.
+// The table of the lubrication force over a grid of gaps and velocities, which the tabulation
+// writes and the fit reads. Lengths, masses and times are in any one consistent system of units. A
+// change must keep the names of the columns and header keys, because published tables use them.
 #pragma once
 
 #include <filesystem>
@@ -10,42 +11,51 @@
 
 namespace viscontact {
 
-/// One solved (gap, velocity). Dimensions: [L], [L/T], [M L/T^2], 1, 1, count, s, 1.
+/// The result at one gap and one velocity.
 struct ForceTableRow {
-  double gap = 0;                 ///< q > 0
-  double reference_velocity = 0;  ///< u0, not 0; negative: approaching
-  double force = 0;  ///< F_lub(q, u0) along the outward normal: opposite in sign to u0, unless the
-                     ///< neighbour moves and pulls
-  double drag_factor = 0;              ///< lambda = -F_lub / (6 pi mu r u0)
-  double relative_error_estimate = 0;  ///< of force, >= 0
-  double degrees_of_freedom = 0;       ///< unknowns on the finest mesh
-  double seconds = 0;                  ///< wall time of the row
-  double observed_order = 0;  ///< of convergence in the mesh size; 4 in theory, 0: not observed
+  /// q [L], > 0.
+  double gap = 0;
+  /// u0 [L/T], not 0; < 0 when the sphere approaches.
+  double reference_velocity = 0;
+  /// F_lub(q, u0) [M L/T^2] along the outward normal. Its sign is opposite to that of u0, unless
+  /// the neighbour moves and pulls the sphere along.
+  double force = 0;
+  /// lambda = -F_lub/(6 pi mu r u0) [1].
+  double drag_factor = 0;
+  /// Estimate of the relative error of `force` [1], >= 0; 0 if the table has none.
+  double relative_error_estimate = 0;
+  /// Unknowns on the finest mesh.
+  double degrees_of_freedom = 0;
+  /// Wall time of the row [s].
+  double seconds = 0;
+  /// Observed order of convergence in the mesh size [1]: 4 in theory, 0 if it was not observed.
+  double observed_order = 0;
 };
 
-/// A table with what it was computed for. Rows are in the order of computation: gaps within
-/// velocities.
+/// A table with the problem that it was computed for. The rows are in the order of computation: all
+/// gaps of the first velocity, then those of the next.
 struct ForceTable {
   double viscosity = 0;   ///< mu [M/(L T)], > 0
   double radius = 0;      ///< r [L], > 0
-  std::string geometry;   ///< what the sphere approaches, in words; empty in a user's own table
-  std::string container;  ///< in words
-  bool neighbour_moves = false;  ///< it may pull: the force may then be along the velocity
-  std::optional<double>
-      leading_coefficient{};  ///< theory's k of R ~ k/q near contact [M L/T], if it is known
-  std::string case_hash;      ///< SHA-256 of the tabulation's inputs; empty if the table has none
+  std::string geometry;   ///< what the sphere approaches, in words; may be empty
+  std::string container;  ///< walls around the fluid, in words; may be empty
+  /// True if the neighbour moves. It may then pull the sphere, so a force along u0 is allowed.
+  bool neighbour_moves = false;
+  /// Coefficient k of R ~ k/q near contact in theory [M L/T], > 0, if it is known.
+  std::optional<double> leading_coefficient{};
+  std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
   std::vector<ForceTableRow> rows;
 };
 
-/// Reads a table. The columns gap, reference_velocity and force are needed; the other ones may be
-/// absent in a user's own table. Throws Error(kBadInput) with file and line where a value is
-/// missing, not finite or out of range, and when the rows are not as many as the header says (a
-/// truncated file).
+/// Reads a table. The columns gap, reference_velocity and force are required; the others may be
+/// absent in a table that Viscontact did not write. Throws Error(kBadInput) with file and line if a
+/// value is missing, not finite or out of range, or if the number of rows is not that of the header
+/// (the file is truncated).
 ForceTable read_force_table(const std::filesystem::path& path);
 
-/// The text of the file: "# key: value" lines, header, rows; every number in its shortest
-/// round-trip form.
+/// The text of the file: lines "# key: value", the line of column names, and the rows. Every number
+/// has as many digits as are needed to read the same double back.
 std::string write_force_table(const ForceTable& table);
 
 }  // namespace viscontact

@@ -1,4 +1,5 @@
-// A JSON object that is read with errors fit for a user.
+// Reads a JSON object key by key. Every error message names the file, the line, the key and what is
+// allowed there.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,18 +16,21 @@
 
 namespace viscontact {
 
-/// A value for a message. What holds others is named only: it may be deeper than the stack.
+/// A value as text for a message. An array or object is only called that, because a file may nest
+/// it deeper than the stack allows dump() to go.
 inline std::string shown(const Json& value) {
   return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
 }
 
-/// A JSON object whose keys are read one by one and that knows where it stands, for errors such as
-/// "FILE:LINE: terms[2].name is ...". Every function throws Error(kBadInput) for a missing key, a
-/// value of another type and a value that is not allowed. The document must outlive the object.
+/// A JSON object and its place in the document, for messages such as "FILE:LINE: terms[2].name is
+/// ...". Every function that reads throws Error(kBadInput) if the key is missing, or if its value
+/// has another type or is not allowed. The document must outlive the object.
 class JsonObject {
  public:
   explicit JsonObject(const JsonDocument& document) : JsonObject(document, document.root(), "") {}
 
+  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object
+  /// itself.
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
     const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
     throw_bad_input({document_.file(), document_.line_of(where)},
@@ -40,12 +44,14 @@ class JsonObject {
 
   double number(const std::string& key) const { return finite(key, at(key)); }
 
+  /// `value` as a finite number. `key` is its name in messages.
   double finite(const std::string& key, const Json& value) const {
     if (!value.is_number() || !std::isfinite(value.get<double>()))
       fail(key, fmt::format("is {}; it must be a finite number", shown(value)));
     return value.get<double>();
   }
 
+  /// A number > `bound`, or >= `bound` if `bound_allowed`.
   double number_above(const std::string& key, double bound, bool bound_allowed) const {
     const double value = number(key);
     if (value < bound || (value == bound && !bound_allowed))
@@ -59,7 +65,7 @@ class JsonObject {
     return at(key).get<std::string>();
   }
 
-  /// A number, or null for none.
+  /// A number, or nothing if the value is null.
   std::optional<double> number_or_null(const std::string& key) const {
     return at(key).is_null() ? std::nullopt : std::optional(number(key));
   }
@@ -76,7 +82,8 @@ class JsonObject {
     return at(key).get<bool>();
   }
 
-  /// A word that `parse` knows. It throws Error("...; what is allowed") for another one, which becomes an error at the key.
+  /// A text that `parse` translates. `parse` throws Error("...; what is allowed") for other texts;
+  /// the part from the semicolon on becomes that of the message about this key.
   template <class Parse>
   auto word(const std::string& key, const Parse& parse) const {
     try {
@@ -96,18 +103,19 @@ class JsonObject {
     return at(key);
   }
 
-  /// An element of an array of objects.
+  /// The element `index` of the array at `key`, which must be an object.
   JsonObject element(const std::string& key, std::size_t index) const {
     const std::string inner =
         fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
     return {document_, array(key).at(index), inner};
   }
 
-  /// The object at a key.
+  /// The object at `key`.
   JsonObject object(const std::string& key) const {
     return {document_, at(key), fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key)};
   }
 
+  /// Throws Error(kBadInput) if the object has a key that is not among `keys`.
   void allow_only(std::initializer_list<std::string_view> keys) const {
     for (const auto& [key, value] : json_.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())

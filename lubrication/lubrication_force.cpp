@@ -1,3 +1,5 @@
+// Resistance, its derivative and its primitive, inside the fitted interval and in the limits
+// outside of it, and the inverse of the primitive.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +17,7 @@
 namespace viscontact {
 namespace {
 
-// Gaps over radius between which lambda and its integral are numbers of full precision.
+// Range of gap/radius in which lambda and its integral are normal doubles of full precision.
 constexpr std::array kExactRange = {1e-300, 1e300};
 
 }  // namespace
@@ -48,7 +50,7 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
   regular_weights_ = weights_;
   regular_weights_[place_of(kLeadingTerm)] = 0;
   impulse_at_radius_ = sum_antiderivatives(weights_, radius_);
-  // A drag that changes sign has no Gamma to invert; such a fit is of no use to any model.
+  // Gamma has no inverse if the drag changes sign, so no model of motion could use such a fit.
   for (const double gap : spread_gaps(fitted_interval_))
     if (!(resistance(gap) > 0 && std::isfinite(resistance(gap))))
       throw Error(ErrorKind::kBadInput,
@@ -119,7 +121,7 @@ double LubricationForce::leading_coefficient() const {
 }
 
 LubricationForce::LubricationLimit LubricationForce::limit() const {
-  if (!(limit_.k > 0)) (void)leading_coefficient();  // says what is missing
+  if (!(limit_.k > 0)) (void)leading_coefficient();  // throws if the fit has no k
   return limit_;
 }
 
@@ -196,7 +198,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   const double low = std::log(smallest / radius_);
   const double high = std::log(largest / radius_);
   if (exact_ && impulse_wanted > impulse(smallest) && impulse_wanted < impulse(largest)) {
-    // lambda > 1/eps and > 1, so Gamma/k is below ln eps on this side of eps = 1, and above ln eps and eps - 1 on that side.
+    // lambda is larger than 1/eps and larger than 1. So Gamma/k < ln eps for eps < 1, and Gamma/k
+    // is larger than both ln eps and eps - 1 for eps > 1.
     const double scaled = impulse_wanted / leading_;
     if (scaled < 0) return {std::max(scaled, low), 0.0};
     return {0.0, std::min(scaled, std::log1p(scaled))};
@@ -213,7 +216,8 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                       "limit below it (below = \"lubrication_limit\" in the section [fit] of the "
                       "case)",
                       smallest, largest));
-    // k (s - ln q1) + c (e^s - q1) = what is wanted beyond Gamma(q1): the second term moves s by less than |c| q1 / k.
+    // With s = ln q, solve k (s - ln q1) + c (e^s - q1) = impulse - Gamma(q1). The second term
+    // moves s by less than |c| q1/k.
     const auto [k, constant] = limit();
     const double by_leading_term = low + (impulse_wanted - impulse(smallest)) / k;
     const double by_constant = constant * smallest / k;
@@ -232,19 +236,19 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
                             "tabulate and fit further, or let the drag tend to Stokes' drag above "
                             "it (above = \"stokes_limit\" in the section [fit] of the case)",
                             smallest, largest));
-  // R lies between its values at q2 and at infinity.
+  // Above the interval R lies between its values at q2 and at infinity.
   const double stokes = stokes_resistance(viscosity_, radius_);
   return {high, std::log((largest + beyond / std::min(stokes, resistance(largest))) / radius_)};
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // Gamma is close to a linear function of s = ln(q/r) near contact, so Newton's method is applied
-  // in s, inside a bracket that shrinks. The radius r makes s, and with it the rounding of q,
-  // independent of the unit of length.
+  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method converges fast in s. A
+  // bracket that shrinks makes it safe. The radius in s makes the rounding of q independent of the
+  // unit of length.
   auto [low, high] = bracket_of_impulse(impulse_wanted);
   double s = high - (high - low) / 2;
-  constexpr int kMaxSteps = 200;  // bisection alone needs about 60
-  // ln and exp of an end of the interval may come back a rounding outside it.
+  constexpr int kMaxSteps = 200;  // a safety limit: bisection alone needs about 60
+  // At an end of the interval, rounding of ln and exp may give a gap just outside it.
   const auto gap_at = [this](double log_gap) {
     return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
   };
@@ -255,7 +259,7 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
     (excess > 0 ? high : low) = s;
     const double newton = s - excess / (resistance(gap) * gap);
     const double next = newton > low && newton < high ? newton : low + (high - low) / 2;
-    // Steps below the rounding of s change nothing any more.
+    // A step below the rounding of s does not change the result.
     if (std::abs(next - s) <=
         2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
       return gap_at(next);

@@ -1,5 +1,7 @@
-// The lubrication force, fitted or exact, as a function: F_lub(q, u) = -R(q) u, its resistance R, and Gamma,
-// the impulse that the film has absorbed.
+// The lubrication force as a function of gap and velocity, F_lub(q, u) = -R(q) u (physics.md
+// (2.3)), with its resistance R and the primitive Gamma of R (4.2). The force is fitted (3.2) or
+// exact (2.4). Lengths, masses and times are in any one consistent system of units. A change must
+// keep R continuous at the ends of the interval, and Gamma a primitive of R.
 #pragma once
 
 #include <array>
@@ -10,87 +12,105 @@
 
 namespace viscontact {
 
-/// What the force is at gaps below the fitted interval [q1, q2].
+/// What the force is at gaps below the fitted interval [q1, q2] (physics.md (3.3)).
 enum class BelowInterval {
-  kError,             ///< nothing: asking is an error
-  kLubricationLimit,  ///< R(q1) + k (1/q - 1/q1), k the fit's coefficient of 1/q: what theory adds to k/q varies as ln q only
-  kTheoryLimit        ///< the same, k as theory has it (Fit::leading_coefficient)
+  /// Unknown: a call is an error.
+  kError,
+  /// R(q) = R(q1) + k (1/q - 1/q1), with the fitted coefficient k of 1/q. What theory
+  /// adds to k/q varies only as ln q; this limit takes it as constant.
+  kLubricationLimit,
+  /// The same with the coefficient k of theory (Fit::leading_coefficient).
+  kTheoryLimit
 };
 
-/// What the force is at gaps above it.
+/// What the force is at gaps above the fitted interval (physics.md (3.3)).
 enum class AboveInterval {
-  kError,       ///< nothing: asking is an error
-  kStokesLimit  ///< Stokes' drag in the end: R_S (1 + c/(q + r)), R_S = 6 pi mu r, c such that R is continuous at q2. The first
-  ///< reflection at a wall decays so (Happel & Brenner 1983, section 7-4: 1 + (9/8) r/h for a plane); that of a second sphere
-  ///< at rest decays faster, as 1/h^2; a container's other walls have no part in it
+  /// Unknown: a call is an error.
+  kError,
+  /// R(q) = R_S (1 + c/(q + r)), with R_S = 6 pi mu r and c such that R is continuous at q2. The
+  /// drag tends to Stokes' drag as the first reflection at a wall decays (Happel & Brenner 1983,
+  /// section 7-4: 1 + (9/8) r/h for a plane at distance h). The first reflection at a second sphere
+  /// at rest decays faster, as 1/h^2. The limit leaves out the container's other walls.
+  kStokesLimit
 };
 
-/// Stokes flow is linear, so a fit at u0 gives the force at every velocity: F_lub(q, u) = (u / u0) F_lub(q, u0).
-/// Every function of the gap throws Error(kBadInput) that names the interval for a gap outside the fit's, unless
-/// `below`, `above` or the function's own words allow it.
+/// The force of one fit at every velocity. Stokes flow is linear in the velocity, so a fit at u0
+/// gives F_lub(q, u) = (u/u0) F_lub(q, u0). Every function of the gap throws Error(kBadInput),
+/// which names the interval, if the gap is outside it, unless `below`, `above` or the comment of
+/// the function allows that gap.
 class LubricationForce {
  public:
-  /// Throws Error(kBadInput) if the fit's resistance is not positive at one of 201 gaps spread over its interval.
-  /// Error(kBadInput) too if `below` asks for theory's k and the fit has none.
-  /// A fit of basis kExactPlane makes exact_plane().
+  /// Throws Error(kBadInput) if the fit's resistance is not positive at one of the 201 gaps of
+  /// spread_gaps() on its interval, or if `below` asks for theory's k and the fit does not state
+  /// it. A fit whose basis is kExactPlane gives exact_plane().
   explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError,
                             AboveInterval above = AboveInterval::kError);
 
-  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every gap > 0.
+  /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every
+  /// gap > 0. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
   static LubricationForce exact_plane(double viscosity, double radius);
 
-  /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) below the interval if it is larger than a double can hold.
+  /// R(q) = -F_lub(q, u)/u [M/T], > 0. Throws Error(kNotConverged) if R is larger than the largest
+  /// double, which can happen below the interval.
   double resistance(double gap) const;
 
   /// dR/d ln q = q dR/dq [M/T].
   double resistance_log_slope(double gap) const;
 
-  /// R(q) - k/q [M/T], k the fit's, for 0 <= q: below the interval, its value at the smallest fitted gap.
+  /// R(q) - k/q [M/T] with the fitted k, for q >= 0. Below the interval it is constant and has its
+  /// value at the smallest fitted gap.
   double regular_resistance(double gap) const;
 
-  /// int_0^q (R(s) - k/s) ds [M L/T], for 0 <= q, with the same extension.
+  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, with the same continuation below the interval.
   double regular_impulse(double gap) const;
 
-  /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius; closed form, increasing in q.
+  /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is a closed form and increases
+  /// with q.
   double impulse(double gap) const;
 
-  /// The gap q with Gamma(q) = impulse, to round-off.
+  /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
+  /// gap is outside interval(), and Error(kNotConverged) if it is too small for a double.
   double gap_of_impulse(double impulse) const;
 
-  /// k [M L/T]: coefficient of 1/q in R; 6 pi mu r^2 in theory for a plane. Throws Error(kBadInput)
-  /// if the fit has none, or it is not positive.
+  /// k [M L/T]: coefficient of 1/q in R, which is 6 pi mu r^2 in theory for a plane. Throws
+  /// Error(kBadInput) if the fit has no term 1/q or if k is not positive.
   double leading_coefficient() const;
 
-  /// The gaps [L] at which the functions above may be called; the first is 0 and the second infinite where the limits are asked for.
+  /// The smallest and the largest gap [L] that the functions above accept. With a limit below the
+  /// first is 0; with a limit above the second is infinity.
   std::array<double, 2> interval() const;
 
   double radius() const { return radius_; }        ///< r [L]
   double viscosity() const { return viscosity_; }  ///< mu [M/(L T)]
 
  private:
-  /// R(q) = k/q + constant below the interval.
+  /// R(q) = k/q + constant below the interval; k [M L/T], constant [M/T].
   struct LubricationLimit {
     double k, constant;
   };
   LubricationForce(double viscosity, double radius);
   void check_gap(double gap) const;
   void set_limits(const Fit& fit);
-  /// Throws Error(kBadInput) if the fit has no k to go below its interval with.
+  /// Throws Error(kBadInput) if the fit has no k that the drag below its interval could follow.
   LubricationLimit limit() const;
-  /// ln(q/r) of two gaps with Gamma(q) = impulse between them.
+  /// ln(q/r) of two gaps between which Gamma(q) = impulse.
   std::array<double, 2> bracket_of_impulse(double impulse) const;
 
-  bool exact_ = false;                   // Brenner's series; the fit's members are not used then
-  std::vector<double> weights_;          // of all_terms() in R: coefficient / -u0
-  std::vector<double> regular_weights_;  // the same without 1/q
+  // True for the exact drag, which uses none of the members from the fit.
+  bool exact_ = false;
+  // Weights of all_terms() in R: coefficient/-u0.
+  std::vector<double> weights_;
+  // weights_ with 0 for the term 1/q.
+  std::vector<double> regular_weights_;
   double radius_, viscosity_;
-  double leading_ = 0;  // k
+  double leading_ = 0;  // k [M L/T]
   std::array<double, 2> fitted_interval_;
   BelowInterval below_ = BelowInterval::kError;
   AboveInterval above_ = AboveInterval::kError;
   LubricationLimit limit_ = {};
-  double image_ = 0;              // c [L] of the Stokes limit
-  double impulse_at_radius_ = 0;  // of the bare antiderivatives
+  double image_ = 0;  // c [L] of the Stokes limit
+  // The sum of antiderivatives at q = r, which is subtracted to make Gamma(r) = 0.
+  double impulse_at_radius_ = 0;
 };
 
 }  // namespace viscontact

@@ -1,3 +1,5 @@
+// Three expansions of lambda in eps = gap/radius: near contact, between, and far away. The
+// constants are computed from Brenner's series and belong together: change none of them by hand.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>
@@ -8,19 +10,20 @@
 namespace viscontact {
 namespace {
 
-// All five functions come from R = lambda - 1/eps: with x = ln eps,
+// All five functions come from R = lambda - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
 //
-//     lambda = 1/eps + R,   d lambda/dx = -1/eps + dR/dx,   S = int_0^eps R,
-//     int_1^eps lambda = x + S(eps) - S(1),
+//     lambda = 1/eps + R,   d lambda/dx = -1/eps + dR/dx,
+//     int_1^eps lambda = x + S(eps) - S(1).
 //
-// sums of terms of one sign but for S(1). R, dR/dx and M = S/eps, the mean of R, vary slowly.
+// All terms of a sum have the same sign, except S(1). R, dR/dx and the mean M = S/eps of R vary
+// slowly with x, so that polynomials represent them well.
 
 /// Coefficients of 1, t, t^2, ...
 template <std::size_t count>
 using Polynomial = std::array<double, count>;
 
-/// Estrin's scheme: a short tree of products that the processor works on side by side, where
-/// Horner's rule is one long chain.
+/// Value of a polynomial by Estrin's scheme: a short tree of products that the processor computes
+/// in parallel, where Horner's rule would be one long chain.
 template <std::size_t count>
 double value(const Polynomial<count>& polynomial, double t) {
   if constexpr (count == 1) {
@@ -34,23 +37,25 @@ double value(const Polynomial<count>& polynomial, double t) {
   }
 }
 
-// Near contact, x < kNear: R = sum_k eps^k (constant_k + logarithm_k x), k = 0..4. What is left
-// out, of order eps^5 x, is 1.2e-16 at kNear.
+// Near contact, x < kNear: R = sum_k eps^k (constant_k + logarithm_k x), k = 0..4. The first term
+// that is left out, of order eps^5 x, is 1.2e-16 at kNear.
 constexpr double kNear = -6;
-// Cox & Brenner 1967; Cooley & O'Neill 1969; digits of data/reference/near_contact_expansion.csv.
+// After Cox & Brenner 1967 and Cooley & O'Neill 1969; the digits are those of
+// data/reference/near_contact_expansion.csv.
 constexpr Polynomial<5> kConstants = {0.9712799310357215124, 0.1670170048120648131,
                                       -0.0148746313563976885, 0.0026239942748169500,
                                       -0.0006614852909697309};
 constexpr Polynomial<5> kLogarithms = {-1.0 / 5, -1.0 / 21, 8.0 / 1125, -15416.0 / 9095625,
                                        910732.0 / 1773646875};
 
-// Between, kNear <= x < kFar: M on pieces of length 1 in x, a polynomial in t = -1..1 on each.
-// M is analytic for |Im x| < pi, so Chebyshev's coefficients fall at least like 12^-n.
+// Between, kNear <= x < kFar: M is a polynomial in t = -1..1 on each piece of length 1 in x. M is
+// analytic for |Im x| < pi, so its Chebyshev coefficients fall at least like 12^-n.
 constexpr double kFar = 2;
 constexpr int kPieces = 8;
-// Made with mpmath, 45 digits: R of Brenner's series at 30 Chebyshev nodes a piece, integrated as a
-// Chebyshev series from S of the expansion above at x = -8, divided by eps, cut after t^19 (what is
-// left out is below 1e-21), written in powers of t.
+// Coefficients of M in powers of t, computed with mpmath in 45 digits: R from Brenner's series at
+// 30 Chebyshev nodes on each piece; its Chebyshev series, integrated from the value of S that the
+// expansion above gives at x = -8; the result divided by eps and cut after t^19, which leaves out
+// less than 1e-21.
 // clang-format off
 constexpr std::array<Polynomial<20>, kPieces> kMean = {{
     {2.272204722152662, -0.099586393365349857, 9.1175197429165688e-05, 1.3149216755474393e-05,
@@ -95,9 +100,10 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 }};
 // clang-format on
 
-// Far, x >= kFar: R = sum_k b_k h^k, h = 1/(1 + eps) < 0.12, with 1 + b_k the coefficients of
-// lambda (1/eps = h + h^2 + ...): 1, 9/8, 81/64, 473/512, 4113/4096, ... All are dyadic fractions,
-// from the expansion of Brenner's series in exp(-alpha), cosh(alpha) = 1/h, in rational arithmetic.
+// Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. As 1/eps = h + h^2 + ..., the
+// coefficients of lambda are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are dyadic
+// fractions, from the expansion of Brenner's series in exp(-alpha), cosh(alpha) = 1/h, in rational
+// arithmetic.
 // clang-format off
 constexpr Polynomial<18> kFarRegular = {
     1, 0.125, 0.265625, -0.076171875, 0.004150390625, 0.215118408203125,
@@ -106,19 +112,20 @@ constexpr Polynomial<18> kFarRegular = {
     -0.088984817950404249, 0.07118790284039278, 0.0211582797930987, -0.036068701833045225,
     0.061473599154115988, -0.0055992376740436889};
 // clang-format on
-// S - eps - ln(1 + eps)/8 far away, from S of the table's sources at x = 4.
+// The constant of S - eps - ln(1 + eps)/8 far away, from S at x = 4, computed as in the table
+// above.
 constexpr double kFarConstant = 0.30139129923623441053;
-// S(1), of the same sources.
+// S(1), computed in the same way.
 constexpr double kRegularIntegralToOne = 1.26158388768896730636;
 
-/// A function of eps in the three ranges.
+/// A function of eps, by its coefficients in the three ranges.
 struct Expansion {
   Polynomial<5> constants, logarithms;
   std::array<Polynomial<20>, kPieces> pieces;
   Polynomial<18> far;
 };
 
-/// Of df/dx on a piece, where dt/dx = 2.
+/// The coefficients of df/dx on a piece, where dt/dx = 2.
 consteval Polynomial<20> log_slope(const Polynomial<20>& f) {
   Polynomial<20> slope = {};
   for (std::size_t k = 0; k + 1 < f.size(); ++k)
@@ -126,7 +133,7 @@ consteval Polynomial<20> log_slope(const Polynomial<20>& f) {
   return slope;
 }
 
-/// S = eps M, so R = M + dM/dx.
+/// The coefficients of R. On the pieces, S = eps M gives R = M + dM/dx.
 consteval Expansion regular_expansion() {
   Expansion regular = {kConstants, kLogarithms, kMean, kFarRegular};
   for (auto& piece : regular.pieces) {
@@ -136,7 +143,7 @@ consteval Expansion regular_expansion() {
   return regular;
 }
 
-/// dR/dx = eps dR/d eps; far away dh/dx = -h (1 - h).
+/// The coefficients of dR/dx = eps dR/d eps. Far away dh/dx = -h (1 - h).
 consteval Expansion slope_expansion() {
   Expansion slope = regular_expansion();
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -153,8 +160,8 @@ consteval Expansion slope_expansion() {
   return slope;
 }
 
-/// M; but far away S - eps - x/8, where R = 1 + h/8 + ..., int h^(k+1) d eps = -h^k/k and
-/// ln(1 + eps) - x = sum h^k/k.
+/// The coefficients of M near and between, but of S - eps - x/8 far away, where R = 1 + h/8 + ...,
+/// int h^(k+1) d eps = -h^k/k and ln(1 + eps) - x = sum h^k/k.
 consteval Expansion mean_expansion() {
   Expansion mean = {kConstants, kLogarithms, kMean, {}};
   for (std::size_t k = 0; k < kConstants.size(); ++k) {
@@ -172,19 +179,20 @@ constexpr Expansion kRegular = regular_expansion();
 constexpr Expansion kSlope = slope_expansion();
 constexpr Expansion kMeanRegular = mean_expansion();
 
-/// A NaN, the logarithm of what is below 0, goes through the last line.
+/// The value at eps, x = ln eps. If eps < 0, x is NaN and fails both comparisons, so that the last
+/// line returns NaN.
 double value(const Expansion& f, double eps, double x) {
   if (x >= kFar) return value(f.far, 1 / (1 + eps));
   if (x >= kNear) {
     const double pieces = x - kNear;
-    // The subtraction can round up to 8.
+    // The subtraction can round up to 8, although there are only the pieces 0..7.
     const int piece = std::min(static_cast<int>(pieces), kPieces - 1);
     return value(f.pieces[static_cast<std::size_t>(piece)], 2 * (pieces - piece) - 1);
   }
   return value(f.constants, eps) + x * value(f.logarithms, eps);
 }
 
-/// S.
+/// S(eps) = int_0^eps R.
 double regular_integral(double eps, double x) {
   const double mean = value(kMeanRegular, eps, x);
   return x >= kFar ? eps + (x / 8 + mean) : eps * mean;

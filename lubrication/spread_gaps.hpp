@@ -1,4 +1,4 @@
-// Gaps at which a function on an interval is looked at.
+// Sample points for functions of the gap.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace viscontact {
 
-/// `count` >= 2 gaps in geometric progression over an interval [L], 0 < first < second, whose ends they hit exactly.
+/// `count` >= 2 gaps [L] in geometric progression on an interval 0 < first < second, whose ends are
+/// the first and the last of them exactly.
 inline std::vector<double> spread_gaps(const std::array<double, 2>& interval, int count = 201) {
   const double low = std::log(interval[0]);
   const double high = std::log(interval[1]);

@@ -1,11 +1,12 @@
-// Drag of a sphere far from everything.
+// The drag of a sphere in an unbounded fluid.
 #pragma once
 
 #include <numbers>
 
 namespace viscontact {
 
-/// Stokes' resistance 6 pi mu r [M/T] of a sphere of radius r [L] > 0 in an unbounded fluid of viscosity mu [M/(L T)] > 0 (Stokes 1851).
+/// Stokes' resistance 6 pi mu r [M/T] of a sphere of radius r [L] > 0 in an unbounded fluid of
+/// viscosity mu [M/(L T)] > 0 (Stokes 1851).
 inline double stokes_resistance(double viscosity, double radius) {
   return 6 * std::numbers::pi * viscosity * radius;
 }

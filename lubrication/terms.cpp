@@ -1,3 +1,6 @@
+// The table of terms and the named bases. A new term or basis is a new row here. Each row's
+// log_slope must be q times the derivative of its value, and its antiderivative a primitive of its
+// value.
 #include "viscontact/lubrication/terms.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +15,7 @@
 namespace viscontact {
 namespace {
 
-// The expression once as text and once as code: what is exported cannot differ from what is fitted.
+// Keeps each expression both as text and as code, so that an exported fit computes what was fitted.
 #define FORMULA(expression)                                                                       \
   Formula {                                                                                       \
 #expression,                                                                                  \
@@ -42,7 +45,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Adds the term of that name. Throws Error(kBadInput).
+/// Adds the term with this name. Throws Error(kBadInput) if there is none, or if `basis` has it.
 void add_term(Basis& basis, std::string_view name) {
   if (find_named(basis.terms, name) != nullptr)
     throw Error(ErrorKind::kBadInput,
@@ -56,7 +59,7 @@ Basis make_basis(std::string_view name, std::string_view terms) {
   return basis;
 }
 
-/// The formulas are known when this is compiled, so that all are expanded in place.
+/// Sum of weight * formula over all terms. The compiler knows each formula and expands it in place.
 template <Formula Term::*formula>
 double sum_of(std::span<const double> weights, double gap) {
   const double log_gap = std::log(gap);

@@ -1,4 +1,5 @@
-// Where two bodies are to each other: the gap and the normal of a film.
+// Gap and normal of a pair, docs/physics.md (5.1), and whether given displacements close the gap.
+// All lengths and displacements are in one consistent unit of length.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 
 namespace viscontact::particles {
 
-/// Of two particles: D_ij and e_ij of physics.md (5). Centres that coincide lie along the first axis: any direction leads apart.
+/// Contact of two particles, with gap D_ij and normal e_ij of docs/physics.md (5.1). If both
+/// centres coincide, the normal is the first axis, because every direction separates them.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Film& film) {
   Contact<D> contact{film.first, film.second, {}, 0, film.gamma, film.impulse};
@@ -34,7 +36,7 @@ Contact<D> contact_of(const Particles& p, const Film& film) {
   return contact;
 }
 
-/// Of a particle and a plane at `place`.
+/// Contact of a particle and a plane that is at `place`.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Film& film, const PlanePosition& place) {
   Contact<D> contact{-1, film.second, {}, 0, film.gamma, film.impulse};
@@ -44,14 +46,14 @@ Contact<D> contact_of(const Particles& p, const Film& film, const PlanePosition&
   return contact;
 }
 
-/// Either, by the sign of film.first.
+/// Contact of either kind of pair; film.first is negative if it stands for a plane.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Film& film, std::span<const PlanePosition> places) {
   return film.first < 0 ? contact_of<D>(p, film, places[static_cast<std::size_t>(-1 - film.first)])
                         : contact_of<D>(p, film);
 }
 
-/// The linearised gap D + h G.v at displacements h v, flat.
+/// Linearised gap D + h G v [L] after the displacements h v, a flat array [L].
 template <int D>
 double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
   const double* wj = &displacements[static_cast<std::size_t>(contact.second) * D];
@@ -65,16 +67,19 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// As contact_of, but with the gap that a step can and should close.
+/// Same as contact_of, but with the gap that a step can and should close.
 ///
-/// It is 0 if the gap is no larger than the rounding errors of the positions and radii that it is
-/// computed from: those would be impulses m D/h, larger than any load if the step is short. And an
-/// overlap of up to `tolerated` [L] is not pushed out, only kept from growing. A packing that earlier
-/// steps have left with such overlaps may have no room to push them out, and where it has, that
-/// would be motion out of nothing.
+/// The gap is set to 0 if it is no larger than the rounding errors of the positions and radii that
+/// it is computed from. Otherwise these errors would cause impulses m D/h, which exceed any load if
+/// the step is short.
+///
+/// An overlap of up to `tolerated` [L] is kept from growing but not pushed out: it counts as gap 0.
+/// A packing with such overlaps may have no room to push them out, and where it has room, pushing
+/// them out would create motion without a force.
 template <int D>
 Contact<D> resolved_contact_of(const Particles& p, const Film& film,
                                std::span<const PlanePosition> places, double tolerated) {
+  // The rounding error of the gap is taken as 4 units in the last place of the sum of the sizes.
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
   auto contact = contact_of<D>(p, film, places);
   const auto j = static_cast<std::size_t>(film.second);
@@ -96,9 +101,10 @@ Contact<D> resolved_contact_of(const Particles& p, const Film& film,
   return contact;
 }
 
-/// Whether two particles are so far from each other that no such displacements close
-/// their linearised gap: |x_j - x_i| > r_i + r_j + |w|, |w| the length of the relative displacement
-/// or more. It takes no root and no division, and tells most pairs of a list.
+/// True if two particles are so far from each other that these displacements cannot close their
+/// linearised gap: |x_j - x_i| > r_i + r_j + |w|_1, where w is the relative displacement and |w|_1,
+/// the sum of its components' magnitudes, is at least its length. This test is fast, because it
+/// needs no square root and no division, and it decides for most pairs of a list.
 template <int D>
 bool cannot_close(const Particles& p, const Film& film, std::span<const double> displacements) {
   const auto i = static_cast<std::size_t>(film.first), j = static_cast<std::size_t>(film.second);
@@ -108,17 +114,18 @@ bool cannot_close(const Particles& p, const Film& film, std::span<const double> 
     square += apart * apart;
     moved += std::abs(displacements[j * D + d] - displacements[i * D + d]);
   }
-  // Beyond the rounding errors that resolved_contact_of() takes for contact.
+  // The margin is larger than the rounding errors that resolved_contact_of() takes for contact.
   constexpr double kAbove = 1 + 1e-9;
   const double reach = kAbove * (p.radii[i] + p.radii[j] + moved);
   return square > reach * reach;
 }
 
-/// How far a pair may move tangentially in a step, over the sum of its radii, for its linearised gap
-/// to stand for its gap: they differ by half the square of that, times the sum.
+/// Largest tangential displacement of a pair in a step, divided by the sum of its radii, for which
+/// the linearised gap may stand for the gap. Gap and linearised gap differ by half the square of
+/// this ratio, times the sum of the radii.
 inline constexpr double kLargestTurn = 0.5;
 
-/// The displacement of the second particle relative to the first.
+/// Displacement of the second particle relative to the first [L].
 template <int D>
 std::array<double, D> relative_displacement(const Contact<D>& contact,
                                             std::span<const double> displacements) {
@@ -129,8 +136,8 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
   return w;
 }
 
-/// Whether particle `contact.second` turns about `contact.first` by more than kLargestTurn in the
-/// step. Never of a plane, whose linearised gap is its gap.
+/// True if particle `contact.second` turns about particle `contact.first` by more than kLargestTurn
+/// in the step. Always false for a plane, because its linearised gap is exact.
 template <int D>
 bool turns_too_far(const Particles& p, const Contact<D>& contact,
                    std::span<const double> displacements) {
@@ -146,8 +153,8 @@ bool turns_too_far(const Particles& p, const Contact<D>& contact,
   return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
 }
 
-/// Whether two particles that move straight by `displacements` touch on their way. Of those that do
-/// not turn too far the linearised gap decides, so that this is true.
+/// True if two particles touch while they move along straight lines by `displacements`. Also true
+/// for all pairs that do not turn too far: for them the linearised gap decides.
 template <int D>
 bool paths_meet(const Particles& p, const Contact<D>& contact,
                 std::span<const double> displacements) {

@@ -1,4 +1,5 @@
-// When the film between two particles gives way to the solids.
+// The value gamma_min of a pair at which its film gives way to solid contact, docs/physics.md
+// (5.5), after Vinogradova & Yakubov 2006. Units are any one consistent system.
 #pragma once
 
 #include <algorithm>
@@ -9,20 +10,23 @@
 
 namespace viscontact::particles {
 
-/// Solid contact of rough particles (Vinogradova & Yakubov 2006; physics.md, sections 4 and 5). One of: gamma_min; viscosity and roughness; neither
-/// (smooth: no solid contact). gamma_min = 0 leaves no film at all: inelastic contact.
+/// Solid contact of rough particles, docs/physics.md (4.6) and (5.5). Either gamma_min is set, or
+/// both viscosity and roughness, or nothing (smooth particles without solid contact). gamma_min = 0
+/// leaves no film at all, which makes contact inelastic.
 struct ContactLaw {
   std::optional<double> gamma_min;  ///< of every pair [M L/T], <= 0
   std::optional<double> viscosity;  ///< mu [M/(L T)], > 0
-  std::optional<double> roughness;  ///< height s of each particle's and plane's [L], > 0
+  /// Height s of the roughness of each particle and plane [L], > 0.
+  std::optional<double> roughness;
 
-  /// k_ij = 6 pi mu r_eff^2 [M L/T], r_eff = r_i r_j/(r_i + r_j); r_j infinite for a plane. Discs are spheres whose centres stay in a plane.
+  /// k_ij = 6 pi mu r_eff^2 [M L/T] with r_eff = r_i r_j/(r_i + r_j); r_j is infinite for a plane.
+  /// Discs count as spheres whose centres stay in a plane. Needs `viscosity`.
   double leading_coefficient(double r_i, double r_j) const {
     const double r = effective_radius(r_i, r_j);
     return 6 * std::numbers::pi * *viscosity * r * r;
   }
 
-  /// gamma_min,ij = k_ij ln((s_i + s_j)/r_eff) [M L/T], at most 0; -infinity for smooth ones.
+  /// gamma_min,ij = k_ij ln(2 s/r_eff) [M L/T], at most 0; minus infinity for smooth particles.
   double lower_bound(double r_i, double r_j) const {
     if (gamma_min) return *gamma_min;
     if (!viscosity) return -std::numeric_limits<double>::infinity();

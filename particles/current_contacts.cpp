@@ -1,3 +1,4 @@
+// Contacts and overlaps of a state, in the units of the case (current_contacts.hpp).
 #include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ double largest_overlap(const Setting& setting, const State& state) {
   for (const auto& place : positions_of(setting.planes, state.time))
     for (std::size_t k = 0; k < p.count(); ++k)
       smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
-  return (0 - smallest) / mean_radius(p);  // 0, not -0
+  return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
 }
 
 double largest_gamma_error(const State& state) {

@@ -1,4 +1,5 @@
-// The contacts of a state, for whoever looks at it.
+// Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
+// are in the units of the case.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +11,28 @@
 namespace viscontact::particles {
 
 struct CurrentContact {
-  std::int32_t first;      ///< particle, or -1 - k: plane k
-  std::int32_t second;     ///< particle
+  std::int32_t first;      ///< number of a particle, or -1 - k for plane k
+  std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
   double gamma;            ///< [M L/T]
   double gamma_error = 0;  ///< Film::gamma_error [M L/T]
 };
 
-/// The names of both partners in files: a particle's id, then that of the other particle or
-/// -1, -2, ... for the first, second plane.
+/// Names of both bodies of a contact in files. For two particles these are their ids. For a
+/// particle and a plane they are the id of the particle and -1, -2, ... for the first, second
+/// plane.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
-/// The films that hold (gamma < 0) and what touches without (gap <= tolerance of the solver): pairs, then walls, in order.
+/// The pairs that are glued (gamma < 0) or touch (gap <= solver tolerance times mean radius): first
+/// pairs of particles, then particles at planes, each in the order of the state.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Film::gamma_error of all films [M L/T].
+/// Largest Film::gamma_error of all pairs [M L/T].
 double largest_gamma_error(const State& state);
 
-/// Largest overlap of two particles, or of one and a plane, over the mean radius; 0 if there is none. Of all pairs, not only those in the list.
+/// Largest overlap of two particles, or of a particle and a plane, divided by the mean radius; 0 if
+/// nothing overlaps. It checks all particles, not only the pairs in the neighbour list.
 double largest_overlap(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

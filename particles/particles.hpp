@@ -1,4 +1,5 @@
-// The particles of a simulation: rigid discs or spheres that do not turn.
+// The particles of a simulation: rigid discs or spheres without rotation. Lengths, masses and times
+// are in any one consistent system of units.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +10,16 @@
 
 namespace viscontact::particles {
 
-/// Flat arrays; particle k is entry k of each, and entries dimension * k, ... of positions and velocities.
+/// Flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and so do `dimension`
+/// entries from dimension * k on of `positions` and `velocities`.
 struct Particles {
   int dimension = 2;               ///< 2: discs, 3: spheres
   std::vector<double> positions;   ///< of the centres [L]
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
   std::vector<double> masses;      ///< [M], > 0
-  /// The name of each particle in files, >= 0, no two equal; empty: particle k is named k.
+  /// Name of each particle in files, >= 0; no two names are equal. Empty: particle k has the name
+  /// k.
   std::vector<std::int32_t> ids{};
 
   std::size_t count() const { return radii.size(); }
@@ -27,7 +30,7 @@ struct Particles {
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
 
-/// The radius that residuals and overlaps are measured by [L]; 1 without particles.
+/// Mean radius [L], by which residuals and overlaps are measured; 1 if there are no particles.
 inline double mean_radius(const Particles& particles) {
   if (particles.count() == 0) return 1;
   double sum = 0;

@@ -1,3 +1,4 @@
+// Exact integrals and means of a piecewise constant vector (piecewise_constant.hpp).
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Vector PiecewiseConstant::mean(double from, double to) const {
   double begin = 0;
   for (const auto& piece : pieces) {
     if (from >= begin && to <= piece.until)
-      return piece.value;  // no rounding where nothing changes
+      return piece.value;  // exact: a sum would have rounding errors
     const double overlap = std::min(to, piece.until) - std::max(from, begin);
     if (overlap > 0) sum = sum + overlap * piece.value;
     begin = piece.until;

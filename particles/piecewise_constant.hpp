@@ -1,4 +1,5 @@
-// A vector that is constant between given times: a force, or the velocity of a wall.
+// A vector that is constant between given times, such as a force [M L/T^2] or the velocity of a
+// plane [L/T].
 #pragma once
 
 #include <vector>
@@ -7,17 +8,18 @@
 
 namespace viscontact::particles {
 
-/// Pieces in order of time; the first begins at 0, each other where the one before ends. Beyond the last: 0.
+/// Pieces in order of time. The first piece begins at time 0, each other piece where the piece
+/// before it ends. The value is 0 after the last piece.
 struct PiecewiseConstant {
   struct Piece {
-    double until;  ///< [T], > that of the piece before
+    double until;  ///< end of the piece [T], > that of the piece before
     Vector value;
   };
   std::vector<Piece> pieces;
 
-  /// The integral from time 0 to t >= 0.
+  /// Integral from time 0 to t >= 0 [T].
   Vector integral(double t) const;
-  /// The mean over [from, to], from < to.
+  /// Mean over the times from `from` to `to` [T]; needs 0 <= from < to.
   Vector mean(double from, double to) const;
 };
 

@@ -1,3 +1,4 @@
+// Position of a plane at a given time: a turn about its pivot, then a translation.
 #include "viscontact/particles/plane.hpp"
 
 #include <cmath>
@@ -5,7 +6,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// Rodrigues' formula: `a` turned by `angle` about the unit axis.
+/// Vector `a` turned by `angle` [rad] about the unit vector `axis` (Rodrigues' formula).
 Vector turned(const Vector& a, const Vector& axis, double angle) {
   const double c = std::cos(angle);
   return c * a + std::sin(angle) * cross(axis, a) + (1 - c) * dot(axis, a) * axis;

@@ -1,4 +1,5 @@
-// Planes (lines, for discs) that bound the particles' room: at rest, sliding or turning.
+// Planes (lines, for discs) that bound the space of the particles. A plane is at rest, moves or
+// turns. Lengths and times are in any one consistent system of units.
 #pragma once
 
 #include <vector>
@@ -8,28 +9,29 @@
 
 namespace viscontact::particles {
 
-/// Where a plane is: x with normal.(x - point) >= 0 is the free side.
+/// Position of a plane. The points x with normal.(x - point) >= 0 are its free side.
 struct PlanePosition {
-  Vector point;   ///< [L]
-  Vector normal;  ///< unit, into the free side
+  Vector point;   ///< any point of the plane [L]
+  Vector normal;  ///< unit normal into the free side
 };
 
-/// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it. Viscous contact has no friction: of the motion
-/// only what is normal to the plane acts on a particle.
+/// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it.
+/// Only the motion along its normal acts on particles, because viscous contact has no friction.
 struct Plane {
-  PlanePosition start;         ///< at time 0
+  PlanePosition start;         ///< position at time 0
   PiecewiseConstant velocity;  ///< [L/T]
-  Vector angular_velocity{};   ///< constant [1/T]; for discs (0, 0, omega)
-  Vector pivot{};              ///< at time 0 [L]
+  /// Constant [1/T]; for discs it is (0, 0, omega).
+  Vector angular_velocity{};
+  Vector pivot{};  ///< position of the pivot at time 0 [L]
 
-  /// At time t >= 0.
+  /// Position at time t >= 0 [T].
   PlanePosition at(double t) const;
 };
 
-/// Those of planes at time t, in their order.
+/// Positions of all planes at time t [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Distance of a sphere's surface from the plane [L], < 0 if they overlap: physics.md (5), D of a plane.
+/// Gap D between a sphere and a plane [L], docs/physics.md (5.1); < 0 if they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   return dot(plane.normal, centre - plane.point) - radius;
 }

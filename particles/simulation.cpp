@@ -1,3 +1,5 @@
+// Time stepping of many particles, docs/physics.md (5.3): free motion, projection, new gamma, new
+// positions; and the division of steps with fast particles. Units are those of the case.
 #include "viscontact/particles/simulation.hpp"
 
 #include <fmt/format.h>
@@ -15,20 +17,23 @@
 
 namespace viscontact::particles {
 
-/// Arrays of a step that are kept for the next, for their memory only.
+/// Arrays that a step reuses from the step before, so that their memory is not allocated again.
 struct Simulation::StepBuffers {
   explicit StepBuffers(int threads) : pool(threads) {}
   ThreadPool pool;
-  std::vector<double> displacements;  // h u*, later h v
-  std::vector<double> mobilities;     // h/m
-  // Of a step that is divided: the sums of the impulses of its parts, by the films' particles.
+  std::vector<double> displacements;  // h u*, later h v [L]
+  std::vector<double> mobilities;     // h/m [T/M]
+  // If a step is divided: the sum of the impulses of its parts [M L/T], by the numbers of both
+  // bodies.
   std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts;
-  std::optional<State> before_division;  // the state before a step that is divided
+  // State before a step that is divided; it is restored if one of the parts fails.
+  std::optional<State> before_division;
 };
 
 namespace {
 
-/// The particles within `margin` of a plane, its place that of the step's end, and those that its films hold.
+/// Lists the particles that are closer than `margin` [L] to a plane, and those that are glued to
+/// it. The planes are at their positions at the end of the step.
 void find_walls(State& state, std::span<const PlanePosition> planes, double margin,
                 ThreadPool& pool) {
   const auto& p = state.particles;
@@ -39,7 +44,7 @@ void find_walls(State& state, std::span<const PlanePosition> planes, double marg
     walls += pool.sum_of_blocks<ConcatenatedBlocks<Film>>(
         p.count(), [&](std::size_t begin, std::size_t end) {
           ConcatenatedBlocks<Film> films;
-          // Planes are in falling order of their numbers.
+          // state.walls is in falling order of first = -1 - k, which is the order of the planes.
           auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
             return film.first > plane ||
                    (film.first == plane && film.second < static_cast<std::int32_t>(begin));
@@ -58,8 +63,9 @@ void find_walls(State& state, std::span<const PlanePosition> planes, double marg
   state.walls = std::move(walls.values);
 }
 
-/// gamma^{n+1} = gamma^n - h lambda, within [gamma_min, 0]. A film whose gamma is 0 within the
-/// rounding error of this difference is spent. Returns how many films hold.
+/// Sets gamma^{n+1} = gamma^n - h lambda of each pair in the projection, within [gamma_min, 0]. A
+/// gamma that is 0 within the rounding error of this difference is set to 0: its film has given
+/// back all that it had absorbed. Returns the number of glued pairs.
 std::size_t remember(const Particles& p, const ProjectionResult& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
@@ -80,7 +86,8 @@ std::size_t remember(const Particles& p, const ProjectionResult& projected, cons
   return glued;
 }
 
-/// The length of a particle's displacement. Throws if it, or where the particle is, is beyond `largest`.
+/// Length of the displacement of particle k [L]. Throws Error(kNotConverged) if a component of the
+/// displacement or of the position exceeds `largest` [L] in magnitude or is not a number.
 double checked_length(const Particles& p, const std::vector<double>& displacements, std::size_t k,
                       double largest, double time) {
   const Vector x = p.position(k), w = point_of(displacements.data(), k, p.dimension);
@@ -150,7 +157,8 @@ ProjectionResult Simulation::project(double h, double next) {
     for (std::size_t k = begin; k < end; ++k) longest.value = std::max(longest.value, length_of(k));
     return longest;
   };
-  // Who is further from a plane than anybody goes does not meet it.
+  // A particle further from a plane than twice the longest displacement cannot meet the plane. A
+  // quarter of the mean radius is the least margin.
   const double longest =
       pool.sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);
@@ -166,7 +174,8 @@ ProjectionResult Simulation::project(double h, double next) {
     for (const auto body : projected.bodies)
       gone = std::max(gone, length_of(static_cast<std::size_t>(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements, pool)) return projected;
-    // Impulses threw particles further than was looked. Reaches and margin only grow, which ends this.
+    // The impulses moved particles further than the lists cover, so the step is repeated with
+    // longer lists. The loop ends because skins and margin only grow.
     margin = std::max(margin, 2 * gone);
     rebuild_neighbour_list(state_, displacements, pool);
     move_freely<D>(h, next);
@@ -203,7 +212,8 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     for_films([](Film& film) { film.impulse /= 2; });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // As a guess for the next part, which may be longer than the last.
+    // The caller may go on with a part of twice the length, for which the impulses are the first
+    // guess.
     if (halvings > 0) for_films([](Film& film) { film.impulse *= 2; });
     return;
   }
@@ -214,7 +224,8 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     });
 }
 
-/// A step that fails in one of its parts leaves the state of before the step.
+/// Computes a step, divided if necessary. If it or one of its parts throws, the state is again that
+/// before the step.
 template <int D>
 void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
@@ -261,7 +272,8 @@ StepReport Simulation::step(double end) {
 void Simulation::throw_step_without_solution(const ProjectionResult& projected, double next) const {
   const auto& film = projected.narrowest;
   std::string moving;
-  std::vector<char> presses(setting_.planes.size(), 0);  // on a particle in this step
+  // Whether each plane pushes on a particle in this step.
+  std::vector<char> presses(setting_.planes.size(), 0);
   for (const auto* wall : projected.films)
     if (wall->first < 0 && wall->impulse > 0)
       presses[static_cast<std::size_t>(-1 - wall->first)] = 1;
@@ -287,7 +299,8 @@ void Simulation::throw_step_without_solution(const ProjectionResult& projected, 
 }
 
 double largest_resolved_distance(double tolerance, double mean_radius) {
-  // Squares of distances must be finite, and positions finer than the gaps that are asked for.
+  // Squares of distances must be finite, and the rounding errors of positions must be smaller than
+  // the tolerated gaps.
   constexpr double kFinite = 1e120;
   return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
 }

@@ -1,4 +1,7 @@
-// Many particles with viscous contact.
+// Simulates many rigid discs or spheres with viscous contact: problem (5.2) and scheme (5.3) of
+// docs/physics.md (Maury 2006; Lefebvre 2009). Lengths, masses and times are in any one consistent
+// system of units. A change must keep the results independent of the number of threads, bit for
+// bit.
 #pragma once
 
 #include <cstdint>
@@ -17,61 +20,78 @@ namespace viscontact::particles {
 
 struct ProjectionResult;
 
-/// What moves the particles, and how it is computed: as a case file has it (case_file/particles_case.hpp checks it); forces name particles that are there.
+/// What moves the particles, and how their motion is computed. case_file/particles_case.hpp checks
+/// these values when it reads a case file. The keys of `forces` must be numbers of existing
+/// particles.
 struct Setting {
   std::vector<Plane> planes;
-  Vector gravity{};  ///< [L/T^2]
-  std::map<std::int32_t, PiecewiseConstant>
-      forces;  ///< of single particles, beside gravity [M L/T^2]
+  Vector gravity{};  ///< acceleration, on all particles [L/T^2]
+  /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
+  std::map<std::int32_t, PiecewiseConstant> forces;
   ContactLaw law;
   double time_step = 0;  ///< h [T], > 0
   SolverSettings solver;
 };
 
-/// One step, for the record.
+/// What is recorded of one step.
 struct StepReport {
-  double time = 0;           ///< at its end [T]
-  std::size_t contacts = 0;  ///< in the projection
-  std::size_t glued = 0;     ///< with gamma < 0 after it
-  int iterations = 0;        ///< in all parts
-  /// Largest |min(D + h G v, w (p - gamma))| of the close pairs, over the mean radius.
+  double time = 0;           ///< at the end of the step [T]
+  std::size_t contacts = 0;  ///< number of contacts in the projection
+  std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
+  int iterations = 0;        ///< sum over all parts of the step
+  /// Largest residual |min(D + h G v, w (p - gamma))| of a close pair, divided by the mean radius.
   double residual = 0;
-  /// The same divided by w, over the impulses at work on the contact's particles.
+  /// Largest residual divided by w and by the impulses at work on the particles of the contact.
   double impulse_residual = 0;
-  bool converged = true;       ///< both residuals of each contact are within the tolerances
-  double largest_overlap = 0;  ///< of linearised gaps, which no gap is below, over the mean radius
-  int parts = 0;               ///< that the step was divided into, a power of 2
-  /// Contacts that turn further than kLargestTurn (contact_geometry.hpp) in the smallest part.
+  bool converged = true;  ///< the residuals of all contacts are within the tolerances
+  /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
+  /// linearised gaps; no gap is smaller than its linearised gap.
+  double largest_overlap = 0;
+  /// Number of parts that the step was divided into, 1 to 2^kMostHalvings.
+  int parts = 0;
+  /// Number of contacts that turn further than kLargestTurn (contact_geometry.hpp) although the
+  /// step has been divided into its smallest parts.
   std::size_t unresolved = 0;
 };
 
-/// The lecture's problem for many particles (physics.md, section 5; Maury 2006, "A time-stepping scheme for inelastic collisions";
-/// Lefebvre 2009, "Numerical simulation of gluey particles"):
+/// The lecture's problem for many particles, docs/physics.md (5.2) (Maury 2006, "A time-stepping
+/// scheme for inelastic collisions"; Lefebvre 2009, "Numerical simulation of gluey particles"):
 ///
-///     D_ij >= 0,  gamma_ij <= 0,  D_ij gamma_ij = 0,     M d^2q/dt^2 = M f + sum lambda_ij G_ij,   dgamma_ij/dt = -lambda_ij,
+///     D_ij >= 0,   gamma_ij <= 0,   D_ij gamma_ij = 0,
+///     M d^2x/dt^2 = M f + sum lambda_ij G_ij^T,   dgamma_ij/dt = -lambda_ij,
 ///
-/// velocities projected, in the norm of M, on G_ij.v = 0 where gamma_ij < 0 and G_ij.v >= 0 where gamma_ij = 0 and D_ij = 0. One convex projection
-/// (contact_graph.hpp) a step: a film holds a pair by at most the impulse that it has taken, so that the pair leaves within the step in which gamma
-/// comes to 0, with what is left of the pull; at gamma_min the solids carry the rest. As the linearised gap of two spheres is never above their gap, a
-/// converged step leaves no overlap beyond the tolerance.
+/// where velocities are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
+/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0.
+///
+/// Each step solves one convex projection, (5.3), by its dual (5.4) (contact_graph.hpp). The pull
+/// of a film is bounded by the impulse that the film has absorbed. A pair therefore separates
+/// within the step in which its gamma reaches 0, with the momentum that is left of the pull. At
+/// gamma_min the solids carry the rest of the load. The linearised gap of two spheres is never
+/// above their gap, so a converged step leaves no overlap beyond the tolerance.
 class Simulation {
  public:
-  /// `state` as read_restart gave it, or one with its particles only. `threads` >= 1; they do not change a bit of the result.
+  /// `state` is what read_restart returned, or a state of which only the particles are set.
+  /// `threads` >= 1 is the number of threads.
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// One step of size h; less if `end` comes first by more than a millionth of h; none if less than
-  /// that is left. A step in which particles that touch turn about each other by more than
-  /// kLargestTurn is halved, up to kMostHalvings times; contacts and glued films in the report are
-  /// then those of the last part. Throws Error(kNotConverged), the state being that of before the
-  /// step, if a position or a displacement is beyond what can
-  /// be computed with, or if the projection has not converged and leaves an overlap of more than the
-  /// mean radius, as it does where walls close on particles.
+  /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
+  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`,
+  /// there is no step. The millionth keeps rounding errors of the times from causing tiny steps.
+  ///
+  /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
+  /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the
+  /// last part.
+  ///
+  /// Throws Error(kNotConverged) if a position or displacement exceeds largest_resolved_distance(),
+  /// or if the projection has not converged and leaves an overlap of more than the mean radius (for
+  /// example because moving planes leave the particles too little room). The state is then that
+  /// before the step.
   StepReport step(double end);
 
-  /// The smallest part of a step is a 256th: it resolves the contact of equal particles that move
-  /// past each other at up to 256 radii a step.
+  /// The smallest part of a step is 2^-8 = 1/256 of it. It resolves the contact of equal particles
+  /// that move past each other by up to 256 radii in a step.
   static constexpr int kMostHalvings = 8;
 
   const State& state() const { return state_; }
@@ -93,9 +113,11 @@ class Simulation {
   [[noreturn]] void throw_step_without_solution(const ProjectionResult& projected,
                                                 double next) const;
   template <int D>
-  void move_freely(double h, double next);  // displacements h u* of a step that ends at `next`
+  // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
+  void move_freely(double h, double next);
   template <int D>
-  ProjectionResult project(double h, double next);  // displacements h u* become h v
+  // Solves the projection. The displacements h u* become h v.
+  ProjectionResult project(double h, double next);
   template <int D>
   void move(double h);
 
@@ -105,8 +127,9 @@ class Simulation {
   std::unique_ptr<StepBuffers> work_;
 };
 
-/// How far from the origin a particle may be, and how far it may go in a step [L]: beyond, double precision does not hold its gaps to the tolerance (of
-/// SolverSettings).
+/// Largest distance from the origin, and largest displacement in a step, that a particle may have
+/// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
+/// times `mean_radius` [L].
 double largest_resolved_distance(double tolerance, double mean_radius);
 
 }  // namespace viscontact::particles

@@ -1,4 +1,6 @@
-// All that the future of a simulation depends on, besides its case.
+// State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
+// and times are in one consistent system of units. The restart file (io/restart.cpp) stores these
+// fields bit for bit; a change of Film or State must keep old restart files readable.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +10,36 @@
 
 namespace viscontact::particles {
 
-/// What the film between two particles, or a particle and a plane, remembers.
+/// Memory of one pair: of two particles, or of a particle and a plane.
 struct Film {
-  std::int32_t first = 0;   ///< particle, or -1 - k: plane k
-  std::int32_t second = 0;  ///< particle, > first
+  std::int32_t first = 0;   ///< number of a particle, or -1 - k for plane k
+  std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
-  double impulse = 0;       ///< h lambda of the last step [M L/T]: where the next projection starts
-  /// The residuals and rounding errors of the impulses that gamma is the sum of, added up [M L/T]:
-  /// what the solver may have made gamma wrong by. 0 at the bounds of gamma, which are known.
+  /// h lambda of the last step [M L/T]. The next projection takes it as its first guess.
+  double impulse = 0;
+  /// Estimate of the error of gamma [M L/T], >= 0: the sum of the residuals and rounding errors of
+  /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
+  /// these values are known.
   double gamma_error = 0;
   bool operator==(const Film&) const = default;
 };
 
-/// To begin with: particles, all else as it is.
+/// A new simulation needs only `particles`; all other members then keep their defaults.
 struct State {
   Particles particles;
   double time = 0;         ///< [T]
-  std::int64_t steps = 0;  ///< done
-  /// The steps' times are start + k h since this step: 0, or where a step was cut short or a restart changed h.
+  std::int64_t steps = 0;  ///< number of steps done
+  /// Step n ends at time grid_time + (n - grid_step) h. Both numbers are 0 until a step is cut
+  /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;
   std::int64_t grid_step = 0;
-  std::vector<Film> pairs;  ///< all that may touch soon, in order of first, second
+  std::vector<Film> pairs;  ///< pairs of particles that may touch soon, in order of first, second
   std::vector<Film> walls;  ///< particles at planes, in order of plane, particle
-  // When `pairs` was made: pairs that are not in it cannot touch while no particle is further than its reach from where it was.
-  std::vector<double> positions_at_listing;  ///< flat [L]; empty: no list yet
-  std::vector<double> reaches;               ///< [L]
+  // Made together with `pairs`. Pairs outside the list cannot touch as long as no particle has
+  // moved further than its skin, `reaches`, from its position at that time.
+  /// Flat array of positions when `pairs` was made [L]; empty if there is no list yet.
+  std::vector<double> positions_at_listing;
+  std::vector<double> reaches;  ///< skin of each particle [L]
 };
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// Points and vectors of the plane or of space, and arrays of them.
+// Vectors of the plane or of space, and access to flat arrays of them.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace viscontact::particles {
 
-/// In 2D the third component is 0.
+/// A vector with three components. In two dimensions the third component is 0.
 using Vector = std::array<double, 3>;
 
 inline double dot(const Vector& a, const Vector& b) {
@@ -25,7 +25,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
 }
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-/// The k-th of the points in an array that holds them one after the other.
+/// Vector k of a flat array with `dimension` (2 or 3) numbers for each vector.
 inline Vector point_of(const double* values, std::size_t k, int dimension) {
   const double* at = values + k * static_cast<std::size_t>(dimension);
   return {at[0], at[1], dimension == 3 ? at[2] : 0.0};

@@ -1,3 +1,5 @@
+// Distances between trajectories that are linear between their rows, by exact integrals, and the
+// comparison file.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +24,8 @@ class Interpolation {
     double gap, velocity;
   };
 
-  /// `time` within the trajectory's, not before that of the last call.
+  /// Gap and velocity at `time`, which must be within the trajectory and not before that of the
+  /// last call.
   Value at(double time) {
     while (next_ + 1 < rows_.size() && rows_[next_].time < time) ++next_;
     const auto& b = rows_[next_];
@@ -37,7 +40,7 @@ class Interpolation {
   std::size_t next_ = 0;
 };
 
-/// int |d| over a step along which d goes linearly from d0 to d1.
+/// int |d| over a step in which d changes linearly from d0 to d1.
 double integral_of_absolute(double d0, double d1, double step) {
   if (d0 * d1 >= 0) return step * (std::abs(d0) + std::abs(d1)) / 2;
   return step * (d0 * d0 + d1 * d1) / (2 * (std::abs(d0) + std::abs(d1)));
@@ -54,8 +57,8 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
                             trajectory.model, reference.model, trajectory.rows.front().time,
                             trajectory.rows.back().time, reference.rows.front().time,
                             reference.rows.back().time));
-  // Between two neighbouring times of either trajectory both are linear, so the sums below are the
-  // integrals.
+  // Both trajectories are linear between two neighbouring times of the merged list, so the sums
+  // below are the exact integrals.
   std::vector<double> times = {from, to};
   for (const auto* rows : {&trajectory.rows, &reference.rows})
     for (const auto& row : *rows)
@@ -82,7 +85,7 @@ void measure_distances(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
-/// What the trajectory says itself; else what its rows show.
+/// The contact interval that the trajectory states, or else the first and last row with gamma < 0.
 std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajectory) {
   if (trajectory.contact_interval) return trajectory.contact_interval;
   const auto& rows = trajectory.rows;
@@ -183,7 +186,7 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.seconds = entry.at("seconds").get<double>();
       comparison.models.push_back(model);
     }
-    if (json.contains("failed_models"))  // not in the files of Viscontact 0.1.0
+    if (json.contains("failed_models"))  // Viscontact 0.1.0 did not write this key
       for (const auto& [name, reason] : json.at("failed_models").items())
         comparison.failed_models.push_back({name, reason.get<std::string>()});
     return comparison;

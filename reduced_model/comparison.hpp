@@ -1,5 +1,6 @@
-// Trajectories side by side: how thin the film gets, when there is contact, how far each is from
-// the one taken as reference.
+// Comparison of trajectories: how thin the film gets, when there is contact, and how far each
+// trajectory is from the reference. Lengths, masses and times are in the units of the trajectories.
+// A change must keep comparison files of earlier versions readable.
 #pragma once
 
 #include <array>
@@ -13,22 +14,26 @@
 
 namespace viscontact {
 
+/// What is said of one trajectory.
 struct ModelComparison {
   std::string model;
-  double minimal_gap = 0;                       ///< smallest gap among the rows [L]
-  double minimal_gap_time = 0;                  ///< of the first such row [T]
-  std::optional<double> recovered_minimal_gap;  ///< from gamma, where the model has one [L]
-  std::optional<std::array<double, 2>>
-      contact_interval;  ///< first landing and last release [T]; of a user's own, first and last row with gamma < 0
-  std::optional<MomentumEnergyBudget> books;  ///< impulses and works; not of a user's own
-  double sup_gap_distance = 0;                ///< max |q - q_ref| [L]
-  double l1_gap_distance = 0;                 ///< int |q - q_ref| dt [L T]
-  double l1_velocity_distance = 0;            ///< int |u - u_ref| dt [L]
-  long steps = 0;
-  double seconds = 0;
+  double minimal_gap = 0;       ///< smallest gap of the rows [L]
+  double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
+  /// Film thickness recovered from gamma at its lowest [L]; contact models only.
+  std::optional<double> recovered_minimal_gap;
+  /// First landing and last release [T]. In a trajectory that Viscontact did not write: the first
+  /// and the last row with gamma < 0.
+  std::optional<std::array<double, 2>> contact_interval;
+  /// Impulses and works; nothing in a trajectory that Viscontact did not write.
+  std::optional<MomentumEnergyBudget> books;
+  double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]
+  double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T]
+  double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L]
+  long steps = 0;                   ///< of the integrator
+  double seconds = 0;               ///< wall time [s]
 };
 
-/// A model that was to be run and failed.
+/// A model that should have run but failed.
 struct ModelWithoutTrajectory {
   std::string model;
   std::string reason;
@@ -37,17 +42,18 @@ struct ModelWithoutTrajectory {
 struct Comparison {
   std::string reference_model;
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
-  std::vector<ModelWithoutTrajectory> failed_models{};  ///< left to the caller to fill in
+  std::vector<ModelWithoutTrajectory> failed_models{};  ///< filled in by the caller
 };
 
-/// Compares each trajectory with the one of `reference_model`, over the times that both cover, each
-/// linear between its rows. Throws Error(kBadInput) when no trajectory has that name, two have the
-/// same, or two have no time in common.
+/// Compares each trajectory with that of `reference_model` over the times that both cover. Each is
+/// taken as linear between its rows. Throws Error(kBadInput) if no trajectory has that name, if two
+/// have the same name, or if two have no time in common.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
                                 std::string_view reference_model);
 
-/// Reads and writes the comparison file (JSON).
+/// Reads the comparison file (JSON). Throws Error(kBadInput) for another file.
 Comparison read_comparison(const std::filesystem::path& path);
+/// The text of the comparison file.
 std::string write_comparison(const Comparison& comparison);
 
 }  // namespace viscontact

@@ -1,3 +1,5 @@
+// Closed forms of value, slope, mean and integrals of piecewise polynomials and sinusoids, arranged
+// so that short intervals and small arguments lose no digits, and the search for changes of sign.
 #include "viscontact/reduced_model/external_force.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +32,7 @@ double slope_at(std::span<const double> coefficients, double tau) {
   return slope;
 }
 
-/// int_0^tau.
+/// int_0^tau of the polynomial.
 double integral(std::span<const double> coefficients, double tau) {
   double value = 0;
   for (std::size_t k = coefficients.size(); k-- > 0;)
@@ -38,7 +40,7 @@ double integral(std::span<const double> coefficients, double tau) {
   return value * tau;
 }
 
-/// int_0^tau int_0^s.
+/// int_0^tau int_0^s of the polynomial.
 double double_integral(std::span<const double> coefficients, double tau) {
   double value = 0;
   for (std::size_t k = coefficients.size(); k-- > 0;)
@@ -46,10 +48,11 @@ double double_integral(std::span<const double> coefficients, double tau) {
   return value * tau * tau;
 }
 
-/// Mean over [a, b], 0 <= a < b: (b^{k+1} - a^{k+1})/(b - a) as a sum of products, so that a short interval loses no digit.
+/// Mean of the polynomial over [a, b], 0 <= a < b. The quotient (b^{k+1} - a^{k+1})/(b - a) is
+/// computed as a sum of products, so that a short interval loses no digits.
 double mean_of(std::span<const double> coefficients, double a, double b) {
   double mean = 0;
-  double sum = 1;    // of b^i a^(k-i), i = 0..k
+  double sum = 1;    // sum of b^i a^(k-i), i = 0..k
   double power = 1;  // a^k
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     mean += coefficients[k] / static_cast<double>(k + 1) * sum;
@@ -59,16 +62,17 @@ double mean_of(std::span<const double> coefficients, double a, double b) {
   return mean;
 }
 
-/// The same polynomial in powers of tau - shift.
+/// The same polynomial about another point: p(tau + shift) in powers of tau.
 std::vector<double> shifted(std::vector<double> coefficients, double shift) {
   if (shift == 0) return coefficients;
-  for (std::size_t i = 0; i + 1 < coefficients.size(); ++i)  // Horner's scheme, again and again
+  for (std::size_t i = 0; i + 1 < coefficients.size(); ++i)  // repeated Horner scheme
     for (std::size_t k = coefficients.size() - 1; k-- > i;)
       coefficients[k] += shift * coefficients[k + 1];
   return coefficients;
 }
 
-/// Where in (0, length) the polynomial's derivative is 0: between two of these it is monotone.
+/// The points in (0, length) at which the derivative of the polynomial is 0. The polynomial is
+/// monotone between two neighbours of them.
 std::vector<double> turning_points(const std::vector<double>& coefficients, double length) {
   if (coefficients.size() < 3) return {};
   std::vector<double> derivative;
@@ -90,19 +94,21 @@ std::vector<double> turning_points(const std::vector<double>& coefficients, doub
   return turns;
 }
 
+/// How finely a sinusoid is sampled in the search for changes of sign.
 constexpr int kSamplesPerPeriod = 32;
 
 double sine(const ExternalForce::Sinusoid& s, double time) {
   return s.amplitude * std::sin(s.angular_frequency * time + s.phase);
 }
 
+/// sin x/x. For |x| < 1e-4 the next term of the series, x^4/120, is below round-off.
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
 /// x - sin x without cancellation.
 double argument_minus_sine(double x) {
   if (std::abs(x) > 1) return x - std::sin(x);
   double term = x, sum = 0;
-  for (int k = 1; k < 10; ++k) {  // x^21/21! < 1e-19
+  for (int k = 1; k < 10; ++k) {  // the first omitted term is below 1/21! < 1e-19
     term *= -x * x / ((2 * k) * (2 * k + 1));
     sum -= term;
   }
@@ -270,7 +276,7 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     if (sign != 0 && last_sign != 0 && sign != last_sign) changes.push_back(time);
     if (sign != 0) last_sign = sign;
   };
-  constexpr double kMostSamples = 1e6;  // each costs about 50 ns
+  constexpr double kMostSamples = 1e6;  // each sample costs about 50 ns
   if (fastest * end / (2 * std::numbers::pi) * kSamplesPerPeriod > kMostSamples)
     throw Error(
         ErrorKind::kNotConverged,
@@ -281,13 +287,14 @@ std::vector<double> ExternalForce::sign_changes(double end) const {
     const double from = pieces_[i].from;
     const double to = i + 1 < pieces_.size() ? std::min(end, pieces_[i + 1].from) : end;
     const auto& coefficients = pieces_[i].coefficients;
-    // Of this piece alone, also at its right end.
+    // The force of this piece, also at its right end, where value() would give that of the next
+    // piece.
     const auto value_at = [&](double t) {
       double value = at(coefficients, t - from);
       for (const auto& s : sinusoids_) value += sine(s, t);
       return value;
     };
-    // Between two of these f is monotone, or nearly so.
+    // f is monotone between two of these times, or nearly so if there are sinusoids.
     std::vector<double> stops = {from};
     if (sinusoids_.empty()) {
       for (const double tau : turning_points(coefficients, to - from)) stops.push_back(from + tau);

@@ -1,4 +1,7 @@
-// The force that is not the fluid's: gravity, a push, a pull, a measured signal.
+// The external force f_ext(t): every force on the sphere but that of the fluid and of contact, such
+// as gravity, a push or a measured signal. Lengths, masses and times are in any one consistent
+// system of units. A change must keep means and impulses exact, because the budgets are balanced to
+// round-off.
 #pragma once
 
 #include <filesystem>
@@ -6,64 +9,72 @@
 
 namespace viscontact {
 
-/// f_ext(t), a sum of piecewise polynomials and sinusoids on t >= 0. Means and impulses are exact (no quadrature).
+/// f_ext(t) for t >= 0: a sum of piecewise polynomials and sinusoids. Means and impulses are closed
+/// forms, not quadrature.
 class ExternalForce {
  public:
-  /// A polynomial on an interval of time that begins where the piece before ends, the first at 0: with tau the time since then,
+  /// A polynomial on an interval of time. The first piece begins at 0, each other one where the
+  /// piece before it ends. With tau the time since that beginning,
   /// f = value + higher[0] tau + higher[1] tau^2 + ...
   struct Piece {
     double until = 0;  ///< end of the piece [T]
-    double value = 0;  ///< along the outward normal [M L/T^2]; negative: towards the plane
-    std::vector<double> higher{};  ///< [M L/T^3], [M L/T^4], ...
+    /// Force at tau = 0 along the outward normal [M L/T^2]; < 0 towards the wall.
+    double value = 0;
+    std::vector<double> higher{};  ///< coefficients [M L/T^3], [M L/T^4], ...
   };
 
-  /// amplitude sin(angular_frequency t + phase).
+  /// The force amplitude * sin(angular_frequency t + phase).
   struct Sinusoid {
     double amplitude = 0;          ///< [M L/T^2]
     double angular_frequency = 0;  ///< [1/T], > 0
-    double phase = 0;              ///< [1], radians
+    double phase = 0;              ///< [radians]
   };
 
-  /// Pieces with increasing `until` > 0; the last goes on for ever. Throws Error(kBadInput) otherwise, or if there is none.
+  /// The `until` of the pieces must increase and be > 0; the last piece has no end. Throws
+  /// Error(kBadInput) otherwise, or if there is no piece.
   explicit ExternalForce(const std::vector<Piece>& pieces);
 
-  /// Throws Error(kBadInput) unless the angular frequency is > 0.
+  /// Throws Error(kBadInput) if the angular frequency is not > 0.
   static ExternalForce sinusoidal(const Sinusoid& sinusoid);
 
+  /// Adds another force.
   ExternalForce& operator+=(const ExternalForce& other);
 
-  /// The same force drawn out in time: f_ext(t/factor), factor > 0.
+  /// The same force stretched in time: f_ext(t/factor), factor > 0.
   ExternalForce stretched(double factor) const;
 
-  /// f_ext(t); at a jump, the value after it.
+  /// f_ext(t) [M L/T^2]; at a jump, the value after it.
   double value(double time) const;
 
-  /// d f_ext/dt [M L/T^3]; at a jump or kink, that after it.
+  /// d f_ext/dt [M L/T^3]; at a jump or kink, the slope after it.
   double slope(double time) const;
 
   /// int_0^t f_ext [M L/T].
   double impulse(double time) const;
 
-  /// int_0^t impulse [M L].
+  /// int_0^t of impulse() [M L].
   double impulse_integral(double time) const;
 
-  /// Mean of f_ext over [from, to], 0 <= from < to.
+  /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
   /// The times at which f_ext or its slope jumps, in increasing order.
   std::vector<double> jumps() const;
 
-  /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing order. Of a piece without
-  /// sinusoids all are found; of others those that are not two within a 32nd of a period (of the fastest). Throws Error(kNotConverged) for more than 3e4 periods.
+  /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing
+  /// order. In a piece without sinusoids all of them are found. In other pieces two of them can be
+  /// missed if they are closer to each other than 1/32 of the shortest period. Throws
+  /// Error(kNotConverged) if `end` is beyond 3e4 of these periods.
   std::vector<double> sign_changes(double end) const;
 
  private:
   friend class ForceWalk;
   struct Polynomial {
-    double from = 0;                   // where it begins
-    std::vector<double> coefficients;  // of powers of the time since then, at least one
-    double impulse = 0;                // int_0^from
-    double impulse_integral = 0;       // int_0^from of the impulse
+    double from = 0;  // time at which the piece begins [T]
+    // Coefficients of the powers of the time since `from`, at least one.
+    std::vector<double> coefficients;
+    double impulse = 0;           // int_0^from f [M L/T]
+    double impulse_integral = 0;  // int_0^from of the impulse [M L]
   };
   const Polynomial& piece_at(double time) const;
   void sum_up();
@@ -72,7 +83,8 @@ class ExternalForce {
   std::vector<Sinusoid> sinusoids_;
 };
 
-/// value() and mean() of a force at times that do not decrease, without a search where it is constant.
+/// value() and mean() of a force at times that do not decrease from call to call. Where the force
+/// is constant, they need no search for the piece.
 class ForceWalk {
  public:
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
@@ -98,9 +110,10 @@ class ForceWalk {
   bool constant_ = false;
 };
 
-/// A force sampled in a CSV file with the columns time, force: linear between its rows, a jump where two follow each other at one time. Throws
-/// Error(kBadInput) with file and line unless the first time is 0, times do not decrease, none is there more than twice, and the last is at least
-/// `end` > 0.
+/// Reads a sampled force from a CSV file with the columns time, force. The force is linear between
+/// the rows; two rows of the same time make a jump. Throws Error(kBadInput) with file and line if
+/// the first time is not 0, if times decrease, if a time is in more than two rows, or if the last
+/// time is less than `end` > 0.
 ExternalForce read_external_force(const std::filesystem::path& path, double end);
 
 }  // namespace viscontact

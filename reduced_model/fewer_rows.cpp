@@ -1,3 +1,4 @@
+// Selects the rows that fewer_rows.hpp describes. Rows are copied unchanged.
 #include "viscontact/reduced_model/fewer_rows.hpp"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace {
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
 bool on_solid(const TrajectoryRow& row) { return row.solid_force && *row.solid_force > 0; }
 
-/// The rows at which contact or solid contact is other than in the row before.
+/// The rows that differ from the row before in contact or in solid contact.
 std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& rows) {
   std::vector<std::size_t> changes;
   for (std::size_t i = 1; i < rows.size(); ++i)
@@ -19,7 +20,7 @@ std::vector<std::size_t> changes_of_contact(const std::vector<TrajectoryRow>& ro
   return changes;
 }
 
-/// The first row at which `value` is least.
+/// The first row with the smallest `value`.
 template <class Value>
 std::size_t first_of_least(const std::vector<TrajectoryRow>& rows, const Value& value) {
   return static_cast<std::size_t>(std::ranges::min_element(rows, {}, value) - rows.begin());
@@ -35,7 +36,8 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   std::size_t row = 0;
   for (std::size_t n = 0; n < wanted; ++n) {
     const double w = static_cast<double>(n) / static_cast<double>(wanted - 1);
-    // A rounding must not take the row after the one that stands at this time.
+    // The factor makes the time slightly earlier, so that rounding cannot skip the row at this
+    // time.
     const double time = from + w * (to - from) * (1 - 1e-12);
     while (row + 1 < rows.size() && rows[row].time < time) ++row;
     kept[row] = 1;

@@ -1,4 +1,4 @@
-// A trajectory with fewer rows, for files that people can handle.
+// Reduces the number of rows of a trajectory, so that its file is easy to handle.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace viscontact {
 
-/// About `count` (at least 2) of the rows, in their order: those next after `count` times at equal
-/// distances, and those that a comparison must not lose: the first and the last, the first of the
-/// smallest gap, of the largest gap and of the lowest gamma, and the rows on both sides of each
-/// instant at which contact or solid contact begins or ends. If there are more than `count` such
-/// instants, only the first and the last of them count. Rows that are no more than `count` stay.
+/// About `count` >= 2 of the rows, in their order. They are the rows next after `count` equidistant
+/// times, and the rows that a comparison needs: the first, the last, the first with the smallest
+/// gap, with the largest gap and with the lowest gamma, and the two rows around each instant at
+/// which contact or solid contact begins or ends. If there are more than `count` such instants,
+/// only the first and the last of them count. If there are at most `count` rows, all are returned.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
 }  // namespace viscontact

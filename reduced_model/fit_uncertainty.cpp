@@ -1,3 +1,5 @@
+// Random draws of the coefficients of a fit, the bound from the misfit, and the file
+// uncertainty.json.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +16,8 @@
 namespace viscontact {
 namespace {
 
-/// L with L L^T = covariance, also where that is singular: by the eigenvectors of the correlations, as the coefficients' sizes differ by decades.
+/// A matrix L with L L^T = covariance, which may be singular. It is made from the eigenvectors of
+/// the correlations, because the sizes of the coefficients differ by decades.
 Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
   const auto size = static_cast<Eigen::Index>(covariance.size());
   Eigen::MatrixXd matrix(size, size);
@@ -29,7 +32,7 @@ Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
          eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
-/// The two ends of the 95 % in the middle; sorts.
+/// The ends of the interval that contains the middle 95 % of the values. Sorts `values`.
 std::array<double, 2> middle_of(std::vector<double>& values) {
   if (values.empty())
     throw Error(ErrorKind::kNotConverged,
@@ -42,7 +45,8 @@ std::array<double, 2> middle_of(std::vector<double>& values) {
   return {at(0.025), at(0.975)};
 }
 
-/// The instants that are looked at; the first is that of q_min.
+/// The times at which gaps are computed. The first is that of q_min: the impulse of the force is
+/// least there.
 std::vector<double> instants_of(const Motion& motion, std::size_t times) {
   auto ends = motion.external_force.jumps();
   std::erase_if(ends, [&](double t) { return t > motion.end_time; });
@@ -81,7 +85,7 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
   gaps_with(force, 1 + result.misfit, more);
 
   const Eigen::MatrixXd root = root_of(fit.covariance);
-  std::mt19937_64 random(1);  // always the same draws
+  std::mt19937_64 random(1);  // a fixed seed, so that the draws are always the same
   std::normal_distribution<double> normal;
   std::vector<std::vector<double>> drawn(instants.size());
   std::vector<double> of_draw(instants.size());

@@ -1,4 +1,5 @@
-// What the errors of a fit do to the motion.
+// How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0). Lengths,
+// masses and times are in the units of the case. A change must keep the draws reproducible.
 #pragma once
 
 #include <array>
@@ -13,44 +14,56 @@
 
 namespace viscontact {
 
-/// A gap of the motion without inertia, with two intervals.
+/// A gap of the motion without inertia at one time, with two intervals for it.
 struct UncertainGap {
   double time = 0;  ///< [T]
-  double gap = 0;   ///< of the fit as it is [L]
-  /// Holds 95 % of the draws of coefficients [L].
+  double gap = 0;   ///< gap with the fit unchanged [L]
+  /// Interval that contains 95 % of the draws of coefficients [L].
   std::array<double, 2> random = {};
-  /// Between the gaps if the drag were everywhere off by the same share, the misfit, up or down [L].
+  /// The gaps if the drag is everywhere larger, or everywhere smaller, by the factor that the
+  /// misfit allows [L].
   std::array<double, 2> misfit = {};
 };
 
+/// The uncertain gaps of a motion.
 struct FitUncertainty {
-  std::size_t draws = 0;  ///< of coefficients
-  std::size_t refused =
-      0;  ///< of these: a drag that is not positive, or that such a motion is impossible with
-  double misfit =
-      0;  ///< r + e + r e of the largest relative residual r (of no outlier) and the table's largest error estimate e; at most 1
-  UncertainGap smallest;           ///< q_min
-  std::vector<UncertainGap> gaps;  ///< over time
+  std::size_t draws = 0;  ///< number of draws of coefficients
+  /// Draws that were left out, because their drag is not positive or the motion is impossible with
+  /// it.
+  std::size_t refused = 0;
+  /// Bound of the relative error of the drag [1], at most 1: r + e + r e = (1 + r)(1 + e) - 1, r
+  /// the largest relative residual of the rows that are not outliers, e the table's largest error
+  /// estimate.
+  double misfit = 0;
+  UncertainGap smallest;           ///< the smallest gap of the motion, q_min
+  std::vector<UncertainGap> gaps;  ///< at equidistant times
 };
 
+/// Default number of draws.
 inline constexpr std::size_t kDraws = 10000;
 
-/// Propagates a fit to the inertialess motion Gamma(q(t)) = Gamma(q0) + int f_ext (reference_exact):
-///   random  coefficients drawn from the normal distribution with the fit's covariance, which takes the misfit for independent noise;
-///   misfit  as |R_fit/R - 1| <= misfit, Gamma_fit(q(t)) lies between Gamma_fit(q0) + (1 -+ misfit) int f_ext: a bound that no shape of the
-///           misfit breaks, as far as it is known at the table's gaps.
-/// Outside the fit's interval the limits of LubricationForce stand in: those given, kLubricationLimit and kStokesLimit in place of kError. q_min is sought at the starts and ends of the force's pieces.
-/// `times`: how many instants from 0 to motion.end_time besides (0: q_min alone). The same numbers at each call.
-/// Throws Error as LubricationForce for the fit itself, Error(kNotConverged) if every draw is refused.
+/// Propagates the errors of a fit to the motion without inertia, Gamma(q(t)) = Gamma(q0) + int
+/// f_ext (model reference_exact), in two ways:
+///   random  draws coefficients from the normal distribution with the covariance of the fit, which
+///           treats the misfit as independent noise;
+///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
+///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
+///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
+/// Outside the fit's interval the drag follows the limits `below` and `above`, where kError stands
+/// for kLubricationLimit and kStokesLimit. q_min is the smallest gap at the beginnings and ends of
+/// the force's pieces. `times` is the number of further, equidistant instants from 0 to
+/// motion.end_time; 0 asks for q_min alone. Equal arguments give equal numbers. Throws the Error of
+/// LubricationForce if the fit itself is impossible, and Error(kNotConverged) if no draw is
+/// possible.
 FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
                              BelowInterval below = BelowInterval::kError,
                              AboveInterval above = AboveInterval::kError,
                              std::size_t draws = kDraws);
 
-/// The text of DIR/uncertainty.json.
+/// The text of the file uncertainty.json.
 std::string write_uncertainty(const FitUncertainty& uncertainty);
 
-/// Throws Error(kBadInput) for another file.
+/// Reads uncertainty.json. Throws Error(kBadInput) for another file.
 FitUncertainty read_uncertainty(const std::filesystem::path& path);
 
 }  // namespace viscontact

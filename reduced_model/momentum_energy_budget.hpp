@@ -1,4 +1,6 @@
-// Momentum and energy books of a motion: who gave the sphere what.
+// Budget of momentum and energy of a motion: which impulse and which work each force gave the
+// sphere. Masses, lengths and times are in the units of the case. A change must keep both balances
+// below.
 #pragma once
 
 #include <array>
@@ -6,20 +8,25 @@
 
 namespace viscontact {
 
-/// Impulses on the sphere along the outward normal [M L/T] and work done on it [M L^2/T^2], from the motion's start to its end:
+/// Impulses on the sphere along the outward normal [M L/T] and works done on it [M L^2/T^2], from
+/// the start of the motion to its end:
 ///
-///     m u(end) - m v0                  = sum of the impulses,
-///     m u(end)^2 / 2 - m v0^2 / 2      = sum of the works
+///     m u(end) - m v0              = sum of the impulses,
+///     m u(end)^2/2 - m v0^2/2      = sum of the works.
 ///
-/// (the left sides are 0 for a model without inertia). What the film absorbed is -film_work, what drag dissipated -drag_work, what was lost on the
-/// solid -solid_work. The contact models book each step as it is made. For the models with the whole drag the film's impulse is what the force does not explain, and its
-/// work is summed over the rows, with an error of second order in their spacing; the force's work closes the balance.
+/// The left sides are 0 for a model without inertia. The film absorbed the energy -film_work, the
+/// resolved drag dissipated -drag_work, and the impact on the solid dissipated -solid_work.
+///
+/// The contact models add up each step. In the other models the film is the whole drag. Its impulse
+/// then is the change of momentum minus the impulse of the external force. Its work is a sum over
+/// the rows, with an error of second order in their spacing, and external_work is what closes the
+/// balance.
 struct MomentumEnergyBudget {
   double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
   double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;
 };
 
-/// The entries by name, for files.
+/// An entry of the budget with its name in files.
 struct BudgetEntry {
   std::string_view name;
   double MomentumEnergyBudget::*value;

@@ -1,3 +1,4 @@
+// Progress reports, the number of steps, and the times of rows.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ void report_progress(const Motion& motion, double time) {
 }
 
 int step_count(double end, double step) {
-  constexpr double kMostSteps = 1e8;  // a trajectory of that many rows is 5 GB
+  constexpr double kMostSteps = 1e8;  // a trajectory with so many rows takes 5 GB
   const double steps = std::ceil(end / step - 1e-6);
   if (!(steps <= kMostSteps))
     throw Error(
@@ -31,7 +32,7 @@ std::vector<double> row_times(const Motion& motion, double spacing) {
   const int steps = step_count(motion.end_time, spacing);
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps, [&](double t) { return t >= motion.end_time; });
-  // A row that round-off alone sets apart from a jump gives way to it.
+  // A time of the grid that differs from a jump by round-off only is dropped in favour of the jump.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);
     const auto close = [&](double jump) { return std::abs(t - jump) < 1e-6 * spacing; };

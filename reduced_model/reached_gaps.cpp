@@ -1,3 +1,4 @@
+// Runs a model and takes the extreme gaps from its trajectory.
 #include "viscontact/reduced_model/reached_gaps.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// How close a motion comes to the plane and how far from it: the gaps that a table must hold.
+// The interval of gaps that a motion needs, which a table has to cover. Lengths are in the units of
+// the case.
 #pragma once
 
 #include <optional>
@@ -7,16 +8,17 @@
 
 namespace viscontact {
 
-/// The least and the largest gap [L] at which a model asks for the whole drag in a motion.
+/// The smallest and the largest gap [L] at which a model evaluates the whole drag R in a motion.
 struct ReachedGaps {
-  std::optional<double> smallest;  ///< none for a model that asks for no drag in a thin film
+  /// Nothing for a model that evaluates no drag in a thin film.
+  std::optional<double> smallest;
   double largest = 0;
 };
 
-/// Runs the model with `force`, which must be known at every gap > 0 (the exact drag, or a fit with
-/// its limits below and above). For a contact model that stands at a threshold gap the smallest gap
-/// is that of the film which it recovers from gamma by the drag.
-/// Returns nothing if the model asks for no drag at all, or if the motion cannot be computed.
+/// Runs the model with `force`, which must be defined for every gap > 0: it must be the exact drag,
+/// or a fit with its limits below and above. If a contact model makes contact at a threshold gap,
+/// `smallest` is the thickness of the film recovered from gamma, because that film is computed from
+/// the drag. Returns nothing if the model evaluates no drag, or if the motion cannot be computed.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
                                         const LubricationForce& force);
 

@@ -1,3 +1,4 @@
+// Reads and writes the CSV file of a trajectory. Units are those of trajectory.hpp.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ std::string optional_number(const OptionalDouble& value) {
 }
 
 long steps_of(const CsvComments& comments, const std::string& file) {
-  constexpr double kMost = 1e15;  // whole numbers up to there are doubles
+  constexpr double kMost = 1e15;  // below 2^53, so every integer up to it is a double
   const double steps = csv_comment_number(comments, "steps", file);
   if (!(steps >= 0 && steps <= kMost))
     throw_bad_input({file}, fmt::format("# steps: is {}; it must be from 0 to {}", steps, kMost));

@@ -1,4 +1,5 @@
-// A trajectory, as a model computes it and as a file holds it.
+// A trajectory and its file. Lengths, masses and times are in the units of the case. A change must
+// keep the names of the columns, because published files use them.
 #pragma once
 
 #include <array>
@@ -13,42 +14,48 @@
 
 namespace viscontact {
 
-/// One instant. Dimensions: [T], [L], [L/T], [M L/T^2], [M L/T^2], [M L/T], [M L/T^2].
+/// The state at one time.
 struct TrajectoryRow {
-  double time = 0;
-  double gap = 0;       ///< q, >= 0
-  double velocity = 0;  ///< dq/dt
+  double time = 0;      ///< [T]
+  double gap = 0;       ///< q [L], >= 0
+  double velocity = 0;  ///< u = dq/dt [L/T]
+  /// Force of the fluid on the sphere [M L/T^2].
   OptionalDouble lubrication_force{};
+  /// f_ext [M L/T^2].
   OptionalDouble external_force{};
-  OptionalDouble gamma{};        ///< adhesion potential of a contact model, <= 0
-  OptionalDouble solid_force{};  ///< of the solids on each other, a contact model's, >= 0
+  /// Adhesion potential [M L/T], <= 0; contact models only.
+  OptionalDouble gamma{};
+  /// Force of the solid contact on the sphere [M L/T^2], >= 0; contact models only.
+  OptionalDouble solid_force{};
 };
 
-/// Raised when the numbers of a model change: trajectories of another revision are made again.
+/// Number of the revision of the models. Raise it when a model gives other numbers: trajectories of
+/// another revision are then computed again.
 inline constexpr int kModelsRevision = 3;
 
-/// Rows in strictly increasing time, at least one, and what is known of how they were made.
+/// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
   std::string model;
   std::vector<TrajectoryRow> rows;
-  std::optional<double> recovered_minimal_gap;  ///< film thickness that gamma stands for at its
-                                                ///< lowest [L]; contact models only
-  std::optional<std::array<double, 2>>
-      contact_interval;  ///< first landing, last release (or the end) [T]; contact models only
-  std::optional<MomentumEnergyBudget> books;  ///< not of a user's own
-  long steps = 0;                             ///< of the integrator
-  double seconds = 0;                         ///< wall time
-  std::map<std::string, std::string>
-      provenance;  ///< further "# key: value" lines: fit, case, time step
+  /// Smallest thickness [L] of the film that gamma stands for; contact models only.
+  std::optional<double> recovered_minimal_gap;
+  /// First landing and last release (or end of the motion) [T]; contact models only.
+  std::optional<std::array<double, 2>> contact_interval;
+  /// Nothing in a trajectory that Viscontact did not write.
+  std::optional<MomentumEnergyBudget> books;
+  long steps = 0;      ///< of the integrator
+  double seconds = 0;  ///< wall time [s]
+  /// Further lines "# key: value" of the file, such as fit, case and time step.
+  std::map<std::string, std::string> provenance;
 };
 
-/// Reads a trajectory file, one of ours or a user's own: columns time, gap, velocity are needed.
-/// The model's name is that of the "# model:" line, else the file's stem. Throws Error(kBadInput)
-/// with file and line for values missing, not finite, a negative gap, or times that do not
-/// increase.
+/// Reads a trajectory file, which Viscontact or a user wrote. The columns time, gap and velocity
+/// are required. The name of the model is that of the line "# model:", or else the file name
+/// without its ending. Throws Error(kBadInput) with file and line if a value is missing or not
+/// finite, if a gap is negative, or if times do not increase.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
-/// The text of the file.
+/// The text of the trajectory file (CSV).
 std::string write_trajectory(const Trajectory& trajectory);
 
 }  // namespace viscontact

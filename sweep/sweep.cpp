@@ -1,3 +1,5 @@
+// Plans, checks and computes the rows of a sweep (sweep.hpp). Threads compute rows in any order;
+// rows are taken in order, so that the file does not depend on the number of threads.
 #include "viscontact/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +35,7 @@ constexpr std::array kModelColumns = {"minimal_gap",
                                       "film_ratio",
                                       "steps"};
 
-/// Text that is one field of a CSV file.
+/// The text as a single field of a CSV file.
 std::string as_field(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ';');
@@ -70,8 +72,9 @@ void refuse_doubles(const Names& names, std::string_view kind) {
       throw Error(ErrorKind::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
 }
 
-/// Refuses a key of a case that changes no row: one that a sweep does not read, or on which none of
-/// the models depends. A key that is not known is left to the reader of the case.
+/// Throws Error(kWrongUsage) for a key of a case that changes no row: a sweep does not read it, or
+/// none of the models depends on it. Keys that do not exist pass; the reader of the case reports
+/// them.
 void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
   const std::string section = key.substr(0, key.find('.'));
   const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
@@ -243,7 +246,7 @@ std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
     const std::function<void(std::uint64_t index, const std::string& row)>& take) {
   const std::uint64_t size = sweep_size(sweep.plan());
-  // No thread runs further ahead of the last row taken than this: what is kept stays small.
+  // No thread computes rows further ahead of the last row taken than this, which limits the memory.
   const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
   std::mutex mutex;
   std::condition_variable room;
@@ -265,7 +268,7 @@ std::uint64_t run_sweep(
         thrown = std::current_exception();
       }
       lock.lock();
-      if (thrown && interrupted()) return;  // in the middle of a row
+      if (thrown && interrupted()) return;  // the interrupt came while a row was computed
       if (thrown) {
         error = thrown;
         room.notify_all();

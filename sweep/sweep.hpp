@@ -1,4 +1,5 @@
-// A sweep: one case run with many numbers, a row of figures each.
+// A sweep: one case is run with many values of its numbers, and each run gives a row of results.
+// Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <cstdint>
@@ -13,49 +14,57 @@
 
 namespace viscontact {
 
-/// What is run at each point.
+/// What is computed at each point of a sweep.
 struct SweepPlan {
   std::filesystem::path case_path;
-  Fit fit;  ///< scaled to each point's viscosity
+  Fit fit;  ///< multiplied by the viscosity of each point over that of the fit
   BelowInterval below = BelowInterval::kError;
   AboveInterval above = AboveInterval::kError;
   std::vector<Variation> variations;  ///< at least one
-  std::uint64_t samples = 0;          ///< random points; 0: the whole grid
+  /// Number of random points; 0: the whole grid.
+  std::uint64_t samples = 0;
+  /// Seed of the random points.
   std::uint64_t seed = 1;
   std::vector<std::string> models;  ///< at least one
-  std::string
-      reference;  ///< one of them: what the others' distances are to; empty: default_reference
+  /// The model with which the others are compared, one of `models`; empty: default_reference.
+  std::string reference;
 };
 
-/// The plan that a case asks for: its [sweep], its fit. What the case leaves out is empty: variations, fit, reference. Throws Error(kBadInput) if a range of its
-/// [sweep] is none or its fit file cannot be read.
+/// The plan of the section [sweep] and the fit of a case. Variations, fit and reference are empty
+/// if the case does not give them. Throws Error(kBadInput) if a range in [sweep] is not valid or
+/// the fit file cannot be read.
 SweepPlan planned(const Case& c);
 
-/// "inertial" if it is among the models, else the first.
+/// "inertial" if it is one of the models, otherwise the first model.
 std::string default_reference(const std::vector<std::string>& models);
 
-/// Number of points.
+/// Number of points of a sweep.
 std::uint64_t sweep_size(const SweepPlan& plan);
 
-/// Names of a row's columns: the keys; for each model MODEL.minimal_gap, MODEL.minimal_gap_time, MODEL.film (recovered from gamma), MODEL.contact_from,
-/// MODEL.contact_until, MODEL.sup_gap_distance, MODEL.l1_gap_distance, MODEL.l1_velocity_distance, MODEL.film_ratio (thinnest film over the
-/// reference's), MODEL.steps; failure.
+/// Names of the columns of a row: first the varied keys; then, for each model, MODEL.minimal_gap
+/// [L], MODEL.minimal_gap_time [T], MODEL.film (recovered from gamma) [L], MODEL.contact_from [T],
+/// MODEL.contact_until [T], MODEL.sup_gap_distance, MODEL.l1_gap_distance,
+/// MODEL.l1_velocity_distance (distances to the reference), MODEL.film_ratio (thinnest film over
+/// that of the reference), MODEL.steps; at last `failure`.
 std::vector<std::string> sweep_columns(const SweepPlan& plan);
 
-/// Computes rows, any of them, on any thread.
+/// Computes rows of a sweep, in any order and on any thread.
 class Sweep {
  public:
-  /// Reads the case. Throws Error(kBadInput) if the first or the last point of the plan is no case, has another radius than the fit, or the
-  /// case has no [motion]; Error(kWrongUsage) if there is nothing to vary or no fit, the reference is none of the models, a key or model is there twice, or a key
-  /// changes no row, because a sweep does not read it or none of the models depends on it.
+  /// Reads the case. Throws Error(kBadInput) if the case has no [motion], if the first or the last
+  /// point of the plan gives no valid case, or if its radius is not that of the fit. Throws
+  /// Error(kWrongUsage) if nothing is varied, if there is no fit, if the reference is not one of
+  /// the models, if a key or a model occurs twice, or if a key changes no row, because a sweep does
+  /// not read it or none of the models depends on it.
   explicit Sweep(SweepPlan plan);
 
   const SweepPlan& plan() const { return plan_; }
 
-  /// The varied numbers of that point as fields of CSV: how its row begins.
+  /// The varied numbers of a point as CSV fields, with which its row begins.
   std::string key_fields(std::uint64_t index) const;
 
-  /// The row of that point as a line of CSV. A model that fails leaves its fields and those of its distances empty, and says why in `failure`.
+  /// The row of a point as a line of CSV. The fields of a model that fails are empty, and `failure`
+  /// says why it failed. If the reference fails, the distances of all models are empty.
   std::string row(std::uint64_t index) const;
 
  private:
@@ -66,8 +75,9 @@ class Sweep {
   CaseTemplate case_;
 };
 
-/// Computes the rows from `begin` on, on `jobs` >= 1 threads, and hands them over in order; stops when interrupted() or when `take` throws, which it throws on.
-/// Memory does not grow with the number of rows. Returns the number of the row after the last that was taken.
+/// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
+/// Stops when interrupted() or when `take` throws; that exception is thrown again. The memory that
+/// it needs does not grow with the number of rows. Returns the number of the last row taken plus 1.
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
     const std::function<void(std::uint64_t index, const std::string& row)>& take);

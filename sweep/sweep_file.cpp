@@ -1,3 +1,5 @@
+// Writes, resumes and reads the file of a sweep (sweep_file.hpp). A change of what determines the
+// rows must change identity_of, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
@@ -23,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What of a sweep decides its rows.
+/// Hash of everything that determines the rows of a sweep.
 std::string identity_of(const SweepPlan& plan) {
   std::string text = read_file(plan.case_path) + write_fit(plan.fit);
-  // A force that the case reads from a file.
+  // The files from which the case reads an external force.
   for (const auto& file : read_case(plan.case_path).force_files) text += read_file(file);
   for (const auto& v : plan.variations) {
     text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
@@ -52,13 +54,14 @@ std::string header_of(const SweepPlan& plan, const std::string& version) {
 
 constexpr std::string_view kHowMade = "# provenance: ";
 
-/// Whole rows after the header that are this sweep's, and the bytes up to the end of the last one. Nothing if the file does not begin with the header.
+/// Finished rows of this sweep after the header, and the number of bytes up to the end of the last
+/// of them. Nothing if the file does not begin with this header.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
 std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Sweep& sweep) {
   std::ifstream file(path, std::ios::binary);
-  // How it was made does not decide its rows.
+  // The provenance line does not influence the rows, so that it may differ.
   std::string first;
   if (!std::getline(file, first) || !first.starts_with(kHowMade)) {
     file.clear();
@@ -73,7 +76,8 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
   const auto separators = static_cast<std::ptrdiff_t>(sweep_columns(sweep.plan()).size() - 1);
   Kept kept{0, header_at + header.size()};
   std::string line;
-  // A disk that lost power may hold anything after the last row that it was sure of.
+  // After a power cut a file may contain anything after the last row that was flushed to disk.
+  // Reading therefore stops at the first line that is no row of this sweep.
   while (kept.rows < size && std::getline(file, line) && !file.eof() &&
          line.starts_with(sweep.key_fields(kept.rows) + ",") &&
          std::ranges::count(line, ',') == separators) {
@@ -100,14 +104,15 @@ std::uint64_t write_sweep(
   const Descriptor file = open_and_lock(
       part, "is held by another sweep into the same file; wait for it, or write elsewhere");
   auto kept = kept_rows(part, header, sweep);
-  // A row that was cut off goes; so does what another plan has left.
+  // Removes an incomplete last row, or all rows of another plan.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
     throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
   if (!kept) {
     append_to(file, how_made + header, part);
     kept = {0, how_made.size() + header.size()};
   }
-  // Rows that take long are not kept waiting for others.
+  // Rows are written when 64 kB have gathered or after one second, so that slow rows are not lost
+  // if the process is killed.
   constexpr std::size_t kBuffer = 1 << 16;
   constexpr auto kLongest = std::chrono::seconds(1);
   std::string waiting;
@@ -127,7 +132,7 @@ std::uint64_t write_sweep(
   try {
     taken = run_sweep(sweep, kept->rows, jobs, take);
   } catch (...) {
-    write();  // what ends it, finished rows are kept
+    write();  // finished rows are kept whatever ended the sweep
     throw;
   }
   write();
@@ -160,7 +165,7 @@ SweepOutcome read_outcome(const SweepPlan& plan, const fs::path& path) {
     const std::string failure = line.substr(last_comma + 1);
     if (failure.empty()) continue;
     if (outcome.first_failure.empty()) outcome.first_failure = failure;
-    std::size_t end_of_keys = 0;  // the comma behind the fields of the varied keys
+    std::size_t end_of_keys = 0;  // the comma after the fields of the varied keys
     for (std::size_t key = 0; key < plan.variations.size(); ++key)
       end_of_keys = line.find(',', end_of_keys + (key > 0 ? 1 : 0));
     const bool has_result = line.find_first_not_of(',', end_of_keys) < last_comma;

@@ -1,3 +1,5 @@
+// Ranges, grids and random points (variation.hpp). A change must keep the values bit for bit,
+// because a sweep that goes on compares them with the rows that it has.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +33,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-/// SplitMix64 (Steele, Lea & Flood 2014): one number from another, all bits mixed.
+/// SplitMix64 (Steele, Lea & Flood 2014): a hash of one number that mixes all bits.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -45,7 +47,7 @@ double Variation::value(std::uint64_t i) const {
   if (!values.empty()) return values[i];
   if (i == 0) return first;
   if (i + 1 == count) return last;
-  // In this form the middle of a range about 0 is 0.
+  // With this formula the middle of a range that is symmetric about 0 is exactly 0.
   if (!logarithmic)
     return (first * static_cast<double>(count - 1 - i) + last * static_cast<double>(i)) /
            static_cast<double>(count - 1);
@@ -56,7 +58,8 @@ double Variation::at(double share) const {
   if (!values.empty())
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
   if (!logarithmic) return std::lerp(first, last, share);
-  // By the logarithms: the quotient of the ends may be no number. Rounding must not lead beyond them.
+  // The logarithms are interpolated, because the ratio of the ends may overflow. Rounding errors
+  // must not lead outside the range.
   const double size =
       std::exp(std::lerp(std::log(std::abs(first)), std::log(std::abs(last)), share));
   const double a = std::abs(first), b = std::abs(last);

@@ -1,4 +1,5 @@
-// What a sweep varies: keys of a case and the values that each takes.
+// What a sweep varies: keys of a case, and the values of each key in the unit that it has in the
+// case.
 #pragma once
 
 #include <cstdint>
@@ -9,34 +10,39 @@
 
 namespace viscontact {
 
-/// One key and its values. A range has `count` values from `first` to `last`, equally spaced or in geometric progression.
+/// A key and its values: a list, or a range with `count` values from `first` to `last`, at equal
+/// distances or in geometric progression.
 struct Variation {
-  std::string key;  ///< as in a case file: "fluid.viscosity", "motion.external_force[0].value"
-  std::vector<double> values;  ///< a list; empty: a range
+  std::string key;  ///< as in a case file: "fluid.viscosity"
+  /// The values of a list; empty for a range.
+  std::vector<double> values;
   double first = 0, last = 0;
   bool logarithmic = false;
-  std::uint64_t count = 0;  ///< of values, >= 1
+  std::uint64_t count = 0;  ///< number of values, >= 1
 
-  /// The i-th value, 0 <= i < count.
+  /// Value i, 0 <= i < count.
   double value(std::uint64_t i) const;
 
-  /// The value at a share of the way in [0, 1): of a range, by its spacing; of a list, one of them.
+  /// The value at the fraction `share` of the range, 0 <= share < 1; of a list, the element at that
+  /// fraction of its length.
   double at(double share) const;
 };
 
-/// Reads "KEY=A:B:log:N", "KEY=A:B:N" (equally spaced) or "KEY=V,V,...". "motion.mass" stands for "sphere.mass". Throws Error(kWrongUsage) that
-/// says what is wrong: no key, no finite numbers, a range with log that does not stay on one side of 0, N not in [1, 1e9].
+/// Reads "KEY=A:B:log:N", "KEY=A:B:N" (equal distances) or "KEY=V,V,...". "motion.mass" stands for
+/// "sphere.mass". Throws Error(kWrongUsage), which names the fault: the key is missing, a number is
+/// not finite, a logarithmic range contains 0 or changes sign, or N is no integer in [1, 1e9].
 Variation parse_variation(std::string_view text);
 
-/// The numbers of point `index` of the grid of all values, the last variation the fastest.
+/// The numbers of point `index` of the grid of all values. The last variation changes fastest.
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index);
 
-/// The numbers of random sample `index`: independent of each other, always the same for a seed.
+/// The numbers of random sample `index`. They are independent of each other, and always the same
+/// for a seed.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 
-/// Number of points of the grid. Throws Error(kWrongUsage) beyond 1e12.
+/// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
 }  // namespace viscontact

@@ -1,4 +1,4 @@
-// A file descriptor that closes itself.
+// A file descriptor (POSIX) that is closed when its object is destroyed.
 #pragma once
 
 #include <unistd.h>
@@ -17,7 +17,7 @@ class Descriptor {
   }
   ~Descriptor() { close(); }
 
-  int get() const { return descriptor_; }  ///< -1 once closed
+  int get() const { return descriptor_; }  ///< -1 after close()
   void close() {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
   }

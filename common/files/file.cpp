@@ -1,3 +1,5 @@
+// Reads and writes files with POSIX calls (file.hpp). A change must keep the order write, fsync,
+// rename, fsync of the folder, on which safety at a power cut depends.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
@@ -28,11 +30,11 @@ namespace {
 
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
-/// Takes away the files NAME.viscontact-PID.tmp beside `place` whose process was killed before it could.
+/// Removes the files NAME.viscontact-PID.tmp beside `place` that killed processes have left.
 void remove_left_behind(const std::filesystem::path& place) {
   const std::string front = place.filename().string() + std::string(kUnfinishedOf);
   const auto folder = place.has_parent_path() ? place.parent_path() : ".";
-  std::error_code ignored;  // they are in nobody's way
+  std::error_code ignored;  // such files do no harm
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.size() <= front.size() + kUnfinished.size() || !name.starts_with(front) ||
@@ -43,7 +45,7 @@ void remove_left_behind(const std::filesystem::path& place) {
     const auto number = std::from_chars(name.data() + front.size(), end, process);
     if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
-    // On a shared disk it may be a process of another machine: then the file is locked.
+    // On a shared disk the file may belong to a process of another machine, which has locked it.
     const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       ::unlink(entry.path().c_str());
@@ -55,7 +57,7 @@ void remove_left_behind(const std::filesystem::path& place) {
 std::string read_file(const std::filesystem::path& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) throw_system_error(path, "read", errno);
-  // A device may have no end (/dev/zero).
+  // A device, such as /dev/zero, may have no end.
   struct stat status = {};
   if (::fstat(file.get(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)))
     throw_bad_input({path.string()}, "cannot be read (a device, not a file)");
@@ -90,7 +92,7 @@ void remove_file(const std::filesystem::path& path) {
 void sync_folder_of(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : ".";
   const Descriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // EINVAL: a file system that has no such thing.
+  // EINVAL: the file system cannot flush folders.
   if (file.get() >= 0 && ::fsync(file.get()) != 0 && errno != EINVAL)
     throw_system_error(path, "written", errno);
 }
@@ -98,18 +100,18 @@ void sync_folder_of(const std::filesystem::path& path) {
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
-  // A link stays a link: what it points to is replaced.
+  // A link remains a link: the file that it points to is replaced.
   fs::path place = path;
   if (fs::is_symlink(fs::symlink_status(path, error))) {
     place = fs::weakly_canonical(path, error);
-    // What does not exist yet is not followed by that.
+    // weakly_canonical does not follow a link to a file that does not exist yet.
     if (!error && fs::is_symlink(fs::symlink_status(place, error)))
       place = place.parent_path() / fs::read_symlink(place, error);
     if (error) throw_system_error(path, "written", error.value());
   }
   const auto status = fs::status(place, error);
   if (fs::is_directory(status)) throw_system_error(path, "written", EISDIR);
-  // Renaming over a device or a pipe would take it away from everybody.
+  // Renaming over a device or a pipe would remove it for all processes.
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw_bad_input({path.string()}, "cannot be written (not a regular file)");
   return place;
@@ -118,14 +120,14 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
 void write_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path place = check_output_file(path);
   if (place.has_parent_path()) make_folder(place.parent_path());
-  // The process number keeps two runs that write the same file apart.
+  // The process number in the name keeps apart two runs that write the same file.
   const std::filesystem::path beside =
       place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
   try {
     const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_system_error(path, "written", errno);
-    (void)::flock(file.get(),
-                  LOCK_EX | LOCK_NB);  // for remove_left_behind; not every disk has locks
+    // The lock tells remove_left_behind that the file is in use. Not every disk has locks.
+    (void)::flock(file.get(), LOCK_EX | LOCK_NB);
     while (!content.empty()) {
       const ssize_t count = ::write(file.get(), content.data(), content.size());
       if (count < 0 && errno == EINTR) continue;

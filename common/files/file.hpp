@@ -1,4 +1,5 @@
-// Whole files: read at once, written beside and renamed, so that a reader never sees half of one.
+// Reads and writes whole files. A file is written under another name and renamed, so that a reader
+// never sees a part of it.
 #pragma once
 
 #include <filesystem>
@@ -7,27 +8,29 @@
 
 namespace viscontact {
 
-/// The bytes of a file. Throws Error(kBadInput) naming the path when it is missing, a folder, a device or not
-/// readable.
+/// The bytes of a file. Throws Error(kBadInput), which names the path, if the file does not exist,
+/// is a folder or a device, or cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Replaces `path` by `content` in one step: written to a new file in the same folder, flushed to
-/// disk, renamed. Missing parent folders are made. What a killed process left of a file NAME.viscontact-PID.tmp is taken away. Throws Error(kBadInput) naming the path; then
-/// the old file, if any, is untouched.
+/// Replaces the file at `path` by `content` in one step: writes a new file in the same folder,
+/// flushes it to disk and renames it. Makes missing parent folders. Removes files
+/// NAME.viscontact-PID.tmp that killed processes have left. Throws Error(kBadInput), which names
+/// the path; an old file is then unchanged.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if that is there and no
-/// regular file; to be asked before a long computation.
+/// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if
+/// this exists and is no regular file. Called before a long computation, so that it is not lost.
 std::filesystem::path check_output_file(const std::filesystem::path& path);
 
-/// Makes a folder and its parents. Throws Error(kBadInput) where that cannot be.
+/// Makes a folder and its parents. Throws Error(kBadInput) if it cannot be made.
 void make_folder(const std::filesystem::path& path);
 
-/// Takes a file away, if it is there. Throws Error(kBadInput) naming the path if it cannot be.
+/// Removes a file if it exists. Throws Error(kBadInput), which names the path, if it cannot be
+/// removed.
 void remove_file(const std::filesystem::path& path);
 
-/// Has the disk remember that `path` is in its folder (a new or renamed file), so that a power cut
-/// does not take it away. Throws Error(kBadInput) naming the path if the disk refuses.
+/// Flushes the folder of `path` to disk, so that a new or renamed file is still in it after a power
+/// cut. Throws Error(kBadInput), which names the path, if the disk reports an error.
 void sync_folder_of(const std::filesystem::path& path);
 
 }  // namespace viscontact

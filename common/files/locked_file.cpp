@@ -1,3 +1,4 @@
+// Opens, locks and appends with POSIX calls (locked_file.hpp).
 #include "viscontact/common/files/locked_file.hpp"
 
 #include <fcntl.h>
@@ -14,7 +15,7 @@
 namespace viscontact {
 namespace {
 
-/// `path` cannot be opened for writing: nothing is in it yet.
+/// Throws Error(kBadInput): `path` cannot be opened for writing. Nothing has been written to it.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
 }
@@ -26,8 +27,8 @@ namespace {
                               std::strerror(code)));
 }
 
-/// True if the descriptor is what stands at `path`: the process that held the journal may have removed it
-/// while we waited for it to be opened.
+/// True if `path` still names the file that is open as `file`. The process that had the lock may
+/// have removed its file while this process waited for the lock.
 bool is_still_at(int file, const std::filesystem::path& path) {
   struct stat opened = {};
   struct stat there = {};
@@ -41,7 +42,7 @@ Descriptor open_and_lock(const std::filesystem::path& path, const std::string& h
   for (;;) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_not_opened(path, errno);
-    // A file system without locks is no reason to compute nothing.
+    // A file system without locks must not prevent the computation.
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw_bad_input({path.string()}, held);
     if (is_still_at(file.get(), path)) return file;

@@ -1,4 +1,4 @@
-// A file that is appended to by one process at a time.
+// A file that only one process at a time may append to.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,16 @@
 
 namespace viscontact {
 
-/// Opens a file for reading and appending, made if it is not there, and locks it against other processes that do the same, until it is closed. Throws
-/// Error(kBadInput) that names the path: "... `held`" if another process holds the lock. (A file system without locks is no error.)
+/// Opens a file for reading and appending, makes it if it does not exist, and locks it against
+/// other processes that lock it in the same way, until it is closed. Throws Error(kBadInput), which
+/// names the path, if the file cannot be opened, or if another process has locked it; then the
+/// message ends with `held`. A file system without locks is no error.
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& held);
 
-/// Writes all of the text at the end. Throws Error(kBadInput) that names the path.
+/// Writes the whole text at the end of the file. Throws Error(kBadInput), which names the path.
 void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path);
 
-/// Has it on disk before it returns. Throws Error(kBadInput) that names the path.
+/// Returns when the content of the file is on disk. Throws Error(kBadInput), which names the path.
 void sync_file(const Descriptor& file, const std::filesystem::path& path);
 
 }  // namespace viscontact

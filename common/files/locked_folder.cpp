@@ -1,3 +1,4 @@
+// The lock is an flock(2) on the folder itself (locked_folder.hpp).
 #include "viscontact/common/files/locked_folder.hpp"
 
 #include <fcntl.h>
@@ -18,7 +19,8 @@ LockedFolder::LockedFolder(std::filesystem::path path, const std::string& held)
   made_ = !std::filesystem::exists(path_, said_below) && !said_below;
   make_folder(path_);
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // What cannot be opened or locked is no reason to compute nothing; whether it can be written shows soon.
+  // A folder that cannot be opened or locked (on a file system without locks, for example) is not
+  // an error here. Whether files can be written into it shows when the first one is written.
   if (lock_.get() >= 0 && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw_bad_input({path_.string()}, held);
 }

@@ -1,4 +1,4 @@
-// A folder that one process at a time writes into.
+// A folder that only one process at a time may write into.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,14 @@
 
 namespace viscontact {
 
-/// Holds a folder against other processes that do the same, until it is destroyed. A folder that was not there is made, and taken away at the end if
-/// nothing was put into it. No file is left: the lock is on the folder itself. (A file system without locks is no error.)
+/// Locks a folder against other processes that lock it in the same way, until this object is
+/// destroyed. A folder that does not exist is made, and removed at the end if it is still empty.
+/// The lock is on the folder itself, so that no lock file is left. A file system without locks is
+/// no error.
 class LockedFolder {
  public:
-  /// Throws Error(kBadInput) naming the path: "... `held`" if another process holds it, or if it cannot be made.
+  /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another
+  /// process has locked it; then the message ends with `held`.
   LockedFolder(std::filesystem::path path, const std::string& held);
   ~LockedFolder();
   LockedFolder(const LockedFolder&) = delete;

@@ -1,3 +1,4 @@
+// SHA-256 by OpenSSL.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

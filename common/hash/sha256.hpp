@@ -1,4 +1,4 @@
-// The hash by which files name each other.
+// SHA-256 (FIPS 180-4), by which files of Viscontact refer to the content of other files.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace viscontact {
 
-/// Lower-case hexadecimal SHA-256 of the bytes (64 characters).
+/// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace viscontact

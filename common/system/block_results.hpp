@@ -1,4 +1,4 @@
-// What blocks of a loop return to be put together by ThreadPool::sum_of_blocks.
+// Results of the blocks of a loop, combined by += in ThreadPool::sum_of_blocks.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace viscontact {
 
-/// The largest of the blocks' values; of none, -infinity.
+/// The largest of the values of all blocks; minus infinity if there are none.
 struct MaximumOfBlocks {
   double value = -std::numeric_limits<double>::infinity();
   MaximumOfBlocks& operator+=(const MaximumOfBlocks& other) {
@@ -16,7 +16,7 @@ struct MaximumOfBlocks {
   }
 };
 
-/// The blocks' lists one after the other.
+/// The lists of all blocks, one after the other.
 template <class T>
 struct ConcatenatedBlocks {
   std::vector<T> values;

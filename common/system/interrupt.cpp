@@ -1,3 +1,4 @@
+// Signal handling with sigaction (interrupt.hpp).
 #include "viscontact/common/system/interrupt.hpp"
 
 #include <atomic>
@@ -8,7 +9,8 @@
 namespace viscontact {
 namespace {
 
-// A signal handler can reach nothing but a global, and that must be atomic without a lock: other threads read it.
+// A signal handler can use only a global variable. It must be atomic without a lock, because other
+// threads read it.
 std::atomic<bool> signal_came = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -18,14 +20,15 @@ void remember_signal(int) { signal_came = true; }
 
 void catch_interrupts() {
   struct sigaction action = {};
-  action.sa_handler = remember_signal;  // no SA_RESTART: waits end at once
+  action.sa_handler = remember_signal;  // without SA_RESTART system calls that wait end at once
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   struct sigaction before = {};
   if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
     sigaction(SIGHUP, &action, nullptr);
-  // A limit on the size of files then makes a write fail, which is reported, instead of ending the process.
+  // With SIGXFSZ ignored, a limit on the size of files makes a write fail with an error, which is
+  // reported, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -1,14 +1,15 @@
-// Ctrl-C as a question that long computations ask between two pieces of work.
+// Turns Ctrl-C and similar signals into a flag, which long computations check between two pieces of
+// work.
 #pragma once
 
 namespace viscontact {
 
-/// From now on SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. SIGHUP is what
-/// a process gets whose terminal or connection is lost; it stays ignored if it was ignored before,
-/// as `nohup` arranges. Called once, by app/.
+/// After this call SIGINT, SIGTERM and SIGHUP set a flag instead of ending the process. A process
+/// gets SIGHUP when its terminal or connection is lost; the signal stays ignored if it was ignored
+/// before, as `nohup` arranges. app/ calls this function once.
 void catch_interrupts();
 
-/// True once one of these signals came.
+/// True after one of these signals has come.
 bool interrupted();
 
 /// Throws Error(kInterrupted) if interrupted().

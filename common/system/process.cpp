@@ -1,3 +1,5 @@
+// Runs a child process by fork and exec (process.hpp). Between fork and exec only async-signal-safe
+// calls are allowed.
 #include "viscontact/common/system/process.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +28,8 @@ struct Pipe {
   Descriptor read_end, write_end;
 };
 
-/// A pair of sockets and no pipe: a write to a child that reads no more is an error code there, and SIGPIPE in a pipe.
+/// A pair of sockets instead of a pipe: a write to a child that no longer reads returns an error
+/// code, where a pipe would cause SIGPIPE.
 Pipe make_pipe() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -34,7 +37,7 @@ Pipe make_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// The variables of ours that `added` does not set, then `added`.
+/// The variables of this process that `added` does not set, followed by `added`.
 std::vector<std::string> merged_environment(const std::vector<std::string>& added) {
   std::vector<std::string> all;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -51,14 +54,14 @@ std::vector<std::string> merged_environment(const std::vector<std::string>& adde
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> result;
   for (const auto& text : texts)
-    result.push_back(const_cast<char*>(text.c_str()));  // what execve's signature asks for
+    result.push_back(const_cast<char*>(text.c_str()));  // execve does not change the texts
   result.push_back(nullptr);
   return result;
 }
 
 using Clock = std::chrono::steady_clock;
 
-/// Feeds `input` to the child and collects what it says, until it closes its output, the user
+/// Sends `input` to the child and collects its output, until the child closes its output, the user
 /// interrupts, or `deadline` has passed.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
                      Clock::time_point deadline) {
@@ -67,7 +70,8 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    constexpr int kMilliseconds = 100;  // how late an interrupt may be noticed
+    // The longest delay until an interrupt is noticed.
+    constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
     if (interrupted() || Clock::now() > deadline) return output;
     if (ready <= 0) continue;
@@ -87,16 +91,16 @@ std::string converse(Descriptor& to_child, int from_child, std::string_view inpu
 }
 
 struct ChildEnd {
-  int status = 0;  ///< as wait4 gives it
+  int status = 0;  ///< status from wait4
   rusage usage{};
-  bool interrupted = false, timed_out = false;  ///< why the child was killed, if it was
+  /// Why the child was killed, if it was.
+  bool interrupted = false, timed_out = false;
 };
 
-/// Waits until the child has ended. Kills the child's process group first if the user interrupts
-/// or `deadline` passes. A child can close its output and go on, so that both must be looked at
-/// here too.
+/// Waits until the child has ended. Kills its process group first if the user interrupts or
+/// `deadline` passes. Both are checked here, too, because a child can close its output and go on.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
-  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two looks
+  constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two checks
   ChildEnd end;
   for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
     const bool to_kill = !end.interrupted && !end.timed_out;
@@ -111,13 +115,14 @@ ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
   }
 }
 
-/// In the child, between fork and exec, where only calls that a signal handler may make are allowed:
-/// becomes the program, or writes the error number to `failure` and ends.
+/// Runs in the child between fork and exec, where only async-signal-safe calls are allowed. Becomes
+/// the program, or writes the error number to `failure` and ends.
 [[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
                          int input, int output, int failure, pid_t parent) {
-  // A group of its own: Ctrl-C reaches us alone, and we end the child in order.
+  // In a process group of its own the child does not receive Ctrl-C. This process receives it and
+  // ends the child in order.
   ::setpgid(0, 0);
-  // kill -9 gives us no time to end it: then the kernel does.
+  // The kernel ends the child if this process is killed by SIGKILL.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
   if (::dup2(input, STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
@@ -142,7 +147,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   const auto argument_pointers = pointers(arguments);
   const auto variable_pointers = pointers(variables);
   const pid_t self = ::getpid();
-  // fork and no posix_spawn, which cannot ask that the child die with us.
+  // posix_spawn cannot request that the child end with this process, so fork is used.
   const pid_t child = ::fork();
   if (child == 0)
     become(argument_pointers.data(), variable_pointers.data(), folder.c_str(), in.read_end.get(),
@@ -165,7 +170,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   result.output = converse(in.write_end, out.read_end.get(), input, deadline);
   const auto [status, usage, cut_short, timed_out] = wait_for_end(child, deadline);
   result.timed_out = timed_out;
-  // A child that the user's interrupt has ended has no result.
+  // A child that ended because the user interrupted has no result.
   if (cut_short || WIFSIGNALED(status)) throw_if_interrupted();
   result.exit_status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (WIFSIGNALED(status)) {

@@ -1,4 +1,4 @@
-// A child process: started, listened to, waited for.
+// Runs a child process to its end and collects its output (POSIX).
 #pragma once
 
 #include <chrono>
@@ -9,19 +9,24 @@
 namespace viscontact {
 
 struct ProcessResult {
-  bool started = false;     ///< false: no such program, or it may not be run; `output` says why
-  int exit_status = 0;      ///< 128 + signal if a signal ended it
-  std::string output;       ///< standard output and error, as they came; after a signal, its name
-  long peak_memory_kb = 0;  ///< largest resident set
-  bool timed_out = false;   ///< the time limit ended it, with SIGKILL
+  /// False if there is no such program or it cannot be run; `output` then says why.
+  bool started = false;
+  int exit_status = 0;  ///< 128 + signal if a signal ended the process
+  /// Standard output and standard error, in the order in which they came. If a signal ended the
+  /// process, the name of the signal follows.
+  std::string output;
+  long peak_memory_kb = 0;  ///< largest resident set [kB]
+  bool timed_out = false;   ///< the process was killed at the time limit
 };
 
-/// Runs arguments[0], looked up on PATH, with the other arguments, no standard input, and
-/// `environment` ("NAME=value") added to ours. `input`, if not empty, is its standard input;
-/// `folder`, if not empty, its working folder. Ends it and throws Error(kInterrupted) when the user interrupts; the child ends when this thread or
-/// process does, even by SIGKILL.
-/// `time_limit`, if there is one, is the longest time that the child may take: after it the child
-/// and the processes that the child has started are killed, and the result is `timed_out`.
+/// Runs the program arguments[0], which is looked up on PATH, with the other arguments and with
+/// `environment` ("NAME=value" each) added to the environment of this process. `input` is its
+/// standard input. `folder`, if not empty, is its working folder. `time_limit` is the longest time
+/// that the child may take; then the child and all processes that it started are killed, and the
+/// result is `timed_out`.
+///
+/// If the user interrupts, the child is killed and Error(kInterrupted) is thrown. The child also
+/// ends when the thread or the process that started it ends, even by SIGKILL.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {},
                           const std::string& input = {}, const std::string& folder = {},

@@ -1,3 +1,4 @@
+// The worker threads of a ThreadPool (thread_pool.hpp).
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>
@@ -13,14 +14,14 @@ struct ThreadPool::Workers {
   void (*call)(const void*, std::size_t) = nullptr;
   const void* job = nullptr;
   std::size_t blocks = 0;
-  std::atomic<std::size_t> next{0};  // block
-  std::atomic<unsigned> round{0};    // of loops; changes to wake the workers
-  std::atomic<int> busy{0};          // workers that have not finished this round
-  bool stop = false;                 // read after `round`
+  std::atomic<std::size_t> next{0};  // next block to be computed
+  std::atomic<unsigned> round{0};    // number of the loop; its change wakes the workers
+  std::atomic<int> busy{0};          // number of workers that have not finished this loop
+  bool stop = false;                 // read after `round` has changed
   std::vector<std::thread> threads;
 
   std::mutex failing;
-  std::exception_ptr failure;  // the first of a loop
+  std::exception_ptr failure;  // the first exception in a loop
 
   void work() {
     for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1)) {
@@ -35,7 +36,8 @@ struct ThreadPool::Workers {
 
   void serve() {
     for (unsigned seen = 0;;) {
-      // Loops follow each other within microseconds in a projection: look a while before sleeping.
+      // In a projection, loops follow each other within microseconds. A thread therefore checks for
+      // a while before it sleeps.
       constexpr int kLooks = 2000;
       for (int look = 0; look < kLooks && round.load() == seen; ++look) std::this_thread::yield();
       round.wait(seen);
@@ -55,7 +57,7 @@ ThreadPool::ThreadPool(int threads) {
     for (int i = 1; i < threads; ++i)
       workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
   } catch (const std::system_error&) {
-    // The system gives no more: those that are there do the work, with the same result.
+    // The system starts no more threads. Those that exist do the work, with the same result.
   }
 }
 

@@ -1,4 +1,5 @@
-// Threads that share loops over fixed blocks, so that a result does not depend on how many they are.
+// Threads that share loops over fixed blocks. A change must keep the results independent of the
+// number of threads, bit for bit.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +10,24 @@
 
 namespace viscontact {
 
-/// Work is cut into blocks whose bounds depend on its size alone; each block is done by one thread, and what the blocks
-/// return is added in their order: the same bits for any number of threads.
+/// A loop is divided into blocks whose bounds depend on its length alone. Each block is computed by
+/// one thread, and the results of the blocks are added in their order. The result therefore has the
+/// same bits for any number of threads.
 class ThreadPool {
  public:
-  /// `threads` >= 1, the caller's included; fewer if the system gives no more. Workers sleep between loops.
+  /// `threads` >= 1, including the calling thread; fewer are used if the system refuses to start
+  /// more. The threads sleep between loops.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// About a tenth of a millisecond of work in the loops of a projection: below, waking a thread costs more than it brings.
+  /// Entries in a block: about 0.1 ms of work in the loops of a projection. For less work it costs
+  /// more to wake a thread than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
-  /// body(begin, end) for each block of [0, count). Throws what a body threw, once all have ended.
+  /// Calls body(begin, end) for each block of [0, count). If a body throws, the exception is thrown
+  /// again when no body runs any more.
   template <class Body>
   void for_blocks(std::size_t count, const Body& body) {
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
@@ -34,7 +39,8 @@ class ThreadPool {
     run(blocks, &Job<Body>::call, &job);
   }
 
-  /// The sum, by +=, in order of the blocks, of what body(begin, end) returns for each; Result{} for none.
+  /// Adds, by += in the order of the blocks, what body(begin, end) returns for each block. Returns
+  /// Result{} if count is 0.
   template <class Result, class Body>
   Result sum_of_blocks(std::size_t count, const Body& body) {
     if (count <= kBlock) return count > 0 ? body(std::size_t{0}, count) : Result{};
@@ -61,7 +67,7 @@ class ThreadPool {
   void run(std::size_t blocks, void (*call)(const void*, std::size_t), const void* job);
 
   struct Workers;
-  std::unique_ptr<Workers> workers_;  // none for one thread
+  std::unique_ptr<Workers> workers_;  // null for one thread
 };
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The text of each target. All of them are made of the same sums R and Gamma.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ struct Sum {
   double offset = 0;
 };
 
-/// In the order of all_terms(), as LubricationForce sums.
+/// The sum for a fit, in the order of all_terms(), as in LubricationForce.
 Sum sum_of(const Fit& fit) {
   Sum sum;
   for (const auto& term : all_terms())
@@ -34,12 +35,12 @@ Sum sum_of(const Fit& fit) {
   return sum;
 }
 
-/// A number as the language writes a double.
+/// Writes a number as a double of the language.
 using Literal = std::string (*)(double);
 
 std::string plain(double number) { return format_number(number); }
 
-/// 56.5d0, 1d-05.
+/// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
 std::string fortran_literal(double number) {
   std::string text = format_number(number);
   const auto exponent = text.find('e');
@@ -48,13 +49,14 @@ std::string fortran_literal(double number) {
   return text;
 }
 
-/// 56.5, 5.0, 1e-05: without a point or an exponent C would read an integer, which overflows when it is long.
+/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read an integer,
+/// and a long one would overflow.
 std::string c_literal(double number) {
   const std::string text = format_number(number);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// weight * (formula) + ..., a term a line.
+/// The text "weight * (formula) + ..." with a line for each term.
 std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
                        std::string_view between) {
   std::string text;
@@ -64,7 +66,7 @@ std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
   return text;
 }
 
-/// What a reader must know before using the numbers, a line each.
+/// What a reader must know to use the numbers, one line for each fact.
 std::vector<std::string> facts(const Fit& fit, std::string_view source) {
   const auto version = fit.versions.find("Viscontact");
   std::vector<std::string> lines = {
@@ -86,7 +88,8 @@ std::vector<std::string> facts(const Fit& fit, std::string_view source) {
   if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
   if (!fit.table_sha256.empty())
     lines.push_back(fmt::format("SHA-256 of the table: {}.", fit.table_sha256));
-  // They stand in comments: a line end from a fit file must not become code.
+  // The lines become comments of the code. A line end from a fit file must not start a line of
+  // code.
   for (auto& line : lines)
     std::ranges::replace_if(
         line, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
@@ -199,8 +202,8 @@ std::string write_json(const Fit& fit, std::string_view source) {
   json["formulas"] =
       "q: gap, l: ln q; R = sum of weight * value, Gamma = sum of weight * antiderivative - "
       "impulse_offset";
-  json["interval"] =
-      fit.gap_interval;  // no key of a fit file, which an export is not to be taken for
+  // Fit files do not have this key, so that an export is not read as a fit file.
+  json["interval"] = fit.gap_interval;
   json["radius"] = fit.radius;
   json["viscosity"] = fit.viscosity;
   json["largest_relative_residual"] = fit.largest_relative_residual;

@@ -1,4 +1,5 @@
-// A fit as code or numbers that stand alone, for other programs.
+// Writes a fit as code or data for other programs, which need no Viscontact. Units are those of the
+// fit. A change must keep the order of the sums, so that the values agree with LubricationForce.
 #pragma once
 
 #include <span>
@@ -10,20 +11,23 @@
 
 namespace viscontact {
 
+/// A language or format.
 struct ExportTarget {
-  std::string_view name;         ///< what users type
+  std::string_view name;         ///< as users type it
   std::string_view description;  ///< a line for --help
-  TextKind kind;                 ///< of the text
+  TextKind kind;                 ///< kind of the written text
   std::string (*write)(const Fit& fit, std::string_view source);
 };
 
-/// Every target there is: c-header, fortran, python, json, csv. Each holds the resistance R(q), the force -R(q) u and Gamma(q) = int_r^q R, summed in the
-/// order of LubricationForce so that the values agree to the last digits, with interval, error and source of the fit.
-/// Code outside the interval answers NaN (C, Fortran) or raises ValueError (Python).
+/// All targets: c-header, fortran, python, json, csv. Each contains the resistance R(q), the force
+/// -R(q) u and Gamma(q) = int_r^q R, and the interval, error and source of the fit. The sums have
+/// the order of LubricationForce, so that the values agree to the last digits. Outside the interval
+/// the code returns NaN (C, Fortran) or raises ValueError (Python).
 std::span<const ExportTarget> export_targets();
 
-/// The text for that target. `source` is the name of the fit's file, which is named in the text, or
-/// empty. Throws Error(kBadInput) for an unknown name, and as LubricationForce for a fit that is of no use.
+/// The text for one target. `source` is the name of the fit's file, which the text states; it may
+/// be empty. Throws Error(kBadInput) for an unknown target, and the Error of LubricationForce for a
+/// fit with an impossible drag.
 std::string export_fit(const Fit& fit, std::string_view target, std::string_view source = "");
 
 }  // namespace viscontact

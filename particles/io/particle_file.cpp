@@ -1,3 +1,4 @@
+// Reads and writes particles and contacts as CSV (particle_file.hpp).
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -21,14 +22,16 @@ constexpr std::size_t kColumns = 9, kId = 8;
 using Row = CsvRow<kColumns>;
 using Names = std::array<std::string, kColumns>;
 
-// The required columns first, as read_csv wants them; places of position, radius, mass, velocity, id.
+// Columns for discs and spheres. The required columns come first, as read_csv expects: position,
+// radius, mass. The velocity and the id follow.
 const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id"};
 const Names kSpheres = {"x", "y", "z", "radius", "mass", "vx", "vy", "vz", "id"};
 
 double allowed(const Row& row, const Names& names, std::size_t column, bool positive,
                const std::string& file) {
   const double value = required_field(row, names, column, file);
-  constexpr double kLargest = 1e100;  // squares and cubes of it, and of its inverse, are numbers
+  // Squares and cubes of this number and of its inverse are finite and not 0.
+  constexpr double kLargest = 1e100;
   if (positive && !(value >= 1 / kLargest))
     throw_bad_input({file, row.line},
                     fmt::format("{} is {}; it must be > 0, at least 1e-100", names[column], value));
@@ -38,7 +41,8 @@ double allowed(const Row& row, const Names& names, std::size_t column, bool posi
   return value;
 }
 
-/// Columns that are no particles' would be passed over, as velocities that are misspelt: refused.
+/// Throws Error(kBadInput) for unknown columns, which would otherwise be ignored (a misspelt
+/// velocity, for example), and for incomplete velocities.
 void check_header(const std::filesystem::path& path, bool discs) {
   std::ifstream file(path);
   std::string line;
@@ -63,8 +67,8 @@ void check_header(const std::filesystem::path& path, bool discs) {
         "them or none");
 }
 
-/// The ids of the rows; empty if the file has no column `id`, nothing in it, or 0, 1, ... as it is
-/// without one.
+/// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
+/// the ids are 0, 1, ..., as they are without the column.
 std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
   const auto has_id = [](const Row& row) { return row.fields[kId].has_value(); };
   if (std::ranges::none_of(rows, has_id)) return {};

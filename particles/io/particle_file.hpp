@@ -1,4 +1,4 @@
-// Particles and contacts as CSV files.
+// Particles and contacts as CSV files. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,29 @@
 
 namespace viscontact::particles {
 
-/// Particles and the lines of the file that they are on.
+/// Particles, and the number of the line in the file of each particle.
 struct ParticleFile {
   Particles particles;
   std::vector<int> lines;
 };
 
-/// Reads columns x,y[,z],radius,mass and, if they are there (else at rest), vx,vy[,vz]; a file of final particles is one too. Throws Error(kBadInput)
-/// with file and line for what read_csv refuses, a column of the third dimension for discs, another column but `id`, some but not all velocities, a radius or mass below 1e-100, a number beyond 1e100,
-/// more than 2^31 - 1 particles, an id that is missing, no whole number from 0 to 2^31 - 1 or there
-/// twice. Without a column `id`, `particles.ids` is empty.
+/// Reads the columns x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without velocities
+/// the particles are at rest; without `id`, or with ids 0, 1, ..., particles.ids is empty. The file
+/// of final particles of a run can be read, too.
+///
+/// Throws Error(kBadInput) with file and line for what read_csv refuses; for a value in a column of
+/// the third dimension if dimension is 2; for any other column; if some but not all velocities are
+/// given; for a radius or mass below 1e-100 and any number above 1e100 in magnitude; for more than
+/// 2^31 - 1 particles; and for an id that is missing, occurs twice or is no whole number from 0 to
+/// 2^31 - 1.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension);
 
-/// id,x,y[,z],vx,vy[,vz],radius,mass; numbers read back to the same bits.
+/// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass. The numbers read back to the same
+/// bits.
 std::string write_particles(const Particles& particles);
 
-/// i,j,gap,gamma,gamma_error: the ids of two particles; j is -1, -2, ... for the first, second plane.
+/// CSV text with the columns i,j,gap,gamma,gamma_error. i and j are the ids of two particles; j is
+/// -1, -2, ... for the first, second plane.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// The frames of a simulation, kept to be drawn.
+// The frames of a simulation, kept in memory for pages and pictures. Units are those of the case.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,25 @@
 
 namespace viscontact::particles {
 
-/// What is there at one time.
+/// Particles, planes and contacts at one time.
 struct Frame {
   double time = 0;  ///< [T]
-  std::vector<float>
-      positions;  ///< flat [L], the numbers of `dimension` for each particle: enough for a picture
+  /// Flat array [L], `dimension` numbers for each particle; single precision is enough for a
+  /// picture.
+  std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< in the order of the case
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
 };
 
-/// What a page or a picture shows.
+/// All frames that a page or a picture shows.
 struct Playback {
   int dimension = 2;
   std::vector<float> radii;         ///< [L]
-  std::vector<Frame> frames;        ///< in order of time; the first at the start
+  std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles
 };
 
-/// Of particle k [L].
+/// Position of particle k in a frame [L].
 inline Vector position(const Playback& playback, const Frame& frame, std::size_t k) {
   Vector x{};
   const auto dimension = static_cast<std::size_t>(playback.dimension);

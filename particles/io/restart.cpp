@@ -1,3 +1,5 @@
+// The binary restart file (restart.hpp). Files of version 1 must stay readable; a change of the
+// fields of State or Film needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -20,7 +22,7 @@ constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// The fields in their order, for writing and for reading.
+/// Calls `field` for each stored field, in the order of the file, for writing and for reading.
 template <class State, class Field>
 void for_fields(State& state, Field&& field) {
   auto& p = state.particles;
@@ -102,7 +104,8 @@ class Reader {
   bool version_1_;
 };
 
-/// Takes the line that begins with `begin` off the front of `rest` and returns what follows in it.
+/// Removes the line that begins with `begin` from the front of `rest` and returns the remainder of
+/// that line. Throws Error(kBadInput) if `rest` does not begin with it.
 std::string_view line_of(std::string_view& rest, std::string_view begin, const std::string& file) {
   const auto end = rest.find('\n');
   if (!rest.starts_with(begin) || end == std::string_view::npos)

@@ -1,4 +1,5 @@
-// The state of a simulation in a file, bit for bit.
+// Writes and reads the state of a simulation, bit for bit, so that a run can go on. Numbers are
+// stored without conversion, in the units of the case.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +9,13 @@
 
 namespace viscontact::particles {
 
-/// Two lines of text, what it is and the SHA-256 of the rest; then the rest, binary, in the order of bytes of the machine.
+/// Content of a restart file: a line of text that names the format and the byte order, a line with
+/// the SHA-256 of the rest, and the rest in binary, in the byte order of this machine.
+/// The ids of the particles are not stored, because the case gives them.
 std::string write_restart(const State& state);
 
-/// Reads it back. Throws Error(kBadInput) naming the file if it is no such file, damaged, or of a machine with another order of bytes.
+/// Reads a restart file of this or the previous version. Throws Error(kBadInput), which names the
+/// file, if it is not a restart file, is damaged, or was written with another byte order.
 State read_restart(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

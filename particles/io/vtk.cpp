@@ -1,3 +1,5 @@
+// Writes the frames of a simulation as VTK files (vtk.hpp). vtk_reader.cpp reads this layout and
+// must be changed with it.
 #include "viscontact/particles/io/vtk.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +13,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The <AppendedData> of a file, and the elements that point into it.
+/// Collects the <AppendedData> of a file and makes the elements that refer to it.
 class AppendedData {
  public:
   template <class Number>
@@ -44,7 +46,7 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
     velocities.insert(velocities.end(), u.begin(), u.end());
     ids.push_back(particles.id(k));
   }
-  // VTK numbers vertices before lines.
+  // VTK numbers vertices before lines, so contacts with planes come first.
   for (const bool wall : {true, false})
     for (const auto& contact : contacts) {
       if ((contact.first < 0) != wall) continue;

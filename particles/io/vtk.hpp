@@ -1,4 +1,5 @@
-// Frames for ParaView.
+// Frames of a simulation as VTK files for ParaView. Lengths, masses and times are in the units of
+// the case.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +12,29 @@
 
 namespace viscontact::particles {
 
-/// A VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data): a point for each particle, with radius, velocity and id; a line for each
-/// contact of two particles and a vertex at the particle for each with a plane, with gap, gamma and
-/// the ids of both (a plane's is -1, -2, ...).
-/// 2D: z = 0.
+/// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data).
+/// Each particle is a point with radius, velocity and id. Each contact of two particles is a line,
+/// and each contact with a plane a vertex at the particle; both have gap, gamma and the ids of both
+/// bodies (-1, -2, ... for planes). In two dimensions z = 0.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts);
 
-/// What a frame shows, as read back from its file.
+/// What read_vtp reads from the file of a frame.
 struct VtpContent {
-  std::vector<double> positions;         ///< flat [L], the numbers of `dimension` for each particle
-  std::vector<CurrentContact> contacts;  ///< in the order of contacts_of: pairs, then walls
+  /// Flat array [L], `dimension` numbers for each particle.
+  std::vector<double> positions;
+  /// In the order of contacts_of: first pairs of particles, then particles at planes.
+  std::vector<CurrentContact> contacts;
 };
 
-/// Reads a file that write_vtp wrote on a machine with the same order of bytes. Throws
-/// Error(kBadInput) naming the file if it is not such a file or was cut short.
+/// Reads a file that write_vtp wrote on a machine with the same byte order. Throws
+/// Error(kBadInput), which names the file, if it is not such a file or was cut short.
 VtpContent read_vtp(const std::filesystem::path& path, int dimension);
 
-/// The collection that ParaView opens: a file for each time.
+/// Content of a PVD file, which lists the time and the file of each frame; ParaView opens it.
 std::string write_pvd(std::span<const std::pair<double, std::string>> files);
 
-/// The times and files in a collection that write_pvd wrote. Throws Error(kBadInput) naming the file
-/// if it is not such a file.
+/// Times and files from a PVD file that write_pvd wrote. Throws Error(kBadInput), which names the
+/// file, if it is not such a file.
 std::vector<std::pair<double, std::string>> read_pvd(const std::filesystem::path& path);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,5 @@
-// Reads back what vtk.cpp writes, to go on with an interrupted run. It knows that layout only: it is
-// no reader of VTK's formats in general.
+// Reads the files that vtk.cpp writes, so that an interrupted run can go on. It understands only
+// that layout, not VTK's formats in general.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,7 +16,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// What stands in `text` between `before` and the next `after`; nothing if they are not there.
+/// The text between `before` and the next `after`; nothing if one of them is missing.
 std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                         std::string_view after) {
   const auto found = text.find(before);
@@ -37,7 +37,7 @@ class VtpReader {
     bytes_ = text.substr(mark + kMark.size());
   }
 
-  /// The array `name` below the element `<section>`, or `<section ...>`.
+  /// The array `name` in the element <section> or <section ...>.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto begin = head_.find("<" + std::string(section));
@@ -78,7 +78,8 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");
   const auto partners = reader.array<std::int32_t>("CellData", "j");
-  // Places of the particles, which are not their ids: a vertex for each wall, then a line for each pair.
+  // These are numbers of particles, which differ from their ids: one vertex for each contact with a
+  // plane, then one line for each contact of two particles.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
   const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
   const auto walls = vertices.size(), pairs = lines.size() / 2;
@@ -89,7 +90,7 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
     if (place < 0 || place >= std::ssize(points) / 3) reader.refuse();
     return static_cast<std::int32_t>(place);
   };
-  // A frame does not hold the errors of gamma, which no picture shows.
+  // A frame does not store the errors of gamma, because no picture shows them.
   for (std::size_t i = 0; i < pairs; ++i)
     content.contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
                                 gammas[walls + i], 0});

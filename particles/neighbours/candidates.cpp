@@ -1,3 +1,4 @@
+// When the neighbour list is valid, and how it is made again (candidates.hpp).
 #include "viscontact/particles/neighbours/candidates.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 auto place_of(const Film& film) { return std::tuple(film.first, film.second); }
 
-/// Sum of vectors, of a mean.
+/// Sum of vectors, from which a mean is computed.
 struct VectorSum {
   Vector value{};
   VectorSum& operator+=(const VectorSum& other) {
@@ -21,7 +22,7 @@ struct VectorSum {
   }
 };
 
-/// The mean over the particles of what `vector(k)` returns.
+/// Mean over all particles k of `vector(k)`.
 template <class Of>
 Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
   const auto sum = pool.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
@@ -54,7 +55,8 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
-  // Measured on box2d: shorter reaches make the list too often, longer ones make it long.
+  // Skin in radii and in displacements of a step. Measured on box2d: with shorter skins the list is
+  // made too often, with longer skins it is too long.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);

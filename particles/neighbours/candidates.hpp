@@ -1,4 +1,5 @@
-// The list of pairs that may touch soon, kept over steps.
+// The neighbour list: pairs of particles that may touch soon. It is kept over many steps. All
+// lengths are in the unit of the case.
 #pragma once
 
 #include <span>
@@ -8,13 +9,15 @@
 
 namespace viscontact::particles {
 
-/// True while no pair outside state.pairs can touch, the particles displaced by `displacements` (flat [L]) from where they are. Motion that all share
-/// (their mean) brings nobody closer, and does not count.
+/// True as long as no pair outside state.pairs can touch after the particles have moved by
+/// `displacements`, a flat array [L]. The mean displacement of all particles does not count,
+/// because it brings no two particles closer together.
 bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
                              ThreadPool& pool);
 
-/// Makes state.pairs anew for the particles where they are, with reaches of at least three times their displacements, so that it lasts, and no
-/// shorter than those in state.reaches, if there are any. Films keep what they remember; one that holds stays in the list wherever its particles are.
+/// Makes state.pairs again for the present positions. The skin of each particle (state.reaches)
+/// becomes at least three times its displacement, so that the list lasts, and never shrinks. Pairs
+/// keep their memory, and glued pairs stay in the list wherever their particles are.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool);
 
 }  // namespace viscontact::particles

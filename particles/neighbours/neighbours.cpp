@@ -1,3 +1,5 @@
+// Cell lists, one grid for each factor of 2 in the extents (neighbours.hpp). All lengths are in one
+// unit. A change must keep the order of the pairs, on which the results of a simulation depend.
 #include "viscontact/particles/neighbours/neighbours.hpp"
 
 #include <algorithm>
@@ -16,7 +18,8 @@ struct Entry {
   std::int32_t particle;
 };
 
-/// Sorts by cell, equal ones in their order: least significant digits first, as many as `most` has.
+/// Sorts entries by cell and keeps the order of entries with equal cells: a radix sort with 11 bits
+/// in a pass. `most` is the largest cell number.
 void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   constexpr int kBits = 11;
   std::vector<Entry> sorted(entries.size());
@@ -32,7 +35,8 @@ void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
   }
 }
 
-/// Cells of one size over all particles, numbered row by row, and the particles of some extents in them.
+/// Cells of one size that cover all particles, numbered row by row, and the chosen particles in
+/// them.
 template <int D>
 class Grid {
  public:
@@ -44,11 +48,12 @@ class Grid {
         low = std::min(low, positions[k * D + d]);
         high = std::max(high, positions[k * D + d]);
       }
-      // Particles that fled beyond half a million cells from where most are share the cells at the border: cells next to each other stay so.
+      // Particles further than half a million cells from the middle share the cells at the border.
+      // Cells that are next to each other stay so, hence no pair is missed.
       middle_[d] = middle(positions, d);
       half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
                           kMostCells / 2);
-      cells_[d] = static_cast<std::uint64_t>(2 * half_[d]) + 3;  // one to spare on each side
+      cells_[d] = static_cast<std::uint64_t>(2 * half_[d]) + 3;  // one spare cell on each side
     }
   }
 
@@ -68,7 +73,8 @@ class Grid {
     return cell;
   }
 
-  /// The cells around a cell are runs of three along the first axis; calls see(first cell of the run) for each.
+  /// Calls see(first cell, number of the run) for each run of three cells along the first axis;
+  /// together these runs are the cells around `cell`.
   template <class See>
   void for_rows_around(std::uint64_t cell, const See& see) const {
     const std::uint64_t row = cells_[0];
@@ -85,7 +91,7 @@ class Grid {
   std::vector<Entry> entries;  ///< in order of cell
 
  private:
-  /// The median of a sample, which a few that fled do not move.
+  /// The median of a sample, which a few particles far away do not change.
   static double middle(std::span<const double> positions, std::size_t d) {
     constexpr std::size_t kSample = 1001;
     const std::size_t count = positions.size() / D, stride = count / kSample + 1;
@@ -96,7 +102,8 @@ class Grid {
     return *half;
   }
 
-  static constexpr double kMostCells = 1 << 20;  // along an axis: three axes fit into 64 bits
+  // Largest number of cells along an axis: the cell numbers of three axes fit into 64 bits.
+  static constexpr double kMostCells = 1 << 20;
   double per_cell_;
   std::array<double, D> middle_{}, half_{};
   std::array<std::uint64_t, D> cells_{};
@@ -119,7 +126,7 @@ class Search {
       for (std::size_t k = 0; k < extents_.size(); ++k)
         if (levels[k] == level) largest = std::max(largest, extents_[k]);
       Grid<D> grid(2 * largest, positions_);
-      // Those of the grid among themselves, and the smaller ones with them.
+      // Pairs within the grid, then pairs of its particles with particles of smaller extent.
       grid.entries = entries_of(grid, [&](std::size_t k) { return levels[k] == level; });
       look(grid, grid.entries, true);
       if (level != present.front())
@@ -150,7 +157,8 @@ class Search {
     return square < reach * reach;
   }
 
-  /// Pairs of `seekers`, in order of cell, with those in the grid. In that order the runs of cells around them move forward only.
+  /// Finds the pairs of `seekers` with the particles in the grid. The seekers are in order of cell,
+  /// so that the runs of cells around them only move forward.
   void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
     const auto& in_grid = grid.entries;
     found_ += pool_.sum_of_blocks<ConcatenatedBlocks<Pair>>(
@@ -181,7 +189,8 @@ class Search {
         });
   }
 
-  /// By first, by counting, then by second, of which each has few.
+  /// The pairs in order: by counting for `first`, then by sorting the few pairs with the same
+  /// `first`.
   std::vector<Pair> sorted() const {
     std::vector<std::size_t> begin(extents_.size() + 1, 0);
     for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];

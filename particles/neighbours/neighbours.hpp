@@ -1,4 +1,5 @@
-// Which pairs of particles are close: cell lists for any spread of radii.
+// Finds all pairs of close particles by cell lists, for any ratio of radii. Time and memory grow
+// with the number of particles and pairs. All lengths are in one unit.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,13 @@ struct Pair {
   bool operator==(const Pair&) const = default;
 };
 
-/// All pairs with |x_i - x_j| < e_i + e_j, in order of first, then second. `positions`: flat, `dimension` (2 or 3) numbers each, finite [L];
-/// `extents`: e > 0 [L]. Time and memory grow with the number of particles and of pairs, whatever the spread of the extents: particles of like extent
-/// (within a factor 2) share a grid of cells of twice the largest of them, and each looks for neighbours in its own grid and in the coarser ones.
+/// All pairs with |x_i - x_j| < e_i + e_j, in order of first, then second. `positions`: a flat
+/// array of `dimension` (2 or 3) finite numbers for each particle [L]. `extents`: e > 0 of each
+/// particle [L].
+///
+/// Particles whose extents are within the same factor of 2 share a grid, whose cells are twice as
+/// wide as the largest of these extents. Each particle looks for neighbours in its own grid and in
+/// all coarser ones.
 std::vector<Pair> close_pairs(int dimension, std::span<const double> positions,
                               std::span<const double> extents, ThreadPool& pool);
 

@@ -1,4 +1,6 @@
-// A sparse Cholesky factor of W between the active contacts.
+// A sparse Cholesky factor of the matrix W of contact_graph.hpp (docs/physics.md (5.4)), between
+// chosen contacts and with diagonal 1. It serves as a solver and as a preconditioner. The contacts
+// of the factor are called active here, because their gaps are 0; their z is above the bound.
 #pragma once
 
 #include <memory>
@@ -9,30 +11,31 @@
 
 namespace viscontact::particles {
 
-/// Factor of W (contact_graph.hpp) between chosen contacts, in the scaled unit of the graph. Chains
-/// and packings at rest have as many active contacts as degrees of freedom, and W is then so
-/// ill-conditioned that iterative methods take as many iterations as a chain has contacts. The
-/// factor solves for the impulses between the active contacts at once.
+/// Chains, and packings at rest, have as many contacts with impulses as degrees of freedom. W is
+/// then so ill-conditioned that iterative methods take as many iterations as a chain has contacts.
+/// The factor solves for all impulses between the chosen contacts at once.
 template <int D>
 class ActiveSetFactor {
  public:
-  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. Redundant contacts make W singular:
-  /// it then bounds the impulses that they exert on each other.
+  /// `epsilon` >= 0 is added to the diagonal of W, which is 1. W is singular if contacts are
+  /// redundant; epsilon then bounds the impulses that these contacts exert on each other.
   explicit ActiveSetFactor(double epsilon = 1e-10);
   ~ActiveSetFactor();
 
-  /// Factorises W between the contacts c with `active[c]`. Returns false, and there is no factor, if
-  /// it would fill so much that iterations are cheaper (packings of spheres do), or if W cannot be
-  /// factorised. The order of elimination is kept for as long as the graph has as many contacts.
+  /// Factorises W between the contacts c with `active[c]`. Returns false, and leaves no factor, if
+  /// the factor would have so many entries that iterations are cheaper (as in packings of spheres)
+  /// or if W cannot be factorised. Calls with the same number of contacts share one order of
+  /// elimination.
   bool factorise(const ContactGraph<D>& graph, const std::vector<char>& active);
   bool exists() const;
 
-  /// solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.
+  /// Sets solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.
   void solve(std::span<const double> gradient, std::span<double> solved) const;
 
-  /// The factor as a preconditioner, symmetric and positive definite on the contacts that are free
-  /// now: free contacts that were not active keep their gradient, contacts that are not free get 0. The graph is that of factorise(), or has more contacts at its end. Returns
-  /// solved.gradient.
+  /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
+  /// contacts that are free now. Free contacts without a row in the factor keep their gradient;
+  /// contacts that are not free get 0. `graph` is that of factorise(), or this graph with further
+  /// contacts at its end. Returns solved.gradient.
   double precondition(const ContactGraph<D>& graph, std::span<const double> gradient,
                       std::span<double> solved) const;
 

@@ -1,3 +1,4 @@
+// Newton's method on the set of active contacts (active_set_newton.hpp), in the scaled unknowns z.
 #include "viscontact/particles/projection/active_set_newton.hpp"
 
 #include <algorithm>
@@ -20,13 +21,14 @@ class Newton {
     compute_gradient();
   }
 
-  /// Predicts the active contacts and solves for their impulses. Returns false if that cannot be
-  /// done.
+  /// Predicts the set of contacts with z free and solves for their impulses. Returns false if W has
+  /// no factor.
   bool step() {
     bool changed = false;
     for (std::size_t c = 0; c < graph_.count(); ++c) {
-      // A contact that is at its bound and closes by no more than is allowed may carry load once
-      // its neighbours do: in a column at rest only the lowest contact closes by itself.
+      // A contact at its bound that closes by no more than its allowed residual may carry load once
+      // its neighbours do. In a column at rest, for example, only the lowest contact closes at
+      // first.
       const double slack = 1 / graph_.per_allowed[c];
       const char active = graph_.z[c] - graph_.bound[c] >= gradient_[c] - slack ? 1 : 0;
       changed |= active != active_[c];
@@ -38,7 +40,8 @@ class Newton {
     factor_.solve(gradient_, correction_);
     for (std::size_t c = 0; c < graph_.count(); ++c) {
       graph_.z[c] -= correction_[c];
-      // A contact that touches without load is at its bound but for rounding errors.
+      // A contact that touches without load may miss its bound by rounding errors; it is set to the
+      // bound.
       const double slack = 1 / graph_.per_allowed[c];
       if (graph_.z[c] < graph_.bound[c] && graph_.z[c] > graph_.bound[c] - slack)
         graph_.z[c] = graph_.bound[c];
@@ -47,7 +50,7 @@ class Newton {
     return true;
   }
 
-  /// The largest residual; infinite where an impulse is below its bound.
+  /// The largest residual; infinite if an impulse is below its bound.
   double residual() const {
     double largest = 0;
     for (std::size_t c = 0; c < graph_.count(); ++c) {
@@ -66,7 +69,7 @@ class Newton {
 
   ContactGraph<D>& graph_;
   ActiveSetFactor<D> factor_;
-  std::vector<double> displacements_;  // B z, of the bodies
+  std::vector<double> displacements_;  // B z, displacements of the bodies [L]
   std::vector<double> gradient_, correction_;
   std::vector<char> active_;
 };

@@ -1,3 +1,7 @@
+// Projected conjugate gradients, MPRGP (Dostal & Schoeberl 2005), for the dual problem (5.4) of
+// docs/physics.md, scaled as in contact_graph.hpp. "Free" contacts have z above the bound. Sums
+// must be taken in blocks of the thread pool, so that the results do not depend on the number of
+// threads.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -12,13 +16,15 @@
 namespace viscontact::particles {
 namespace {
 
-/// What one pass over the contacts finds at z with gradient g.
+/// Statistics of one pass over the contacts at z with gradient g.
 struct PassStatistics {
-  double residual = 0;  ///< largest, ContactGraph::residual
-  double free_slope =
-      0;  ///< phi.g of the free gradient phi, cut so that a gradient step along it stays within the bounds
-  double chopped_square =
-      0;  ///< |beta|^2 of the chopped gradient beta: of contacts at their bound that want to leave it
+  double residual = 0;  ///< largest ContactGraph::residual
+  /// phi.g of the free gradient phi (g on the free contacts), in which phi is reduced so that a
+  /// projected gradient step along it stays within the bounds.
+  double free_slope = 0;
+  /// |beta|^2 of the chopped gradient beta: the negative part of g on the contacts at their bound,
+  /// which would leave the bound.
+  double chopped_square = 0;
   double distance_to_bound = std::numeric_limits<double>::infinity();  ///< smallest z - bound
   PassStatistics& operator+=(const PassStatistics& other) {
     residual = std::max(residual, other.residual);
@@ -29,20 +35,23 @@ struct PassStatistics {
   }
 };
 
-/// Redundant contacts make W singular: impulses would move without end along directions whose slope
-/// and curvature are rounding errors. So much is added to the diagonal of W, which is 1: far more than
-/// rounding errors, far less than the curvatures of a chain of 10 000 (1e-8) or any tolerance. Where
-/// particles are jammed in a wedge, impulses may be so large that it leaves a gap nevertheless: it is
-/// dropped if the solution takes long.
+/// Added to the diagonal of W, which is 1. Redundant contacts make W singular: along some
+/// directions the slope and the curvature are only rounding errors, and impulses would move along
+/// them without end. 1e-14 is far above rounding errors, and far below the curvatures of a chain of
+/// 10 000 contacts (1e-8) and below any tolerance. Where particles are jammed in a wedge, impulses
+/// may be so large that this term leaves a gap. It is dropped if the solution takes long.
 constexpr double kRegularisation = 1e-14;
 
-/// Numbers `begin` to `end` as an array of Eigen, whose sums do not wait for each addition.
+/// Entries `begin` to `end` as an array of Eigen, which sums faster because it uses several partial
+/// sums.
 Eigen::Map<Eigen::ArrayXd> part(std::vector<double>& numbers, std::size_t begin, std::size_t end) {
   return {numbers.data() + begin, static_cast<Eigen::Index>(end - begin)};
 }
 
-/// z, its gradient and the direction in which it moves. A sweep is one of symmetric Gauss-Seidel, the preconditioner unless there is a factor, on the
-/// free contacts of one of the pool's blocks by itself: the blocks' sweeps can run at once, and there are as many whatever the threads.
+/// The state of the iteration: z, its gradient g and the direction in which z moves. The
+/// preconditioner is a factor of W, if there is one, and otherwise a sweep of symmetric
+/// Gauss-Seidel over the free contacts. Each block of the thread pool is swept by itself, so that
+/// the blocks can be swept at once. The number of blocks does not depend on the number of threads.
 template <int D>
 class Iteration {
  public:
@@ -58,7 +67,7 @@ class Iteration {
     refresh();
   }
 
-  /// The gradient from z itself, without the rounding of many updates.
+  /// Computes the gradient from z itself, which removes the rounding errors of many updates.
   void refresh() {
     graph_.to_bodies(graph_.z, y_);
     statistics_ = graph_.pool().template sum_of_blocks<PassStatistics>(
@@ -82,8 +91,8 @@ class Iteration {
     refresh();
   }
 
-  /// From now on the preconditioner is a factor of what is free now.
-  /// Returns false if it would not pay, or not be possible.
+  /// Makes a factor of W between the contacts that are free now the preconditioner. Returns false
+  /// if the factor would have too many entries or cannot be computed.
   bool factorise() {
     std::vector<char> active(graph_.count());
     for (std::size_t c = 0; c < graph_.count(); ++c) active[c] = graph_.is_free(c) ? 1 : 0;
@@ -91,22 +100,23 @@ class Iteration {
     return factor_.factorise(graph_, active);
   }
 
-  /// Steps since contacts changed sides.
+  /// Number of steps since the set of free contacts last changed.
   int steps_between_same() const { return steps_between_same_; }
 
-  /// One step. Returns how many products with W it took.
+  /// Makes one step. Returns the number of products with W that it took.
   int step() {
     if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();
     before_ = graph_.z;
     ++steps_between_same_;
-    // Where contacts contradict each other the objective falls nearly for ever.
+    // Where contacts contradict each other, the objective falls almost without end along the
+    // direction.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
     move_and_half_sweep(length);
     if (statistics_.distance_to_bound < 0) return expand(length);
-    // Conjugate: the next direction from the swept gradient and the one before.
+    // The next direction is conjugate to this one.
     const double slope = precondition();
     const double beta = slope / slope_;
     slope_ = slope;
@@ -115,7 +125,8 @@ class Iteration {
   }
 
  private:
-  /// Without branches: which contacts are free is as irregular as the packing.
+  /// This function has no branches, because which contacts are free is irregular in a packing and a
+  /// processor could not predict them.
   static void add(double g, double distance_to_bound, double per_allowed, double per_step,
                   PassStatistics& statistics) {
     statistics.residual =
@@ -128,7 +139,7 @@ class Iteration {
     statistics.distance_to_bound = std::min(statistics.distance_to_bound, distance_to_bound);
   }
 
-  /// z^T W z/2 + b^T z, W regularised.
+  /// Returns the objective z^T W z/2 + b^T z, W with the regularisation.
   double objective() {
     return graph_.pool().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
@@ -150,7 +161,7 @@ class Iteration {
     combine_directions(0);
   }
 
-  /// direction = swept + beta * direction, its displacements and its curvature.
+  /// Sets direction = swept + beta * direction, and computes its displacements and its curvature.
   void combine_directions(double beta) {
     const double square = graph_.pool().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
@@ -161,7 +172,8 @@ class Iteration {
     curvature_ = graph_.combine(y_, beta, y_direction_) + regularisation_ * square;
   }
 
-  /// half_swept = (I + L)^-1 gradient, L the lower triangle of W between the free contacts of a block.
+  /// Sets half_swept = (I + L)^-1 gradient, L the strictly lower triangle of W between the free
+  /// contacts of a block.
   void half_sweep() {
     graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
       auto sums = graph_.block_bodies(begin);
@@ -173,9 +185,10 @@ class Iteration {
     });
   }
 
-  /// z -= length * direction, its gradient and what there is to see then; and half_sweep() in the same
-  /// pass, which reads the same rows.
-  /// Most of the time only the smallest room is looked for: the rest can wait a few steps.
+  /// Subtracts length * direction from z and updates the gradient and the statistics. half_sweep()
+  /// is done in the same pass, because it reads the same rows. In three of four passes only the
+  /// smallest distance to a bound is measured, because the other statistics can wait for a few
+  /// steps.
   void move_and_half_sweep(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
     const bool measure_residuals =
@@ -224,7 +237,7 @@ class Iteration {
       statistics_.distance_to_bound = pass(kNo, kYes).distance_to_bound;
   }
 
-  /// swept = the preconditioner times the gradient, y = B swept. Returns swept.gradient.
+  /// Sets swept to the preconditioner times the gradient, and y = B swept. Returns swept.gradient.
   double precondition() {
     const double product =
         factor_.exists() ? factor_.precondition(graph_, gradient_, swept_) : sweep_back();
@@ -232,7 +245,7 @@ class Iteration {
     return product;
   }
 
-  /// The sweep's way back: swept = (I + L^T)^-1 half_swept. Returns its product with the gradient.
+  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept. Returns swept.gradient.
   double sweep_back() {
     return graph_.pool().template sum_of_blocks<double>(graph_.count(), [&](std::size_t begin,
                                                                             std::size_t end) {
@@ -245,20 +258,23 @@ class Iteration {
         product += s * gradient_[c];
         graph_.add_in_block(c, s, sums.data());
       }
-      if (graph_.count() <= ThreadPool::kBlock) std::swap(y_, sums);  // B swept, there already
+      if (graph_.count() <= ThreadPool::kBlock) std::swap(y_, sums);  // B swept is known already
       return product;
     });
   }
 
-  /// The step of that length led out of the bounds: all of it, cut at them, if that makes the objective fall.
+  /// Handles a step of this length that left the bounds. Keeps all of it, projected on the bounds,
+  /// if the objective falls; otherwise goes to the first bound.
   int expand(double length) {
-    // That of before the step: the objective is quadratic along it.
+    // Objective before the step, from the present value: the objective is quadratic along the
+    // direction.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
     cut();
     return objective() < before ? 1 : 2 + go_to_bound();
   }
 
-  /// From before the step as far as the first bound, if there is one, and a projected gradient step from there: the objective falls.
+  /// Goes from the point before the step to the first bound along the direction, if there is a
+  /// bound, and makes a projected gradient step from there. The objective falls in both.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < graph_.count(); ++c)
@@ -270,7 +286,7 @@ class Iteration {
     return 1 + project_gradient();
   }
 
-  /// A projected gradient step, so short that the objective falls.
+  /// Makes a projected gradient step, so short that the objective does not rise.
   int project_gradient() {
     const auto here = graph_.z;
     const double before = objective();
@@ -281,16 +297,17 @@ class Iteration {
             graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
       });
       refresh();
-      // Of rounding size: nothing is left to gain.
+      // Below this step length the change of the objective is a rounding error.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
-      step_ /= 2;  // one particle has many, and the largest eigenvalue of W is theirs
+      // The largest eigenvalue of W belongs to a particle with many contacts and may exceed 4.
+      step_ /= 2;
       graph_.z = here;
       refresh();
     }
   }
 
-  /// Back within the bounds.
+  /// Projects z on the bounds.
   void cut() {
     graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
@@ -299,13 +316,14 @@ class Iteration {
     refresh();
   }
 
-  /// The best step along the chopped gradient, which leads away from bounds only.
+  /// Makes the best step along the chopped gradient, which moves contacts away from their bounds.
   int leave_bounds() {
     for (std::size_t c = 0; c < graph_.count(); ++c)
       direction_[c] = !graph_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
     const double curvature = graph_.to_bodies(direction_, y_direction_);
-    constexpr double kLongest =
-        1e6;  // of the length where W is 1: contacts that contradict each other
+    // Largest step length, where the length 1 is right for a single contact (W = 1). Contacts that
+    // contradict each other would make the length infinite.
+    constexpr double kLongest = 1e6;
     restart_ = true;
     move_and_half_sweep(std::min(statistics_.chopped_square / curvature, kLongest));
     return 1;
@@ -313,10 +331,11 @@ class Iteration {
 
   ContactGraph<D>& graph_;
   ActiveSetFactor<D>& factor_;
-  /// Length of a projected gradient step. W has the diagonal 1, and in packings of like particles no eigenvalue above 4.
+  /// Length of a projected gradient step. W has the diagonal 1, and in packings of similar
+  /// particles all its eigenvalues are at most 4.
   double step_ = 0.5;
-  std::vector<double> before_;           // z before a step
-  std::vector<double> y_, y_direction_;  // of bodies
+  std::vector<double> before_;           // z before the step
+  std::vector<double> y_, y_direction_;  // displacements B z of bodies [L]
   std::vector<double> gradient_, direction_, half_swept_, swept_;
   PassStatistics statistics_;
   double regularisation_ = kRegularisation;
@@ -324,7 +343,7 @@ class Iteration {
   double curvature_ = 0;  // direction^T W direction
   bool restart_ = true;
   int steps_between_same_ = 0;
-  unsigned passes_since_measurement_ = 0;  // steps
+  unsigned passes_since_measurement_ = 0;
 };
 
 }  // namespace
@@ -334,20 +353,23 @@ SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
                                  ActiveSetFactor<D>& factor) {
   Iteration<D> iteration(graph, factor);
   SolverResult solved;
-  // A factor pays if many iterations between the same contacts have not converged; while contacts
-  // change sides it would soon be out of date. A rough solution, which is only the first part of a
-  // step, has to change many of them and seldom needs a factor. Once there is one, a few iterations
-  // between the same contacts tell that it is of other contacts than are active now. Instructions of
-  // box2d with 1000 discs, in 1e9: 9.97 for 30, 30 and 10; 9.23 for 30, 10 and 10.
+  // A factor pays if many iterations with the same free contacts have not converged. While the set
+  // of free contacts changes, the factor would soon be out of date. A rough solution, the first
+  // part of a step, changes the set often and seldom needs a factor. If a factor exists, a few
+  // iterations without convergence show that it belongs to other contacts than are free now. Box2d
+  // with 1000 discs took 9.97e9 instructions with the values 30 (rough), 30 (accurate) and 10 (with
+  // a factor), and 9.23e9 with 30, 10 and 10.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = graph.is_rough ? 40 : 10;
-  // Newton's method finishes in a few iterations where contacts form hardly a cycle (chains,
-  // columns). There it comes first, and unless the guess is exact: in a long chain small residuals leave large
-  // errors. In packings it may go round, so that it is tried only if all else has taken long.
+  // Newton's method finishes in a few iterations where contacts form almost no cycles (chains,
+  // columns). There it comes first, unless the guess is already exact, because small residuals
+  // leave large errors in a long chain. In packings Newton's method may cycle, so that it is tried
+  // only after many iterations.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
-  constexpr std::size_t kLongChain = 6;  // shorter ones take fewer sweeps than a factor costs
+  constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
   const bool has_chains =
       graph.largest_island > kLongChain && graph.count() < graph.bodies() + graph.bodies() / 8;
+  // A guess with a residual of at most this fraction of the allowed residual counts as exact.
   constexpr double kNearlySolved = 1e-4;
   if (has_chains && iteration.residual() > kNearlySolved) {
     solved = active_set_newton(graph, kNewtonIterations);
@@ -360,7 +382,7 @@ SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
     solved.residual = iteration.residual();
     if (solved.residual <= 1 || solved.iterations >= max_iterations) {
       if (fresh) return solved;
-      iteration.refresh();  // the updated gradient has rounding errors
+      iteration.refresh();  // the updated gradient has accumulated rounding errors
       fresh = true;
       continue;
     }

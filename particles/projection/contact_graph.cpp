@@ -1,3 +1,4 @@
+// Builds the arrays of a ContactGraph and combines displacements (contact_graph.hpp).
 #include "viscontact/particles/projection/contact_graph.hpp"
 
 #include <Eigen/Core>
@@ -57,7 +58,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     if (rows_[c].first != wall) share(rows_[c].first, c, -rows_[c].of_first);
     share(rows_[c].second, c, rows_[c].of_second);
   }
-  // Number the bodies of each block as its contacts name them.
+  // Numbers the bodies of each block in the order in which its contacts name them.
   std::vector<std::int32_t> number(bodies());
   std::vector<std::size_t> numbered_in(bodies(), 0);
   for (std::size_t begin = 0, block = 1; begin < rows_.size();
@@ -65,7 +66,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     std::int32_t named = 0;
     const auto local = [&](std::int32_t body) {
       const auto b = static_cast<std::size_t>(body);
-      if (rows_.size() <= ThreadPool::kBlock) return body;  // one block: all bodies, as they are
+      if (rows_.size() <= ThreadPool::kBlock) return body;  // the only block has all bodies
       if (numbered_in[b] != block) {
         numbered_in[b] = block;
         number[b] = named++;
@@ -85,7 +86,8 @@ double ContactGraph<D>::combine(std::span<const double> y, double factor,
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
-    // Eigen adds to several sums at once, where one sum would wait for each addition.
+    // Eigen adds to several partial sums at once. In a single sum each addition would wait for the
+    // last.
     const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
     const auto per_mobility =
         Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);

@@ -1,4 +1,7 @@
-// The projection of one time step in flat arrays: contacts, bodies, and the two loops that every method is made of.
+// The dual problem (5.4) of docs/physics.md for one time step, in flat arrays of contacts and
+// bodies, and the two products with W that all methods use. Lengths, masses and times are in the
+// units of the case. A change must keep the order of all sums, because the results must not depend
+// on the threads.
 #pragma once
 
 #include <algorithm>
@@ -13,35 +16,47 @@
 
 namespace viscontact::particles {
 
-/// Two particles that may touch in this step, or a particle and a plane.
+/// A contact in the projection: two particles that may touch in this step, or a particle and a
+/// plane.
 template <int D>
 struct Contact {
-  std::int32_t first = -1;       ///< particle, or -1: `second` meets a plane
-  std::int32_t second = 0;       ///< particle
-  std::array<double, D> normal;  ///< e_ij, unit, from first (or the plane) to second
-  double gap = 0;      ///< D_ij at the step's begin, of a plane at the place of its end [L]
-  double gamma = 0;    ///< gamma_ij^n <= 0 [M L/T]
-  double impulse = 0;  ///< h lambda_ij [M L/T] >= gamma: a guess, then the solution
-  double allowed =
-      0;  ///< how far it may be from its conditions when the step has converged [L], > 0
-  double tolerated = 0;  ///< overlap that is not pushed out [L], >= 0: `gap` is D plus this
+  /// Number of a particle; -1 if `second` meets a plane.
+  std::int32_t first = -1;
+  std::int32_t second = 0;       ///< number of a particle
+  std::array<double, D> normal;  ///< e_ij, unit normal from first (or the plane) to second
+  /// D_ij at the begin of the step, for a plane at its position at the end of the step, plus
+  /// `tolerated` [L].
+  double gap = 0;
+  double gamma = 0;  ///< gamma_ij^n [M L/T], <= 0
+  /// p_ij = h lambda_ij [M L/T], >= gamma: first a guess, then the solution.
+  double impulse = 0;
+  /// Largest residual with which the contact counts as converged [L], > 0.
+  double allowed = 0;
+  double tolerated = 0;  ///< overlap that is not pushed out [L], >= 0
 };
 
-/// physics.md (5), one step, in impulses p = h lambda. With u* = u^n + h f^n and the displacements h v = h u* + h M^-1 G^T p,
+/// The dual problem (5.4) of docs/physics.md, in impulses p = h lambda. With u* = u^n + h f^n, the
+/// displacements are h v = h u* + h M^-1 G^T p, and the problem is
 ///
-///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,     W = h G M^-1 G^T,  b = D + h G u*   (gradient: D + h G v).
+///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
+///     W = h G M^-1 G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.
 ///
-/// For gamma^n = 0 that is p >= 0, D + h G v >= 0, one of them 0. For gamma^n < 0 the pair is held at D + h G v = 0 by as much pull as its film has
-/// left, -gamma^n: the impulse that is then missing lets it go within the step, the others' impulses known.
+/// If gamma_ij^n = 0, the solution has p_ij >= 0 and D_ij + h G_ij v >= 0, and one of them is 0. If
+/// gamma_ij^n < 0, a pull of at most -gamma_ij^n keeps D_ij + h G_ij v = 0. If more would be
+/// needed, the pair separates within the step. All contacts are decided together.
 ///
-/// Here in units in which W has the diagonal 1: with w = W_cc = h/m_i + h/m_j, z = sqrt(w) p. What impulses z do to the bodies is their displacements
-/// y = h M^-1 G^T p, B z for short; the gradient of contact c is then b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w), and z^T W z = sum |y_b|^2 m_b/h.
+/// The code scales the problem so that W has the diagonal 1. With w = W_cc = h/m_i + h/m_j of
+/// contact c, the unknowns are z = sqrt(w) p. B z denotes the displacements y = h M^-1 G^T p that
+/// the scaled impulses z cause. The gradient of contact c and the quadratic form are then
+///
+///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
 class ContactGraph {
  public:
   using Vec = std::array<double, D>;
 
-  /// `displacements`: h u* of each body, flat [L]; `mobilities`: h/m of each [T/M]. A plane is one body more.
+  /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
+  /// All planes together are one additional body, which does not move.
   ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                std::span<const double> mobilities, ThreadPool& pool);
 
@@ -49,16 +64,21 @@ class ContactGraph {
   std::size_t bodies() const { return offsets_.size() - 1; }
   ThreadPool& pool() const { return *pool_; }
 
-  std::vector<double> z;            ///< scaled impulses
-  std::vector<double> bound;        ///< of z: sqrt(w) gamma^n
-  std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
-  std::vector<double> scale;        ///< sqrt(w)
-  std::vector<double> per_allowed;  ///< scale over the residual that is allowed of the contact
-  std::size_t largest_island = 0;   ///< how many bodies are connected by contacts, at most
-  /// Whether the solution only has to show which other contacts take part.
+  /// Scaled impulses z = sqrt(w) p.
+  std::vector<double> z;
+  /// Lower bound of z: sqrt(w) gamma^n.
+  std::vector<double> bound;
+  /// b/sqrt(w): the gradient at z = 0.
+  std::vector<double> linear_term;
+  std::vector<double> scale;  ///< sqrt(w)
+  /// `scale` divided by the residual that is allowed of the contact.
+  std::vector<double> per_allowed;
+  /// Number of bodies of the largest island.
+  std::size_t largest_island = 0;
+  /// True if the solution serves only to find which other contacts take part.
   bool is_rough = false;
 
-  /// y = B z, D numbers a body. Returns z^T W z.
+  /// Computes y = B z, D numbers for each body [L]. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) const {
     return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
       double form = 0;
@@ -80,26 +100,29 @@ class ContactGraph {
     });
   }
 
-  /// into = y + factor * into, the same combination of displacements. Returns the form z^T W z of the sum.
+  /// Replaces `into` by y + factor * into, both displacements of the form B z. Returns z^T W z of
+  /// the sum.
   double combine(std::span<const double> y, double factor, std::span<double> into) const;
 
-  /// (W z)_c of y = B z: what the displacements change of the gradient of contact c.
+  /// Returns (W z)_c for y = B z: the part of the gradient of contact c that the displacements
+  /// cause.
   double to_contact(std::size_t c, const double* y) const {
     const auto& row = rows_[c];
     return product(row, y + static_cast<std::size_t>(row.first) * D,
                    y + static_cast<std::size_t>(row.second) * D);
   }
 
-  /// y += B (change of z_c).
+  /// Adds B (change of z_c) to y.
   void add(std::size_t c, double change, double* y) const {
     const auto& row = rows_[c];
     add(row, change, y + static_cast<std::size_t>(row.first) * D,
         y + static_cast<std::size_t>(row.second) * D);
   }
 
-  // The same two within a block of the pool, on the block's own bodies: another block's contacts do not see them.
+  // The same two operations within one block of the thread pool, on the bodies of this block only:
+  // they do not see the contacts of other blocks.
 
-  /// Zero for each body of the block that begins at contact `begin`, D numbers each.
+  /// Returns zeros, D numbers for each body of the block that begins at contact `begin`.
   std::vector<double> block_bodies(std::size_t begin) const {
     return std::vector<double>(block_bodies_[begin / ThreadPool::kBlock] * D);
   }
@@ -114,7 +137,8 @@ class ContactGraph {
 
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
-  /// Calls visit(c', W_cc') for each contact c' that has a particle in common with c, but for c itself, whose W_cc is 1.
+  /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. W_cc is
+  /// 1. If two contacts share both particles, `visit` is called twice.
   template <class Visit>
   void visit_neighbours(std::size_t c, const Visit& visit) const {
     const auto& row = rows_[c];
@@ -133,31 +157,34 @@ class ContactGraph {
     visit_at(row.second, row.of_second);
   }
 
-  /// How far contact c is from its conditions, |min(D + h G v, w (p - gamma^n))|, over what is
-  /// allowed of it, at impulse z_c with gradient g_c. The contact has converged where it is <= 1.
+  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c, divided by the residual that is
+  /// allowed of it, for impulse z_c and gradient g_c. The contact has converged if this is at most
+  /// 1.
   double residual(std::size_t c, double z_c, double gradient) const {
     return per_allowed[c] * std::abs(std::min(gradient, z_c - bound[c]));
   }
 
-  /// h lambda of the contacts, in the order in which they were given.
+  /// Sets `impulses` to h lambda of the contacts [M L/T], in the order in which they were given.
   void impulses(std::span<double> impulses) const {
-    // A film that is spent has given all that it had taken, not all but rounding.
+    // A contact at its bound returns exactly gamma, so that no rounding error of z/scale remains in
+    // the new gamma.
     for (std::size_t c = 0; c < count(); ++c)
       impulses[c] = z[c] == bound[c] ? gamma_[c] : z[c] / scale[c];
   }
 
  private:
   struct Row {
-    std::int32_t first, second;  // of a plane: a body that does not move, the last
+    // The number of a plane is that of the last body, which does not move.
+    std::int32_t first, second;
     Vec normal;
     double per_root;             // 1/sqrt(w)
     double of_first, of_second;  // (h/m)/sqrt(w)
   };
   struct Share {
     std::int32_t contact;
-    Vec push;  // of a z of 1
+    Vec push;  // displacement of the body for z = 1
   };
-  // Discs' vectors are one register, and GCC 12 does not see it.
+  // The vectors of discs fit into one register, but GCC 12 does not use it without this type.
   using Pair [[gnu::vector_size(16)]] = double;
   static Pair pair(const double* from) { return Pair{from[0], from[1]}; }
 
@@ -179,13 +206,14 @@ class ContactGraph {
   }
 
   std::vector<Row> rows_;
-  std::vector<double> gamma_;  // as given
-  std::vector<std::array<std::int32_t, 2>>
-      in_block_;                           // first, second, among the bodies of the contact's block
-  std::vector<std::size_t> block_bodies_;  // how many bodies each block has
-  std::vector<std::int32_t> offsets_;      // of the shares of each body
-  std::vector<Share> shares_;              // in order of contacts
-  // m/h of each displacement, D numbers a body; 0 of the body that does not move.
+  std::vector<double> gamma_;  // gamma of the contacts, as given
+  // Numbers of first and second among the bodies of the contact's block.
+  std::vector<std::array<std::int32_t, 2>> in_block_;
+  // Number of bodies of each block.
+  std::vector<std::size_t> block_bodies_;
+  std::vector<std::int32_t> offsets_;  // begin of the shares of each body
+  std::vector<Share> shares_;          // for each body, in the order of its contacts
+  // m/h of each displacement [M/T], D equal numbers for each body; 0 for the body of the planes.
   std::vector<double> inverse_mobilities_;
   ThreadPool* pool_;
 };

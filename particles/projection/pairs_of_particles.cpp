@@ -1,3 +1,4 @@
+// Lists the pairs of each particle (pairs_of_particles.hpp).
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
 
 namespace viscontact::particles {

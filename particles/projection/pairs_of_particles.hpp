@@ -1,4 +1,5 @@
-// Which films the closing of others may close in turn.
+// The pairs of a state as a graph of particles, to find which gaps the closing of other gaps may
+// close in turn.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +11,17 @@
 
 namespace viscontact::particles {
 
-/// The films between particles as a graph: a blow on one end of a chain closes its films one after
-/// the other, and whoever solves for the contacts wants to know them at once.
+/// Graph of the pairs of particles. A blow on one end of a chain closes its gaps one after the
+/// other. This class finds all of them at once, so that the solver need not find them one by one.
 class PairsOfParticles {
  public:
   explicit PairsOfParticles(const State& state);
 
-  /// The films of `start` and those that are reached from their particles over at most `depth`
-  /// films for which `may_close(film number)`, of which `may_close` is asked once each. Pairs only:
-  /// a plane passes on no blow. Numbers are those of state.pairs.
+  /// Returns `start` and all pairs that are connected with it through at most `depth` pairs for
+  /// which `may_close(number of the pair)` is true. may_close is called at most once for each pair.
+  /// `start` may contain particles at planes, but the search follows pairs of particles only,
+  /// because a plane passes on no blow. Pairs have their numbers in state.pairs; walls follow after
+  /// them.
   template <class Predicate>
   std::vector<std::size_t> reached(std::span<const std::size_t> start, int depth,
                                    const Predicate& may_close) const {
@@ -58,7 +61,7 @@ class PairsOfParticles {
  private:
   const State* state_;
   std::size_t pairs_;
-  std::vector<std::size_t> offsets_, films_;  // the films of each particle
+  std::vector<std::size_t> offsets_, films_;  // the pairs of each particle
 };
 
 }  // namespace viscontact::particles

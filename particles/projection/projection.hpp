@@ -1,4 +1,5 @@
-// The method that solves the projection of a time step.
+// The method that solves the projection (5.4) of a time step. Impulses and residuals are scaled as
+// contact_graph.hpp says.
 #pragma once
 
 #include "viscontact/particles/projection/active_set_factor.hpp"
@@ -6,22 +7,25 @@
 
 namespace viscontact::particles {
 
-/// What the method reached.
+/// What the method returns.
 struct SolverResult {
   int iterations = 0;
-  double residual = 0;  ///< largest ContactGraph::residual; the contacts have converged if <= 1
+  /// Largest ContactGraph::residual. All contacts have converged if it is at most 1.
+  double residual = 0;
 };
 
-/// Projected conjugate gradients (MPRGP: Dostal & Schoeberl 2005, "Minimizing quadratic functions
-/// subject to bound constraints with the rate of convergence and finite termination"): conjugate
-/// gradients, preconditioned by symmetric Gauss-Seidel, while the set of active contacts stays, and
-/// projected steps where it changes. If that does not converge soon and a sparse factor of W is
-/// cheap, active_set_newton.hpp finishes it.
+/// Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
+/// "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
+/// finite termination"). While the set of active contacts stays the same, it makes conjugate
+/// gradient steps, preconditioned by symmetric Gauss-Seidel; where the set changes, projected
+/// gradient steps. If these do not converge soon and a sparse factor of W is cheap, the factor
+/// becomes the preconditioner (active_set_factor.hpp). Newton's method (active_set_newton.hpp)
+/// solves chains of contacts and helps if all else takes long.
 ///
-/// Improves graph.z from its guess until each contact's residual is at most what is allowed of it, or
-/// the iterations are used up. Impulses of redundant contacts, of which the velocities determine only
-/// sums, depend on the guess. `factor` is that of earlier solves on the same graph, perhaps with fewer
-/// contacts; it is used and replaced.
+/// Improves graph.z, which begins as a guess, until all residuals are at most 1 or `max_iterations`
+/// are done. Redundant contacts have impulses of which the velocities determine only sums; their
+/// values depend on the guess. `factor` belongs to earlier solves of the same step, whose graph may
+/// have had fewer contacts. It is used and replaced.
 template <int D>
 SolverResult conjugate_gradients(ContactGraph<D>& graph, int max_iterations,
                                  ActiveSetFactor<D>& factor);

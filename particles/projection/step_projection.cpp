@@ -1,3 +1,5 @@
+// Chooses the contacts of a step, solves the projection in rounds, and measures residuals
+// (step_projection.hpp). Lengths, masses and times are in the units of the case.
 #include "viscontact/particles/projection/step_projection.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +14,10 @@
 namespace viscontact::particles {
 namespace {
 
-/// Neighbours in the list share particles, so that in a sweep each contact would wait for the
-/// result of the one before it. The order interleaves three parts of the list that are far from
-/// each other, within each block of the threads. Measured on box2d, 1 to 6 parts take 8.4, 6.8,
-/// 6.4, 7.0, -, 7.2 ms a step.
+/// Puts pairs in an order in which a sweep is fast. Neighbours in the list share particles, so that
+/// in a sweep each contact would wait for the result of the contact before it. This order takes
+/// contacts from three distant parts of the list in turn, within each block of the thread pool. On
+/// box2d, 1, 2, 3, 4 and 6 parts take 8.4, 6.8, 6.4, 7.0 and 7.2 ms a step.
 std::vector<std::size_t> interleaved(const std::vector<std::size_t>& films) {
   constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
@@ -49,14 +51,15 @@ Contact<D> StepProjection<D>::contact(std::size_t f) {
   return resolved_contact_of<D>(state_.particles, film(f), planes_, tolerated_);
 }
 
-/// Whether the displacements close the film's gap.
+/// True if the displacements close the gap of pair f.
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t f) {
   if (film(f).first >= 0 && cannot_close<D>(state_.particles, film(f), displacements_))
     return false;
   const auto here = contact_of<D>(state_.particles, film(f), planes_);
   const double gap = gap_after(here, displacements_);
-  // Rounding errors matter to the few gaps that are nearly closed; these are cheaper to tell.
+  // Rounding errors matter only for gaps that are nearly 0. This test finds the others at less
+  // cost; 1e-12 of the positions is far above the rounding errors of resolved_contact_of().
   constexpr double kNear = 1e-12;
   if (gap > 0) {
     const auto& p = state_.particles;
@@ -87,13 +90,14 @@ std::vector<std::size_t> StepProjection<D>::closed_by_free_motion() {
       .values;
 }
 
-/// The body that stands for all that are connected with this one by chosen contacts.
+/// Returns the root of the island of `body`: the body that stands for all bodies that chosen
+/// contacts connect with it (union-find).
 template <int D>
 std::int32_t StepProjection<D>::island(std::int32_t body) {
   for (;;) {
     auto& of = island_of_[static_cast<std::size_t>(body)];
     if (of == body) return body;
-    of = island_of_[static_cast<std::size_t>(of)];  // halves the way of the next
+    of = island_of_[static_cast<std::size_t>(of)];  // path halving
     body = of;
   }
 }
@@ -134,8 +138,9 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& films) {
   }
 }
 
-/// The impulses at work on a particle that moves as `moves` says [L] where nothing else touches it:
-/// the larger of what forces and gravity give it in the step and of its change of momentum.
+/// Impulse at work on a particle that takes part in no other contact: the larger of what forces and
+/// gravity give it in the step and of its change of momentum [M L/T]. `moves` is its
+/// displacement h u* [L].
 template <int D>
 typename StepProjection<D>::ParticleScale StepProjection<D>::scale_of_particle(
     std::int32_t particle, const double* moves) const {
@@ -153,8 +158,8 @@ typename StepProjection<D>::ParticleScale StepProjection<D>::scale_of_particle(
   return scale;
 }
 
-/// Finds the impulses at work on each body: its own, those of its contacts, and what would stop a
-/// contact that still closes.
+/// Finds the impulse at work on each body: the largest of its own (scale_of_particle), the impulses
+/// of its contacts, and the impulses that would stop contacts that still close.
 template <int D>
 void StepProjection<D>::find_impulses_at_work() {
   body_scales_.clear();
@@ -166,7 +171,7 @@ void StepProjection<D>::find_impulses_at_work() {
     double w = body_mobilities_[static_cast<std::size_t>(now.second)];
     if (now.first >= 0) w += body_mobilities_[static_cast<std::size_t>(now.first)];
     const double gap = gap_after(geometry_[c], displacements_);
-    // A film that is held pulls where its gap opens.
+    // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
     const double impulse =
         std::max(std::abs(now.impulse), (now.gamma < 0 ? std::abs(gap) : -gap) / w);
     for (const auto body : {now.first, now.second})
@@ -179,12 +184,13 @@ void StepProjection<D>::find_impulses_at_work() {
   }
 }
 
-/// The impulses at work in a contact are the smaller of those at work on its particles: an impulse
-/// that is small for a heavy particle may be all that moves a light one. The rounding errors are
-/// those of the gap, of the particles' displacements, and of a solution for the impulses of all
-/// contacts that this one is connected with.
+/// Scales of a contact. Of the impulses at work on its two particles the smaller counts, because an
+/// impulse that is small for a heavy particle may be all that moves a light one. The rounding
+/// errors are those of the gap, of the displacements of its particles, and of a solution for the
+/// impulses of all contacts of its island.
 template <int D>
 typename StepProjection<D>::Scale StepProjection<D>::scale_of(const Contact<D>& here) {
+  // Rounding errors are taken as 128 units in the last place of the lengths that are added below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
   Scale scale{0, std::numeric_limits<double>::infinity(), std::abs(here.gap)};
   double around = 0;
@@ -205,14 +211,16 @@ typename StepProjection<D>::Scale StepProjection<D>::scale_of(const Contact<D>& 
   return scale;
 }
 
-/// Sets the residual [L] that is allowed of each chosen contact.
+/// Sets the allowed residual of each chosen contact: at most `length` [L], and at most `fraction`
+/// of the impulses at work.
 template <int D>
 void StepProjection<D>::allow(double length, double fraction) {
   find_impulses_at_work();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const auto& here = geometry_[c];
     const auto scale = scale_of(here);
-    // Half, so that examine() does not find more than is allowed by other rounding errors.
+    // Half of the allowed residual leaves room for the rounding errors of examine(), which computes
+    // the residuals in another way.
     contacts_[c].allowed = scale.allowed(length, fraction) / 2;
   }
 }
@@ -234,9 +242,10 @@ SolverResult StepProjection<D>::solve_chosen(bool is_rough, int iterations) {
   return solved;
 }
 
-/// Measures the residuals of the solution, with the impulses that it has set to work; those of the
-/// chosen contacts only if `is_final`. Returns the films not yet chosen whose particles take part and
-/// whose gap is now closed; all others are as the free motion left them.
+/// Measures the residuals of a solution, by the impulses at work in it. The residuals of the chosen
+/// contacts are measured only if `is_final`. Returns the pairs that are not chosen yet, have a
+/// particle that takes part, and whose gap is now closed. No other pair needs a test, because its
+/// particles move freely.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settings,
                                                     double mean_radius, bool is_final,
@@ -247,7 +256,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.excess = 0;
   result.unresolved = 0;
   result.film_errors.resize(contacts_.size());
-  // Whether the contact has a larger residual than is allowed.
+  // Records a residual and returns true if it is larger than allowed.
   const auto record_residual = [&](double residual, const Scale& scale) {
     result.residual = std::max(result.residual, residual);
     const double allowed =
@@ -294,8 +303,9 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   return closed;
 }
 
-/// `films` and those behind them that they may close in turn: a blow goes through a chain of
-/// particles, and would otherwise be followed by one particle in each round.
+/// Returns `films` and, from the third round on, also the pairs that they may close in turn. A blow
+/// goes through a chain of particles; without this function each round would find only the next
+/// one. The depth of the search is 1 in the third round and doubles in each further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_pairs_reached_from(
     const std::vector<std::size_t>& films, int round) {
@@ -323,12 +333,13 @@ std::vector<std::size_t> StepProjection<D>::with_pairs_reached_from(
 template <int D>
 ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double mean_radius) {
   ProjectionResult result;
-  // The other half is for the overlap that this step may add.
+  // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
   choose(closed_by_free_motion());
-  // The rough solution's length, in mean radii: box2d with 1000 discs takes as long with 5e-4 to
-  // 2e-3, and a tenth longer with 3e-3. Its fraction of the impulses at work: rounding errors, which
-  // bound what a solution can reach, are known only when the impulses are, if roughly.
+  // Length of the rough solution, in mean radii: box2d with 1000 discs takes as long with 5e-4 to
+  // 2e-3, and a tenth longer with 3e-3. The fraction of the impulses at work is 1, because rounding
+  // errors, which limit the accuracy of a solution, are known only when the impulses are roughly
+  // known.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;
@@ -342,7 +353,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.converged || is_last) break;
-    // A solution that gets no closer in several rounds has reached its rounding errors.
+    // A solution that does not improve in several rounds has reached its rounding errors.
     constexpr int kPatience = 10;
     waited = more.empty() && !is_rough && result.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;

@@ -1,4 +1,5 @@
-// The projection of a step, on the contacts and particles that take part in it.
+// Solves the projection (5.3) of one step on the contacts and particles that take part in it:
+// chooses them, sets their tolerances, and checks the solution. Units are those of the case.
 #pragma once
 
 #include <cstdint>
@@ -15,35 +16,41 @@
 
 namespace viscontact::particles {
 
-/// What the projection of a step found.
+/// Result of the projection of a step.
 struct ProjectionResult {
   int iterations = 0;
   bool converged = true;
-  double residual = 0;          ///< largest of a contact's conditions, over all films [L]
-  double impulse_residual = 0;  ///< the same as an impulse, over the impulses at work there
-  double excess = 0;            ///< largest residual over what is allowed of its contact
-  double smallest_gap = 0;      ///< linearised [L], at most 0
-  Film narrowest;               ///< the film of smallest_gap
-  /// Pairs that exert an impulse while they move tangentially by more than kLargestTurn.
+  double residual = 0;  ///< largest residual of all pairs [L]
+  /// Largest residual as an impulse, divided by the impulses at work in the contact.
+  double impulse_residual = 0;
+  /// Largest residual, divided by the residual that is allowed of the contact.
+  double excess = 0;
+  double smallest_gap = 0;  ///< smallest linearised gap [L], at most 0
+  Film narrowest;           ///< the pair with the smallest gap
+  /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
   std::size_t unresolved = 0;
-  std::vector<Film*> films;          ///< in the projection; their impulses are its solution
-  std::vector<double> film_errors;   ///< residual of each film's impulse [M L/T]
-  std::vector<std::int32_t> bodies;  ///< whose displacements it changed
+  /// Pairs in the projection; their impulses are the solution.
+  std::vector<Film*> films;
+  /// Residual of each impulse [M L/T], in the order of `films`.
+  std::vector<double> film_errors;
+  /// Particles whose displacements the projection changed.
+  std::vector<std::int32_t> bodies;
 };
 
-/// Chooses the films that hold (gamma < 0), that had an impulse in the last step, or whose gap the
-/// free displacements h u* would close, and solves contact_graph.hpp's problem on them and their
-/// particles. Where that closes further gaps, those are chosen too, until none is left. A first
-/// rough solution shows most of the others that are closed, before much work is spent.
+/// Chooses the pairs that are glued (gamma < 0), had an impulse in the last step, or whose gap the
+/// free displacements h u* would close, and solves the problem of contact_graph.hpp for them and
+/// their particles. If the solution closes further gaps, their pairs are added and the problem is
+/// solved again, until no gap is closed. A rough solution comes first, because it finds most of
+/// these pairs with little work.
 ///
-/// The step has converged when each contact's natural residual |min(D + h G v, w (p - gamma))|, D
-/// without the overlap that is tolerated, is at most half of `tolerance` mean radii, and, divided by
-/// w, at most `impulse_tolerance` of the impulses at work on the particle of the contact on which
-/// they are smaller.
+/// The step has converged if the residual |min(D + h G v, w (p - gamma))| of each contact, with D
+/// without the tolerated overlap, is at most half of `tolerance` mean radii, and if the residual
+/// divided by w is at most `impulse_tolerance` of the impulses at work in the contact.
 template <int D>
 class StepProjection {
  public:
-  /// The references outlive the object; `displacements` are h u* on entry, h v after solve().
+  /// All arguments must outlive this object. `displacements` are h u* before solve() and h v after
+  /// it [L]; `mobilities` are h/m [T/M].
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
@@ -60,23 +67,24 @@ class StepProjection {
   void join(std::int32_t island, std::int32_t other);
   void choose(const std::vector<std::size_t>& films);
 
-  /// What residuals of a contact are measured by.
+  /// Scales by which the residual of a contact is measured.
   struct Scale {
     double w = 0;         ///< h (1/m_i + 1/m_j) [T/M]
-    double impulse = 0;   ///< at work in the contact [M L/T]
+    double impulse = 0;   ///< impulses at work in the contact [M L/T]
     double rounding = 0;  ///< rounding errors of the gap after the step [L], > 0
-    /// The residual that is allowed: `length` [L], and `fraction` of the impulses at work, which
-    /// cannot be less than rounding errors.
+    /// Allowed residual [L]: at most `length` [L], and at most the residual that stands for
+    /// `fraction` of the impulses at work. The second limit is never below the rounding errors.
     double allowed(double length, double fraction) const {
       return std::min(length, std::max(fraction * impulse * w, rounding));
     }
   };
   std::vector<std::size_t> with_pairs_reached_from(const std::vector<std::size_t>& films,
                                                    int round);
-  /// What a particle brings to the scales of its contacts.
+  /// Contribution of a particle to the scales of its contacts.
   struct ParticleScale {
-    double impulse = 0;  ///< at work on it [M L/T]
-    double moved = 0;    ///< sum of h |u_d|, the velocity before the step [L]
+    double impulse = 0;  ///< impulse at work on the particle [M L/T]
+    /// Sum over the components d of h |u_d|, u the velocity before the step [L].
+    double moved = 0;
   };
   ParticleScale scale_of_particle(std::int32_t particle, const double* moves) const;
   void find_impulses_at_work();
@@ -94,21 +102,27 @@ class StepProjection {
   std::span<const double> mobilities_;
   ThreadPool& pool_;
   double tolerated_ = 0;  // overlap that is not pushed out [L]
-  // What takes part. Bodies are numbered in the order in which contacts name them.
+  // The pairs and particles that take part. Bodies are particles, numbered in the order in which
+  // the contacts name them.
   std::vector<std::size_t> chosen_;
-  std::vector<char> is_chosen_;       // of all films
-  std::vector<Contact<D>> geometry_;  // between particles, impulses those of the guess
-  std::vector<Contact<D>> contacts_;  // the same between numbered bodies
+  std::vector<char> is_chosen_;  // of each pair in the list
+  // Contacts between particles; their impulses are the first guess.
+  std::vector<Contact<D>> geometry_;
+  // The same contacts between numbered bodies.
+  std::vector<Contact<D>> contacts_;
   std::vector<std::int32_t> bodies_;
-  std::vector<std::int32_t> number_;  // of all particles; -1: does not take part
+  // Body of each particle; -1 if the particle does not take part.
+  std::vector<std::int32_t> number_;
   std::vector<double> free_, body_mobilities_;
-  std::vector<std::int32_t> island_of_;  // of bodies: a body closer to the one that stands for all
-  std::vector<std::size_t> island_sizes_;  // bodies, at the body that stands for all
+  // Islands as a forest: of each body, another body of its island, or itself at the root.
+  std::vector<std::int32_t> island_of_;
+  // Number of bodies of each island, at its root.
+  std::vector<std::size_t> island_sizes_;
   std::size_t largest_island_ = 1;
   std::vector<ParticleScale> body_scales_;
-  // The largest sqrt(w) p of each island, at the body that stands for it.
+  // Largest sqrt(w) p of each island, at its root.
   std::vector<double> island_impulses_;
-  ActiveSetFactor<D> factor_;  // of the solves so far
+  ActiveSetFactor<D> factor_;  // of the last solve that needed it
   std::optional<PairsOfParticles> pairs_of_particles_;
 };
 

@@ -1,40 +1,45 @@
-// One time step of viscous contact: the projection and the memory that the contact models share.
+// One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models share.
+// Lengths, masses and times are in any one consistent system of units. A change must keep the
+// balance m u + G(D) + gamma = int f to round-off while no solid carries load.
 #pragma once
 
 #include <algorithm>
 
 namespace viscontact {
 
-/// A sphere at distance `gap` >= 0 from where contact is, and what the film remembers.
+/// The sphere at the distance D >= 0 from its position in contact, with the memory of the film.
 struct ContactState {
   double gap = 0;       ///< D [L]; 0 in contact
   double velocity = 0;  ///< u [L/T]
   double gamma = 0;     ///< adhesion potential [M L/T], gamma_min <= gamma <= 0; D gamma = 0
 };
 
-/// What is the same in every step of one length.
+/// The constants of all steps of one length.
 struct ContactSetting {
   ContactSetting(double mass_, double gamma_min_, double step_)
       : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
-  double mass;       ///< m [M], > 0
-  double gamma_min;  ///< solid contact [M L/T], <= 0; -infinity: none
-  double step;       ///< h [T], > 0
-  double per_mass, per_step;
+  double mass;  ///< m [M], > 0
+  /// Value of gamma at which the solids touch [M L/T], <= 0; -infinity without solid contact.
+  double gamma_min;
+  double step;                ///< h [T], > 0
+  double per_mass, per_step;  ///< 1/m and 1/h, because a division is slow
 };
 
-/// A step's end, and the impulses [M L/T] that the sphere took in it.
+/// The state at the end of a step, and the impulses [M L/T] that the sphere received in it.
 struct ContactStep {
   ContactState state;
-  double film =
-      0;  ///< of the film that gamma stands for, gamma^n - gamma^{n+1}; < 0 when it holds a pulled sphere
-  double drag = 0;   ///< of the drag that is resolved
-  double solid = 0;  ///< of the solids, >= 0
+  /// From the film that gamma stands for: gamma^n - gamma^{n+1}; < 0 while the film pulls the
+  /// sphere.
+  double film = 0;
+  double drag = 0;   ///< from the resolved drag
+  double solid = 0;  ///< from the solid contact, >= 0
 };
 
-/// Drag that acts at a distance, as contact_step wants it: none.
+/// The resolved drag of problem (P), which is 0. It shows the functions that contact_step() needs.
 struct NoDrag {
   static constexpr bool kResolved = false;
-  /// The velocity v with m v + G(D + h v) - G(D) = momentum, G the drag's impulse (dG/dD = its resistance), where D + h v >= 0.
+  /// The velocity v with m v + G(D + h v) - G(D) = momentum, where D + h v >= 0. G is the impulse
+  /// of the drag, so dG/dD is its resistance.
   double velocity(const ContactSetting& setting, double, double momentum) const {
     return momentum * setting.per_mass;
   }
@@ -42,29 +47,38 @@ struct NoDrag {
   double impulse(double, double) const { return 0; }
 };
 
-/// The scheme of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical simulation of gluey particles") for one
-/// contact, `push` = h f^n the impulse of the external force in the step. With a drag of impulse G(D) (none in problem (P)) it is
+/// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
+/// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the
+/// step, and G(D) the impulse of the resolved drag, which is 0 in problem (P):
 ///
-///     m (u^{n+1} - u^n) = h f^n - (G(D^{n+1}) - G(D^n)) + h lambda,     D^{n+1} = D^n + h u^{n+1},     gamma^{n+1} = gamma^n - h lambda,
-///     D^{n+1} >= 0 and lambda >= 0, one of them 0, if gamma^n = 0;      D^{n+1} = 0 if gamma^n < 0:
+///     m (u^{n+1} - u^n) = h f^n - (G(D^{n+1}) - G(D^n)) + h lambda,
+///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,
+///     D^{n+1} >= 0, lambda >= 0, D^{n+1} lambda = 0   if gamma^n = 0,
+///     D^{n+1} = 0                                     if gamma^n < 0.
 ///
-/// without drag, the projection u^{n+1} = argmin { |v - u^n - h f^n/m|^2_m : D + h v >= 0 if gamma^n = 0, = 0 if gamma^n < 0 }. As the drag
-/// enters by its impulse, what the film takes in the step of impact and gives in that of release is exact, whatever the step:
-/// m u + G(D) + gamma = int f holds to round-off as long as no solid carries.
-/// A step that would bring gamma above 0 releases the sphere with what is left of the momentum. One that would bring it below `gamma_min` leaves it
-/// there: the solid carries the rest.
+/// Without drag this is the projection
+///
+///     u^{n+1} = argmin { m |v - u^n - h f^n/m|^2 : D^n + h v >= 0 if gamma^n = 0,
+///                                                  D^n + h v  = 0 if gamma^n < 0 }.
+///
+/// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
+/// release is exact for every step length: m u + G(D) + gamma = int f holds to round-off as long as
+/// no solid carries load. A step that would raise gamma above 0 releases the sphere with the
+/// momentum that remains. A step that would lower gamma below `gamma_min` sets it to `gamma_min`,
+/// and the solid carries the rest.
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
-  // What the drag has taken; not the difference of two impulses G, which rounds to that of a gap.
+  // Impulse that the drag took in the step. It is computed from the momentum and not as a
+  // difference of two values of G, whose rounding would be that of a gap.
   const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };
   if (!(state.gamma < 0)) {
     const double to_contact = -state.gap * setting.per_step;
     const double of_drag = -drag.impulse(state.gap, 0);
-    // h lambda, if the step ended in contact.
+    // The impulse h lambda that the contact needs if the step ends in contact.
     const double needed = setting.mass * to_contact - of_drag - momentum;
     if (!(needed > 0)) {
       const double velocity = drag.velocity(setting, state.gap, momentum);

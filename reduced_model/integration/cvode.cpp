@@ -1,3 +1,4 @@
+// Calls of SUNDIALS 6 and 7, with all their return codes checked.
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -24,8 +25,8 @@ std::span<double> values(N_Vector vector) {
 }
 
 /// Keeps SUNDIALS from printing its errors, because check() throws each of them as an Error.
-/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, SUNDIALS 7 (Debian 13) a list of
-/// error handlers in the context instead. Returns a code of SUNDIALS, < 0 if it fails.
+/// SUNDIALS 6 (Debian 12) has a file for the errors of each solver, SUNDIALS 7 (Debian 13) a list
+/// of error handlers in the context instead. Returns a code of SUNDIALS, < 0 if it fails.
 int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* memory) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   return SUNContext_ClearErrHandlers(context);
@@ -34,12 +35,13 @@ int print_no_errors([[maybe_unused]] SUNContext context, [[maybe_unused]] void* 
 #endif
 }
 
-constexpr int kTryAgain = 1;  // a positive return value: CVODE may come back with a smaller step
+// A positive return value tells CVODE to try again with a smaller step.
+constexpr int kTryAgain = 1;
 
 }  // namespace
 
-/// The objects of SUNDIALS in the order in which they need each other, and the functions that CVODE
-/// calls. The argument `self` of these functions is the Cvode.
+/// The objects of SUNDIALS, in the order in which they depend on each other, and the functions that
+/// CVODE calls. The argument `self` of these functions is the Cvode.
 struct Cvode::Sundials {
   struct Deleters {
     void operator()(N_Vector vector) const { N_VDestroy(vector); }
@@ -82,14 +84,14 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state)
   check(CVodeWFtolerances(s.memory, Sundials::weights), "CVodeWFtolerances");
   check(CVodeSetUserData(s.memory, this), "CVodeSetUserData");
   check(print_no_errors(s.context, s.memory), "print_no_errors");
-  // A negative number: CVODE never warns of steps below the rounding of the time. SUNDIALS 7 would
-  // print these warnings on standard output.
+  // A negative number turns off all warnings of steps below the rounding of the time. SUNDIALS 7
+  // would print them on standard output.
   check(CVodeSetMaxHnilWarns(s.memory, -1), "CVodeSetMaxHnilWarns");
   check(CVodeSetLinearSolver(s.memory, s.solver.get(), s.matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(s.memory, Sundials::jacobian), "CVodeSetJacFn");
-  // By default CVODE keeps a Jacobian for up to 51 steps. Where the stiffness falls by decades
-  // within a few steps (a film that opens), a Jacobian from before makes Newton's corrections
-  // vanish, and a wrong state passes for a solution. It costs nothing to have it fresh.
+  // By default CVODE keeps a Jacobian for up to 51 steps. When the stiffness falls by decades
+  // within a few steps (a film that opens), an old Jacobian makes Newton's corrections vanish, and
+  // a wrong state is accepted as a solution. A new Jacobian at each step costs almost nothing here.
   check(CVodeSetLSetupFrequency(s.memory, 1), "CVodeSetLSetupFrequency");
   check(CVodeSetJacEvalFrequency(s.memory, 1), "CVodeSetJacEvalFrequency");
 }
@@ -112,7 +114,7 @@ void Cvode::restart(double time, double stop_time, double first_step) {
   steps_before_restart_ = steps();
   time_ = time;
   check(CVodeReInit(sundials_->memory, time, sundials_->state.get()), "CVodeReInit");
-  // A stop time outlives CVodeReInit, so a new one is set each time.
+  // CVodeReInit keeps the old stop time, so the new one is set each time.
   check(CVodeSetStopTime(sundials_->memory, stop_time), "CVodeSetStopTime");
   check(CVodeSetInitStep(sundials_->memory, first_step), "CVodeSetInitStep");
   stop_time_ = stop_time;
@@ -122,12 +124,13 @@ void Cvode::restart(double time, double stop_time, double first_step) {
 void Cvode::step() {
   const double before = time_;
   int code = CVode(sundials_->memory, stop_time_, sundials_->state.get(), &time_, CV_ONE_STEP);
-  // A solution that runs away makes it creep for ever.
+  // A limit, because CVODE would make tiny steps for ever if the solution diverges.
   constexpr long kMostSteps = 1'000'000;
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // Whatever CVODE gave up at in the end: it made no way beyond the time at which the system was asked where it is not defined.
+    // CVODE reports its own last failure. If it did not get beyond the time at which the system was
+    // not defined, up to the relative distance kNoWay, the Error of the system is the cause.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");

@@ -1,6 +1,7 @@
-// SUNDIALS CVODE as a value with RAII: every return code is checked here and nowhere else.
-// No header of SUNDIALS is included here, because those of Debian 13 need MPI's, which users of an
-// installed Viscontact and the tests would have to find.
+// A C++ interface to the integrator CVODE of SUNDIALS (Hindmarsh et al. 2005). Every return code of
+// SUNDIALS is checked in cvode.cpp and nowhere else. This header must include no header of
+// SUNDIALS: those of Debian 13 need the headers of MPI, which the tests and users of an installed
+// Viscontact would then have to find.
 #pragma once
 
 #include <exception>
@@ -11,22 +12,23 @@
 
 namespace viscontact {
 
-/// A stiff system y' = f(t, y) with its Jacobian.
+/// A stiff system y' = f(t, y) with its Jacobian. Each function may throw an Error for a state in
+/// which it is not defined.
 struct StiffSystem {
   int dimension = 0;
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
-  /// Column-major, entry (i, j) = d f_i / d y_j.
+  /// Stored by columns: entry (i, j) = d f_i/d y_j.
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
-  /// For each component, by how much it may be off in a step, > 0.
+  /// The error that is allowed in a step, for each component, > 0.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
 };
 
-/// BDF of variable order and step with Newton's method and dense linear algebra.
-/// An Error thrown by the system (a state that it cannot judge) makes CVODE try a
-/// smaller step; if it persists, it is thrown on from step().
+/// BDF of variable order and step with Newton's method and dense linear algebra. If the system
+/// throws an Error, CVODE tries a smaller step; if the Error persists, step() throws it.
 class Cvode {
  public:
+  /// Starts at time 0 from `state`. restart() must be called before step().
   Cvode(StiffSystem system, std::span<const double> state);
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
@@ -35,28 +37,33 @@ class Cvode {
   /// Replaces the state; restart() must follow.
   void set_state(std::span<const double> state);
 
-  /// Starts afresh at `time` from the present state, never to look past `stop_time`: the system may
-  /// change there. `first_step` > 0 is where CVODE's own guess would be too careful; 0 leaves it to CVODE.
+  /// Starts again at `time` from the present state. The integrator does not evaluate the system
+  /// beyond `stop_time`, where it may change. `first_step` > 0 is the step to try first, for cases
+  /// in which CVODE's own guess is too careful; 0 leaves the choice to CVODE.
   void restart(double time, double stop_time, double first_step = 0);
 
-  /// One step of CVODE's own choice, no further than the stop time. Throws Error(kNotConverged) if CVODE gives up.
+  /// Makes one step of a length that CVODE chooses, at most to the stop time. Throws
+  /// Error(kNotConverged) if CVODE gives up, or the Error of the system.
   void step();
 
-  /// The state at a time within the last step, by CVODE's own polynomial. Component `i`.
+  /// Component `i` of the state at a time within the last step, from the polynomial of CVODE.
   double at(double time, std::size_t i = 0) const;
 
-  /// The same polynomial's coefficients in powers of (time - time()), 2 to 6 of them: cheaper where many times are wanted.
+  /// The 2 to 6 coefficients of that polynomial in powers of (t - time()). They are cheaper than
+  /// at() if the state is needed at many times.
   std::vector<double> expansion(std::size_t i = 0) const;
 
   double time() const { return time_; }
   std::span<const double> state() const;
-  long steps() const;  ///< since construction
+  long steps() const;  ///< number of steps since construction
 
  private:
   struct Sundials;  // the objects of SUNDIALS, and the functions that it calls
 
-  /// Called where the system has thrown: keeps that for whoever asks why, and lets CVODE try again.
+  /// Called when the system has thrown an Error: stores it, and returns the code that makes CVODE
+  /// try a smaller step.
   int keep_error(double time);
+  /// Throws Error(kNotConverged), which names `call`, if `code` of SUNDIALS is an error.
   void check(int code, const char* call) const;
 
   StiffSystem system_;
@@ -65,8 +72,8 @@ class Cvode {
   double stop_time_ = 0;
   long steps_before_restart_ = 0;
   long steps_since_restart_ = 0;
-  std::exception_ptr system_error_;  // the last one that the system threw
-  double system_error_time_ = 0;     // and when
+  std::exception_ptr system_error_;  // the last Error that the system threw
+  double system_error_time_ = 0;     // the time at which it did
 };
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The loop over time of the model `explicit_euler`.
 #include "viscontact/reduced_model/integration/explicit_euler.hpp"
 
 namespace viscontact {
@@ -19,7 +20,8 @@ Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce&
     const double fall = -h * u;
     ++trajectory.steps;
     if (!(q - fall > 0)) {
-      // Where the straight line of this step crosses the plane; there the drag has no value.
+      // The point at which the straight line of this step crosses the wall. The drag is not defined
+      // there.
       const double crossing = t + q / fall * h;
       trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
       break;

@@ -1,3 +1,5 @@
+// The loop over time of the contact models: the resolved drag in a step, the budget, and the
+// contact interval.
 #include "viscontact/reduced_model/models/contact_model.hpp"
 
 #include <algorithm>
@@ -11,7 +13,7 @@
 namespace viscontact {
 namespace {
 
-/// ResolvedDrag at distances D from where contact is.
+/// A ResolvedDrag as a function of the distance D from contact, as contact_step() needs it.
 class DragAtDistance {
  public:
   static constexpr bool kResolved = true;
@@ -24,21 +26,25 @@ class DragAtDistance {
   }
 
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
-    // m v + G(D + h v) - G(D) increases with v, so the root lies between 0 and the velocity without drag. Where the resistance falls with the gap the
-    // function is concave, and Newton's method from rest comes to the root from below; the bracket is for fits that are not so tame.
+    // m v + G(D + h v) - G(D) increases with v, so the root is between 0 and the velocity without
+    // drag. Where the resistance falls with the gap, the function is concave, and Newton's method
+    // from rest converges to the root from below. The bracket makes the method safe for fits
+    // without this property.
     const double free = momentum * setting.per_mass;
     double low = std::max(-distance * setting.per_step, std::min(0.0, free));
     double high = std::max(0.0, free);
     double v = 0;
     double excess = -momentum;
-    constexpr int kMaxSteps = 200;  // bisection alone needs about 60 for each factor of 1e18
+    // A safety limit: bisection alone needs about 60 steps for each factor of 1e18.
+    constexpr int kMaxSteps = 200;
     for (int step = 0; step < kMaxSteps && excess != 0; ++step) {
       (excess > 0 ? high : low) = v;
       const double slope = setting.mass + setting.step * drag_.resistance(contact_gap_ + distance +
                                                                           setting.step * v);
       double next = v - excess / slope;
       if (!(next >= low && next <= high)) next = low + (high - low) / 2;
-      // Below the rounding of the gap at the step's end nothing changes any more.
+      // A change of the velocity below its own rounding does not change the gap at the end of the
+      // step.
       constexpr double kRoundOff = 4 * std::numeric_limits<double>::epsilon();
       const bool settled = std::abs(next - v) <= kRoundOff * std::abs(next);
       v = next;
@@ -53,7 +59,8 @@ class DragAtDistance {
   double contact_gap_;
 };
 
-/// The work of an impulse is the impulse times the mean velocity of the step: their sum is the change of kinetic energy, exactly.
+/// Adds a step to the budget. The work of each impulse is the impulse times the mean velocity of
+/// the step, so that the works add up to the change of kinetic energy exactly.
 void book(double velocity_before, double push, const ContactStep& step,
           MomentumEnergyBudget& books) {
   const double velocity = (velocity_before + step.state.velocity) / 2;
@@ -70,7 +77,7 @@ void book(double velocity_before, double push, const ContactStep& step,
   }
 }
 
-/// When contact begins and ends, within the steps.
+/// Finds within the steps when contact begins and ends.
 class ContactClock {
  public:
   explicit ContactClock(double mass) : mass_(mass) {}
@@ -81,14 +88,14 @@ class ContactClock {
         step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
     const double h = next - time;
     if (contact && !touching_) {
-      // At the velocity of the step without contact it arrives after this share of it.
+      // Without contact the sphere would reach the contact gap after this share of the step.
       const double fall = -(before.velocity + push / mass_) * h;
       if (!interval_) interval_ = {time + h * (before.gap < fall ? before.gap / fall : 0), next};
     }
     if (contact) {
       (*interval_)[1] = next;
     } else if (touching_) {
-      // The momentum that the step brings lifts gamma to 0 after this share of it.
+      // The momentum that the step brings raises gamma to 0 after this share of the step.
       const double rise = mass_ * before.velocity + push;
       const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
       (*interval_)[1] = time + h * std::min(1.0, share);
@@ -103,7 +110,8 @@ class ContactClock {
   bool touching_ = false;
 };
 
-/// Steps from the start to the end, each handed to `add(time, next, step)`.
+/// Makes the steps from the start to the end and calls
+/// `add(time, next, setting, state before, push, force at next, step)` after each.
 template <class Drag, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag, const Add& add) {
   const double end = motion.end_time;
@@ -125,7 +133,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   }
 }
 
-/// When the force changes its sign; nothing where it does so more often than can be followed: the steps' means are all there is of it then.
+/// The times at which the force changes its sign. Nothing if it does so too often to be followed;
+/// the lowest gamma then is that at the ends of the steps.
 std::vector<double> turns_of(const Motion& motion) {
   try {
     return motion.external_force.sign_changes(motion.end_time);
@@ -175,7 +184,8 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
     book(before.velocity, push, step, books);
     clock.look_at(t, next, before, push, step);
     lowest_gamma = std::min(lowest_gamma, after.gamma);
-    // Held through a step in which the force turns: gamma is lowest in between.
+    // If contact lasts through a step in which the force changes its sign, gamma is lowest at that
+    // time.
     for (; turn != turns.end() && *turn < next; ++turn)
       if (*turn > t && before.gamma < 0 && after.gamma < 0)
         lowest_gamma = std::min(

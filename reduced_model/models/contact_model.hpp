@@ -1,5 +1,6 @@
-// The loop over time that the contact models share; each says what its drag is and where its
-// contact stands.
+// The loop over time that all contact models share (physics.md (4.5) to (4.7)). A model gives it
+// its resolved drag and the gap at which it makes contact. Lengths, masses and times are in any one
+// consistent system of units.
 #pragma once
 
 #include <functional>
@@ -12,30 +13,41 @@
 
 namespace viscontact {
 
-/// Drag that acts at a distance, as functions of the gap q [L].
+/// A drag that acts at a distance, as functions of the gap q [L].
 struct ResolvedDrag {
-  std::function<double(double gap)> resistance;  ///< [M/T]
-  std::function<double(double gap)> impulse;     ///< its primitive [M L/T]
+  /// Resistance [M/T].
+  std::function<double(double gap)> resistance;
+  /// A primitive of the resistance [M L/T].
+  std::function<double(double gap)> impulse;
 };
 
+/// What distinguishes one contact model from another.
 struct ContactModel {
-  double contact_gap = 0;  ///< q at which the sphere is in contact [L], >= 0
-  double gamma_min =
-      0;  ///< solid contact [M L/T], <= 0; -infinity: none; 0: no film, plain inelastic contact
-  std::optional<ResolvedDrag> drag;                    ///< none: only f_ext acts at a distance
-  std::function<double(double gamma)> film_thickness;  ///< the gap that gamma stands for [L]
-  std::string film_law{};  ///< that function as a formula, for the heads of files
+  /// Gap at which the sphere is in contact [L], >= 0.
+  double contact_gap = 0;
+  /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: no solid contact. 0: no
+  /// film, so plain inelastic contact.
+  double gamma_min = 0;
+  /// The resolved drag; nothing if only f_ext acts at a distance.
+  std::optional<ResolvedDrag> drag;
+  /// Thickness [L] of the film that a value of gamma [M L/T] stands for.
+  std::function<double(double gamma)> film_thickness;
+  /// That function as a formula, for the heads of files.
+  std::string film_law{};
 };
 
-/// Contact at q = 0 of which the film remembers k ln q. The sphere starts with gamma = 0 at the gap
-/// q0, so by the first integral k ln q = k ln q0 + gamma the film is q0 exp(gamma/k) thick, but never
-/// thinner than r1 + r2; at gamma_min = k ln((r1 + r2)/r), where the solids touch, it is r1 + r2.
-/// The resolved drag is left to the caller. Throws Error(kBadInput) if the fit has no positive k.
+/// The contact model with contact at q = 0 and a film that remembers k ln q. The sphere starts with
+/// gamma = 0 at the gap q0. The first integral k ln q = k ln q0 + gamma gives the film thickness
+/// q0 exp(gamma/k), which is at least r1 + r2. At gamma_min = k ln((r1 + r2)/r) the solids touch
+/// and it is r1 + r2. The caller adds the resolved drag. Throws Error(kBadInput) if the fit has no
+/// positive k.
 ContactModel contact_with_leading_term(const Motion& motion, const LubricationForce& force);
 
-/// Steps of contact_step.hpp from the motion's start to its end. A row's lubrication and solid forces are means over the step before it, film
-/// and resolved drag together. The contact interval is found within the steps of impact and release, the force taken as constant in each: off by the scheme's own error of a step. The
-/// lowest gamma, and so the film recovered from it, counts what lies within steps in which the force changes its sign.
+/// Makes the steps of contact_step.hpp from the start of the motion to its end. The forces in a row
+/// are means over the step before it; the lubrication force is that of film and resolved drag
+/// together. The begin and end of contact are found within the steps of impact and release, as if
+/// the force were constant in each; their error is that of the scheme in a step. The lowest gamma,
+/// and so the recovered film, takes account of changes of sign of the force within a step.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The model `inelastic_contact`: a contact model with gamma_min = 0 and no drag.
 #include "viscontact/reduced_model/models/inelastic_contact.hpp"
 
 namespace viscontact {

@@ -1,18 +1,21 @@
-// Contact without memory, to see beside the viscous one.
+// Plain inelastic contact, to compare viscous contact with. Lengths, masses and times are in any
+// one consistent system of units.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact_model.hpp"
 
 namespace viscontact {
 
-/// Plain inelastic contact (Moreau 1988): the sphere stops on the plane and leaves as soon as it is pulled,
+/// Plain inelastic contact (Moreau 1988): the sphere stops on the wall and leaves it as soon as it
+/// is pulled,
 ///
-///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,  u+ = max(u-, 0) where q = 0:
+///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,
+///     u+ = max(u-, 0) where q = 0.
 ///
-/// viscous contact whose film remembers nothing, gamma_min = 0. The drag is not used.
+/// This is viscous contact with gamma_min = 0, a film that remembers nothing. The drag is not used.
 ContactModel inelastic_contact(const Motion& motion, const LubricationForce& force);
 
-/// Runs it (run_contact_model).
+/// Runs this model (run_contact_model).
 Trajectory simulate_inelastic_contact(const Motion& motion, const LubricationForce& force);
 
 }  // namespace viscontact

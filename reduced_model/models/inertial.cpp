@@ -1,5 +1,5 @@
-// Drives CVODE through the equation of inertial_equation.hpp: restarts where the force jumps, rows at
-// the times that are asked for, and rows where the velocity changes its sign.
+// Drives CVODE through the equation of inertial_equation.hpp: it restarts where the force jumps,
+// and makes rows at the required times and where the velocity changes its sign.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <array>
@@ -15,6 +15,7 @@
 namespace viscontact {
 namespace {
 
+/// One integration from the start of the motion to its end.
 class InertialRun {
  public:
   InertialRun(const Motion& motion, const LubricationForce& force)
@@ -23,7 +24,8 @@ class InertialRun {
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
-    trajectory_.rows.reserve(times_.size() + 16);  // some more where the velocity changes its sign
+    // The 16 further rows are for changes of sign of the velocity.
+    trajectory_.rows.reserve(times_.size() + 16);
     add_row(0,
             {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});
   }
@@ -58,15 +60,15 @@ class InertialRun {
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
 
-  /// One step of CVODE; false if it failed and begins afresh.
+  /// Makes one step of CVODE. Returns false if the step failed and CVODE was restarted.
   bool step() {
     try {
       cvode_.step();
       return true;
     } catch (const Error&) {
-      // If the state is off the balance with the film by more than its tolerance, however little
-      // that is, CVODE would have to follow how it comes back, at the rate R/m. It gets one chance
-      // at each time to begin afresh, from the balance.
+      // If the state differs from the balance of forces in the film by more than its tolerance,
+      // CVODE would have to follow how it returns to the balance, at the rate R/m. It gets one
+      // chance at each time to restart from the balance.
       if (now_ <= given_up_at_) throw;
       given_up_at_ = now_;
       const double q = gap();
@@ -78,15 +80,15 @@ class InertialRun {
   }
 
   InertialInstant instant_of(double t, double s) const {
-    // At the stop the force has jumped already; the velocity has not.
+    // At the stop time the force has jumped, but the velocity has not.
     const double force_time = t == stop_ ? std::nextafter(stop_, last_stop_) : t;
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
 
-  /// The rows within the step that has just been made, whose end is `now`.
+  /// Adds the rows within the step that has just been made, whose end is `now`.
   void add_rows_of_step(const InertialInstant& now) {
     const double end = cvode_.time();
-    // An expansion of s in powers of t - end pays where many rows lie in the step.
+    // If many rows are in the step, an expansion of s in powers of t - end is cheaper than at().
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
@@ -123,11 +125,12 @@ class InertialRun {
 
   const Motion& motion_;
   InertialEquation equation_;
-  double now_ = 0;  // end of the last step, or where CVODE restarts
+  double now_ = 0;  // end of the last step, or time of the restart
   Cvode cvode_;
-  double stop_ = 0, last_stop_ = 0;  // the next and the last jump of f_ext
-  double given_up_at_ = -1;
-  double last_sign_ = 0;  // of the velocity where it was last beyond its error
+  double stop_ = 0, last_stop_ = 0;  // next and last jump of f_ext
+  double given_up_at_ = -1;          // time at which CVODE failed last; -1: it never did
+  // Sign of the velocity when it was last larger than its error.
+  double last_sign_ = 0;
   std::vector<double> times_;
   std::vector<double>::const_iterator next_row_;
   Trajectory trajectory_;

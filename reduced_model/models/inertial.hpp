@@ -1,4 +1,5 @@
-// The sphere with its inertia, by CVODE.
+// The motion of the sphere with its inertia and the whole drag, integrated by CVODE. Lengths,
+// masses and times are in any one consistent system of units.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -7,19 +8,21 @@
 
 namespace viscontact {
 
-/// Integrates problem (M) with CVODE, in the form (S) of inertial_equation.hpp.
+/// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.
 ///
-/// The equation is stiff, because the film damps at the rate R/m, but errors of s die out in the film
-/// and do not add up. (I) holds by construction and is no check of this model; its checks are exact
-/// states (data/reference/limit_case_states.csv) and an integration of (M) in extended precision.
+/// The equation is stiff, because the film damps at the rate R/m. Errors of s decay in the film and
+/// do not add up. The first integral holds by construction, so it is no check of this model. Its
+/// checks are exact states (data/reference/limit_case_states.csv) and an integration of (M) in
+/// extended precision.
 ///
-/// CVODE stops where f_ext or its slope jumps, and restarts. Rows: every motion.reference_time_step,
-/// the jumps, and the instants at which u = 0 (extrema of q). The error of s is at most a tenth of
-/// motion.inertial_relative_tolerance in a step, and 3e-4 of that in flight. A fall that a film stops
-/// within 1e-12 of t, which no step can resolve, ends in that film at once.
+/// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
+/// motion.reference_time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in
+/// a step is at most a tenth of motion.inertial_relative_tolerance, and 3e-4 of that in free
+/// flight. If a film stops a fall within 1e-12 of t, which no step can resolve, the fall ends at
+/// once in that film.
 ///
-/// Throws Error(kNotConverged) if CVODE gives up; Error(kBadInput) if the motion leaves the interval of
-/// the fit.
+/// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
+/// interval of the fit.
 Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force);
 
 }  // namespace viscontact

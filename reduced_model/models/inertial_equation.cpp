@@ -1,3 +1,4 @@
+// Equation (S), the tolerances of its integration, and the velocity that belongs to a state.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -31,20 +32,22 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   system.derivative = [this, &step_begin](double t, std::span<const double> y,
                                           std::span<double> derivative) {
     const double q = gap_of(y[0]);
-    // CVODE chooses its first step by the slope at its beginning, which must not be rounding.
+    // CVODE chooses its first step from the slope at its beginning, which must not be mere
+    // rounding.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {
     const double q = gap_of(y[0]);
     jacobian[0] = -force_.resistance(q) / motion_.mass - slope(t, q);
   };
-  // s is a logarithm: its absolute error is the relative error of the gap. A tenth of the tolerance
-  // that the user asks for leaves room for the sum of the steps' errors. In flight the film damps
-  // errors too slowly to forget them before the motion ends, and a landing, in which ln q changes
-  // fast, multiplies errors of time: there only the fraction kFlightShare is allowed.
+  // s is a logarithm, so its absolute error is the relative error of the gap. A tenth of the user's
+  // tolerance in a step leaves room for the sum of the errors of all steps. In free flight the film
+  // damps errors too slowly to forget them before the motion ends, and a landing, in which ln q
+  // changes fast, multiplies errors of time. There only the fraction kFlightShare is allowed.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
-    constexpr double kManyDampings = 10;  // within the motion
+    // Above so many damping times within the motion, errors are forgotten before its end.
+    constexpr double kManyDampings = 10;
     constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
     const double q = gap_of(y[0]);
     const double damping = force_.resistance(q) / motion_.mass + slope(t, q);
@@ -64,13 +67,14 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
                                  motion_.inertial_relative_tolerance * resistance * q) /
                                 m;
-  // With so much inertia the balance below has fewer digits than the momentum, whatever the tolerance.
+  // With so much inertia, and at least three digits in the momentum, the balance below has fewer
+  // digits than the momentum, whatever the tolerance.
   constexpr double kMuchInertia = 1e-2;
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
     return {q, by_momentum, momentum_error, resistance};
-  // With little inertia the velocity follows the force; what remains of earlier times shows in the
-  // momentum.
+  // With little inertia the velocity follows the force. The momentum still contains what remains of
+  // earlier times, so both values are compared.
   const double balance = motion_.external_force.value(force_time) / resistance;
   const double rate = (motion_.external_force.slope(force_time) -
                        balance * balance * force_.resistance_log_slope(q) / q) /
@@ -78,6 +82,7 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double correction = -m / resistance * rate;
   const double neglected =
       std::abs(correction) * std::min(1.0, std::abs(correction) / std::abs(balance));
+  // The balance counts only if both values agree to within a few times the error bound.
   if (neglected < momentum_error &&
       std::abs(balance + correction - by_momentum) < 4 * momentum_error)
     return {q, balance + correction, neglected, resistance};

@@ -1,3 +1,5 @@
+// The registry of models, the suffixes of their names, and the budget of models whose film is the
+// whole drag.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +65,9 @@ constexpr std::array kModels = {
           TimeSteps::kContact},
 };
 
-/// The books of a model whose film is all of the drag: its impulse between two rows is what the force does not explain, its work that times their mean velocity.
+/// The budget of a model whose film is the whole drag. The film's impulse between two rows is the
+/// change of momentum minus the impulse of the force, its work that impulse times the mean
+/// velocity.
 MomentumEnergyBudget books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
                                    bool inertia) {
   MomentumEnergyBudget books;
@@ -83,7 +87,8 @@ MomentumEnergyBudget books_of_drag(const std::vector<TrajectoryRow>& rows, const
   return books;
 }
 
-/// Throws Error(kNotConverged) if a number of the trajectory is none.
+/// Throws Error(kNotConverged) if a number of the trajectory is not finite, or if times do not
+/// increase.
 void check_finite(const Trajectory& trajectory) {
   const auto refuse = [](double time) {
     throw Error(
@@ -127,7 +132,7 @@ ModelChoice find_model(std::string_view name) {
     if (has_it) name.remove_suffix(suffix.size());
     return has_it;
   };
-  for (int i = 0; i < 2; ++i) {  // in either order
+  for (int i = 0; i < 2; ++i) {  // the suffixes may be in either order
     choice.exact_drag = choice.exact_drag || take(kExactDragSuffix);
     choice.smooth = choice.smooth || take(kSmoothSuffix);
   }

@@ -1,5 +1,5 @@
-// The table of models of motion. A model is added by writing its file and its row here
-// (models.cpp).
+// The registry of models of motion. A new model needs its own source and a row in models.cpp.
+// Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <span>
@@ -19,68 +19,76 @@ enum class TimeSteps {
   kNone        ///< it goes from event to event
 };
 
+/// A model of motion with what the programs must know about it.
 struct Model {
-  std::string_view name;         ///< what users type, and the stem of its trajectory file
+  std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
   Trajectory (*simulate)(const Motion&, const LubricationForce&);
-  ContactModel (*contact)(const Motion&, const LubricationForce&) =
-      nullptr;             ///< of a contact model: what gamma stands for
-  bool by_default = true;  ///< runs where a case names no models
-  bool inertia = true;     ///< the mass matters
-  /// The keys, apart from those of [motion], of a case on which the model depends, separated by
-  /// blanks; empty: not stated, it may depend on every key. `sphere.mass` follows from `inertia`.
+  /// What gamma stands for; null if it is no contact model.
+  ContactModel (*contact)(const Motion&, const LubricationForce&) = nullptr;
+  /// True if it runs when a case names no models.
+  bool by_default = true;
+  /// True if its motion depends on the mass.
+  bool inertia = true;
+  /// The keys of a case on which the model depends, apart from those of [motion], separated by
+  /// blanks. Empty: the model may depend on every key. `inertia` decides on `sphere.mass`.
   std::string_view settings = {};
   TimeSteps time_steps = TimeSteps::kVariable;
 };
 
-/// Every model there is.
+/// All models.
 std::span<const Model> all_models();
 
-/// Those that run where a case names none.
+/// The models that run when a case names none.
 std::vector<Model> default_models();
 
-/// The others, which run where they are named.
+/// The models that run only when they are named.
 std::vector<Model> models_on_request();
 
-/// What may end the name of a model that is to run with the exact drag (lubrication/plane_drag.hpp) in place of the fitted one: inertial_brenner.
+/// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
+/// place of the fit, as in inertial_brenner.
 inline constexpr std::string_view kExactDragSuffix = "_brenner";
 
-/// What may end the name of a contact model whose surfaces are to be smooth, whatever the case's roughness: viscous_contact_smooth.
+/// Suffix of the name of a contact model that runs with smooth surfaces, whatever the roughness of
+/// the case, as in viscous_contact_smooth.
 inline constexpr std::string_view kSmoothSuffix = "_smooth";
 
-/// A model with the drag and the surfaces that it is to run with.
+/// A model, the drag and the surfaces that it runs with.
 struct ModelChoice {
-  std::string name;  ///< that of the model, with its suffixes
+  /// Name of the model with its suffixes.
+  std::string name;
   const Model* model = nullptr;
   bool exact_drag = false;
   bool smooth = false;
 };
 
-/// The model of that name, which may have suffixes. Throws Error(kBadInput) that lists the names there are.
+/// The model with this name, which may have suffixes. Throws Error(kBadInput), which lists the
+/// names, if there is none.
 ModelChoice find_model(std::string_view name);
 
-/// False if a number of the case at this key, such as "viscous_contact.roughness[0]", cannot change
-/// anything that the model computes.
+/// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
+/// change what the model computes.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
-/// The drag that it runs with: `force`, or the exact one of the same viscosity and radius.
+/// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
 LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force);
 
-/// The motion that it runs: `motion`, without roughness if its surfaces are to be smooth.
+/// The motion for the model: `motion`, without roughness if the choice is smooth.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
 /// A line for legends.
 std::string description_of(const ModelChoice& choice);
 
-/// What simulate() would refuse of the motion's numbers, found without running the model: throws the same Error(kBadInput). Of `force` only its interval
+/// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,
+/// but without running the model. Only the interval of `force` matters.
 /// matters.
 void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
 
-/// Runs a model and fills in its name, its books and the wall time. An Error carries the model's name in
-/// front.
+/// Runs a model and fills in its name, its budget and the wall time. The messages of all Errors
+/// begin with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
 
-/// The same with `force` as it is.
+/// The same with `force` as the drag.
 inline Trajectory simulate(const Model& model, const Motion& motion,
                            const LubricationForce& force) {
   return simulate(ModelChoice{std::string(model.name), &model}, motion, force);

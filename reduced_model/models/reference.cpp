@@ -1,3 +1,4 @@
+// The loop over time of the model `reference`.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// The lecture's reference solution: no inertia, explicit Euler.
+// The reference solution of the lecture (physics.md (4.3)): no inertia, explicit Euler. Lengths,
+// masses and times are in any one consistent system of units.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -7,14 +8,14 @@
 
 namespace viscontact {
 
-/// The sphere's drag balances the external force at each instant (Lefebvre 2008, "Couplage F_lub"):
+/// The drag balances the external force at each instant (Lefebvre 2008, "Couplage F_lub"):
 ///
 ///     F_lub(q^n, u^n) + f^n = 0,   that is u^n = f^n / R(q^n),
 ///     q^{n+1} = q^n + h u^n,
 ///
-/// f^n the mean of f_ext over the step, h = motion.reference_time_step. First order in h; the film
-/// comes out too thin. Throws Error(kNotConverged) when a step goes through the plane,
-/// Error(kBadInput) when it leaves the fit's interval.
+/// f^n is the mean of f_ext over the step and h = motion.reference_time_step. The scheme is of
+/// first order in h, and its film is too thin. Throws Error(kNotConverged) if a step goes through
+/// the wall, and Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_reference(const Motion& motion, const LubricationForce& force);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The rows of the model `reference_exact`.
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact {

@@ -1,4 +1,5 @@
-// The reference solution without a time step: by the first integral.
+// The solution without inertia and without a time step, by the first integral (physics.md (4.2)).
+// Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -11,8 +12,9 @@ namespace viscontact {
 ///
 ///     Gamma(q(t)) = Gamma(q0) + int_0^t f_ext              (first integral (I) with m = 0),
 ///
-/// solved for q at each row's time: every motion.reference_time_step, and where f_ext jumps.
-/// u = f_ext / R(q). Throws Error(kBadInput) when the motion leaves the fit's interval.
+/// which is solved for q at the time of each row: the multiples of motion.reference_time_step, and
+/// the jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves
+/// the fit's interval.
 Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce& force);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The model `viscous_contact`: contact at q = 0 and no resolved drag.
 #include "viscontact/reduced_model/models/viscous_contact.hpp"
 
 namespace viscontact {

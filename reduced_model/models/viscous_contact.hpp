@@ -1,4 +1,5 @@
-// The viscous contact model.
+// The viscous contact model (physics.md (4.4) to (4.6)). Lengths, masses and times are in any one
+// consistent system of units.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact_model.hpp"
@@ -12,14 +13,15 @@ namespace viscontact {
 ///     m d^2q/dt^2 = f_ext + lambda,  supp lambda in {q = 0},  dgamma/dt = -lambda,
 ///     u+ = projection of u- on {0} if gamma- < 0,  on R+ if gamma- = 0 and q = 0,  on R otherwise.
 ///
-/// No force but f_ext acts at a distance. The scheme is that of contact_step.hpp with free velocity
-/// u^n + h f^n / m, f^n the mean of f_ext over the step, h = motion.contact_time_step. Solid
-/// contact at the roughness heights: gamma >= gamma_min = k ln((r1 + r2)/r) (Vinogradova & Yakubov
-/// 2006). The film that the model does not resolve is q0 exp(gamma/k) thick, q0 the initial gap.
-/// Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+/// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity
+/// u^n + h f^n/m, where f^n is the mean of f_ext over the step and h = motion.contact_time_step.
+/// The solids touch at the heights of the roughness: gamma >= gamma_min = k ln((r1 + r2)/r)
+/// (Vinogradova & Yakubov 2006). The thickness of the film that the model does not resolve is q0
+/// exp(gamma/k), q0 the initial gap. Throws Error(kBadInput) if the fit's resistance has no
+/// positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const LubricationForce& force);
 
-/// Runs it (run_contact_model).
+/// Runs this model (run_contact_model).
 Trajectory simulate_viscous_contact(const Motion& motion, const LubricationForce& force);
 
 }  // namespace viscontact

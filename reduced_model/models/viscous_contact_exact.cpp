@@ -1,3 +1,5 @@
+// The events of problem (P), landing, release and change to solid contact, and the budget between
+// them.
 #include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 namespace viscontact {
 namespace {
 
-/// The sphere since the last event.
+/// The state of the sphere at the last event, and the exact motion from there.
 class EventDriven {
  public:
   EventDriven(const Motion& motion, double gamma_min)
@@ -33,7 +35,8 @@ class EventDriven {
     return contact_ ? std::clamp(gamma_ + push_until(t), gamma_min_, 0.0) : 0;
   }
 
-  /// Goes to the next event, `to` at the latest, and returns its time. f_ext must keep its sign, `sign` (0: it is 0), from the last event to `to`.
+  /// Goes to the next event, but not beyond `to`, and returns its time. From the last event to
+  /// `to`, f_ext must have the constant sign `sign`, or be 0 if `sign` is 0.
   double advance(double to, double sign) { return contact_ ? carry(to, sign) : fly(to); }
 
  private:
@@ -41,7 +44,7 @@ class EventDriven {
 
   double fly(double to) {
     const auto falls = [&](double t) { return velocity(t) < 0; };
-    // The velocity is monotone: the sphere turns once at most.
+    // The velocity is monotone, so it changes its sign at most once.
     const double turn =
         falls(from_) == falls(to)
             ? to
@@ -71,7 +74,8 @@ class EventDriven {
     gamma_ = momentum - by_solid;
     books_.film_impulse -= gamma_;
     books_.solid_impulse -= by_solid;
-    // The mean velocity of an impact is half the velocity before it.
+    // The mean velocity of an impact is half the velocity before it, because the velocity after it
+    // is 0.
     books_.film_work -= gamma_ * velocity_ / 2;
     books_.solid_work -= by_solid * velocity_ / 2;
     velocity_ = 0;
@@ -126,7 +130,7 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion, const Lubricatio
                                by_solid ? 0 : held, f.value(t), gamma, by_solid ? held : 0});
   };
 
-  // Between these f_ext is smooth and has one sign.
+  // Between two neighbouring stops f_ext is smooth and has one sign.
   auto stops = f.jumps();
   std::ranges::copy(f.sign_changes(end), std::back_inserter(stops));
   stops.push_back(end);

@@ -1,3 +1,4 @@
+// The model `viscous_contact_regular_drag`: contact at q = 0 and the regular drag R(q) - k/q.
 #include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
 
 namespace viscontact {

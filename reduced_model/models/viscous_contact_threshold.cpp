@@ -1,3 +1,4 @@
+// The model `viscous_contact_threshold`: contact at q = q_c and the whole drag R(q) above it.
 #include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
 
 #include <fmt/format.h>
