@@ -1,4 +1,4 @@
-// The command rerun: repeats what made a file.
+// The command `rerun`: runs the command that made a file again, from the file's provenance.
 #pragma once
 
 namespace CLI {
@@ -7,6 +7,7 @@ class App;
 
 namespace viscontact {
 
+/// Adds the command `rerun` to the command line.
 void add_rerun(CLI::App& app);
 
 }  // namespace viscontact
