@@ -151,8 +151,8 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   const auto script = folder / "task.sh";
   write_file(script, task_script(tables, request, count));
 
-  // --requeue: if a node fails, its tasks are run again. The user's options come later on the command
-  // line and can change this.
+  // With --requeue, the tasks of a node that fails are run again. The user's options come later on
+  // the command line and can change this.
   std::vector<std::string> command = {"sbatch", "--requeue"};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),
