@@ -1,4 +1,6 @@
-// Rows of the tabulation: true error, error estimate, cost and memory, and the same beside a textbook script. Run by bench/run.
+// Benchmark of rows of the tabulation: error against exact solutions, error estimate, computing
+// time and memory; then the error of a textbook script (textbook.edp) in the same computing time.
+// bench/run runs it. Radius, viscosity and speed are 1.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -84,7 +86,8 @@ void measure_geometries(const FreeFem& freefem) {
     }
     for (const double radius : {3.0, 5.0, 20.0, 80.0})
       for (const double gap : {1e-4, 1e-2, 1.0, 10.0})
-        if (gap + 1 <= radius)  // the exact solution's range: up to mid-height
+        // The exact solution is for spheres below the middle of the container.
+        if (gap + 1 <= radius)
           print_row(freefem, fmt::format("plane, {} x {}", radius, 2 * radius),
                     unit("plane", {}, Container{radius, 2 * radius}, accuracy), gap,
                     sphere_in_cylinder_drag_factor(gap, radius, 2 * radius));
@@ -106,7 +109,8 @@ void measure_growth(const FreeFem& freefem) {
   }
 }
 
-/// The textbook's best error in the CPU time that the row took, the round that crosses it included.
+/// Prints the error of a row and the smallest error that the textbook script reaches in the CPU
+/// time of the row. The round of the script in which this time ends is included.
 void measure_textbook(const FreeFem& freefem) {
   const FreeFem here{freefem.executable, std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
   fmt::print(
