@@ -56,7 +56,7 @@ int run(const std::vector<std::string>& arguments) {
       {20, 1, 0, resistance(fit), {{2, [](long double) { return -200.0L; }}, {4, [](long double) {
                                                                                 return 200.0L;
                                                                               }}}});
-  constexpr int kTimes = 400;
+  constexpr int kTimes = 400;  // times at which gaps are compared
   std::vector<double> times, exact;
   for (int i = 1; i <= kTimes; ++i) {
     times.push_back(i == kTimes ? 4.0 : 10 * i * 1e-3);  // every tenth output time

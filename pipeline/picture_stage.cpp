@@ -19,6 +19,7 @@
 namespace viscontact {
 namespace {
 
+/// One of the files that are written for each gap.
 struct PictureFile {
   std::string_view end;     ///< end of the file's name
   std::string_view marker;  ///< text that every file of this kind contains
@@ -45,7 +46,7 @@ void check_pictures(const std::vector<double>& gaps, const std::filesystem::path
 }
 
 std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
-  constexpr double kTolerance = 1e-6;
+  constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
   std::vector<double> gaps;

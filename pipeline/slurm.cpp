@@ -29,7 +29,7 @@ fs::path absolute_output(const fs::path& output) {
 /// The name of the job. It depends on the output's path only, so that refuse_second_job finds an
 /// earlier job for the same output by its name.
 std::string job_name(const fs::path& output) {
-  constexpr std::size_t kDigits = 12;
+  constexpr std::size_t kDigits = 12;  // of the hash: 48 bits, enough to distinguish outputs
   return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
 }
 

@@ -10,6 +10,7 @@
 
 namespace viscontact {
 
+/// The options of a tabulation by Slurm.
 struct SlurmRequest {
   std::filesystem::path output;      ///< output of `viscontact tabulate`, for all tables
   std::optional<std::size_t> tasks;  ///< size of the array; default: one task a row, at most 1000

@@ -90,7 +90,7 @@ std::string words_for(const GridPoint& point) {
 [[noreturn]] void throw_missing(const CaseTable& one, const RowRecord& record,
                                 const std::vector<GridPoint>& missing,
                                 const fs::path& slurm_folder) {
-  constexpr std::size_t kNamed = 3;
+  constexpr std::size_t kNamed = 3;  // rows that the message names
   std::string named;
   for (std::size_t i = 0; i < missing.size() && i < kNamed; ++i)
     named += (i > 0 ? "; " : "") + words_for(missing[i]);

@@ -16,6 +16,7 @@ class GnuplotMissing : public Error {
   using Error::Error;
 };
 
+/// A curve of points (x, y).
 struct Curve {
   std::string legend;                             ///< empty: no entry in the legend
   std::string style;                              ///< for gnuplot, such as "lines linewidth 2"
@@ -31,6 +32,7 @@ struct ColourField {
   std::vector<double> values;
 };
 
+/// Curves, and possibly a colour field, on common axes.
 struct Panel {
   std::string title, x_label, y_label;
   bool x_log = false, y_log = false;

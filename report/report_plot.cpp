@@ -19,8 +19,10 @@ std::string doubled_percent(const std::string& text) {
   return result;
 }
 
-constexpr int kWidth = 860;
+constexpr int kWidth = 860;  // [pixels]
 
+/// What gnuplot (pointtype) and report.js call a kind of point. The rows are in the order of
+/// PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;

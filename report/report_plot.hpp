@@ -11,6 +11,7 @@ namespace viscontact {
 
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
+/// How a curve is drawn.
 struct CurveStyle {
   std::string colour{};        ///< "#rrggbb"
   double width = 2;            ///< width of the line [pixels]; 0: points only
@@ -19,6 +20,7 @@ struct CurveStyle {
   double point_size = 1;  ///< in units of about 7 pixels
 };
 
+/// A curve of points (x, y).
 struct PlotCurve {
   /// Words in the legend. A curve without words belongs to the entry of the curve before it.
   std::string legend{};
@@ -33,8 +35,10 @@ struct PlotAxis {
   std::optional<double> low{}, high{};  ///< range at first; nothing: as the curves need
 };
 
+/// Where the legend of the still picture is.
 enum class KeyPlace { kBelow, kTopRight, kBottomRight };
 
+/// Curves on common axes.
 struct PlotPanel {
   std::string title{};
   PlotAxis x{}, y{};

@@ -107,7 +107,7 @@ Plot plot_fit(const ForceTable& table, const Fit& fit) {
     if (row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
-  constexpr int kSamples = 300;
+  constexpr int kSamples = 300;  // points of the fit's curve
   const auto [low, high] = fit.gap_interval;
   for (int i = 0; i <= kSamples; ++i) {
     const double gap = std::clamp(
@@ -243,7 +243,7 @@ Plot plot_external_force(const ExternalForce& force, double end_time) {
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
-  constexpr int kPoints = 2000;
+  constexpr int kPoints = 2000;  // for the whole time; more could not be seen
   double from = 0;
   for (const double to : stops) {
     const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);

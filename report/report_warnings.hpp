@@ -8,6 +8,7 @@
 
 namespace viscontact {
 
+/// A warning of the report.
 struct ReportWarning {
   std::string text;  ///< a sentence with numbers, without the full stop
   std::string file;  ///< file of these numbers, relative to the run's folder

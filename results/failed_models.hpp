@@ -13,6 +13,7 @@
 
 namespace viscontact {
 
+/// A model that failed, and why.
 struct FailedModel {
   std::string model;   ///< name of the model, with suffixes
   std::string reason;  ///< message of the Error, without the name of the model

@@ -19,6 +19,7 @@ struct InputFile {
   bool intermediate = false;  ///< true if the same command made it, as `run` makes its table
 };
 
+/// How a file was made: command, inputs and versions.
 struct Provenance {
   /// The command as it was typed: program, then arguments.
   std::vector<std::string> command;

@@ -6,6 +6,7 @@
 
 namespace viscontact {
 
+/// The folder of a run; each function returns the path of a file or sub-folder in it.
 struct RunFolder {
   std::filesystem::path path;
 

@@ -15,6 +15,7 @@
 
 namespace viscontact {
 
+/// The results of a run.
 struct RunResults {
   RunFolder folder;
   Case c;

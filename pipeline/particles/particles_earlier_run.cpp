@@ -123,7 +123,7 @@ bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& 
 
 bool is_named_as_frame(const fs::path& path) {
   constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  constexpr std::size_t kDigits = 5;
+  constexpr std::size_t kDigits = 5;  // smallest number of digits
   const std::string name = path.filename();
   if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
       name.size() < kBegin.size() + kDigits + kEnd.size())

@@ -178,7 +178,7 @@ class Run {
           particles::write_particles(state.particles));
     write("final_contacts.csv", TextKind::kHashComment,
           particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
-    constexpr int kPanels = 4;
+    constexpr int kPanels = 4;  // states in the still picture
     write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           particles_picture(frames_.playback(), case_.title, kPanels));

@@ -5,6 +5,7 @@
 
 namespace viscontact {
 
+/// The options of the command `particles`.
 struct ParticlesRequest {
   /// Paths; `restart` is empty if the run starts from the particles of the case.
   std::string case_file, folder, restart;

@@ -49,8 +49,9 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-/// A view of the sphere and what is around it: the whole fluid if it is not wider than 6 radii and
-/// not higher than 12, otherwise the fluid within 3.2 radii of the sphere's centre.
+/// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
+/// the axis and is at most 12 radii high, otherwise the fluid within 3.2 radii of the sphere's
+/// centre.
 View surroundings(const CurvedMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   Window fluid;
@@ -160,6 +161,7 @@ std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pi
 std::vector<Curve> outlines(const CurvedMesh& mesh, const View& view, double radius, double gap) {
   const auto& window = view.window;
   namespace label = boundary_label;
+  // Straight pieces of a side of a triangle, and of the visible part of the sphere.
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : mesh.boundary) {
@@ -263,7 +265,7 @@ std::vector<std::string> layout(const View& view, double right, double below, do
 
 Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabulation& tabulation,
                   const View& view) {
-  constexpr double kVisible = 1.05;
+  constexpr double kVisible = 1.05;  // a smaller stretching cannot be seen and is not mentioned
   Panel panel;
   const auto container = container_in_words(tabulation);
   panel.title = fmt::format(
@@ -278,7 +280,7 @@ Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabu
 }
 
 std::string draw(Panel panel, const View& view, double right) {
-  constexpr double kLegendRow = 20;
+  constexpr double kLegendRow = 20;  // height of two legends side by side [pixels]
   const auto legends =
       std::ranges::count_if(panel.curves, [](const Curve& curve) { return !curve.legend.empty(); });
   const double below = kBelow + kLegendRow * static_cast<double>(legends / 2);

@@ -64,7 +64,7 @@ double PressureColours::at(double pressure) const {
 }
 
 std::vector<std::string> PressureColours::settings() const {
-  constexpr int kSteps = 40;
+  constexpr int kSteps = 40;  // intervals of gnuplot's palette, which is linear in each
   const double from = at(low), to = at(high), full = std::max(std::abs(from), std::abs(to));
   std::string palette;
   for (int i = 0; i <= kSteps; ++i) {

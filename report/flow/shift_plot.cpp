@@ -47,7 +47,7 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
                         "set format x '1e%T'", "set format y '1e%T'"};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
-  constexpr int kWidth = 860, kPanelHeight = 360;
+  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
   if (residuals.curves.empty()) return draw_svg({shifts}, kWidth, kPanelHeight);
   return draw_svg({shifts, residuals}, kWidth, 2 * kPanelHeight);
 }

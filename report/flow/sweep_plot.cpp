@@ -93,7 +93,8 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kWidth = 860;
+constexpr int kWidth = 860;  // [pixels]
+// Colours that colour-blind readers tell apart (Okabe & Ito 2008).
 constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                  "#E69F00", "#56B4E9", "#000000"};
 

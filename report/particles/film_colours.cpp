@@ -29,7 +29,7 @@ std::string film_colour(double share) {
 }
 
 std::vector<double> film_ticks(double lowest) {
-  constexpr double kAbout = 4;
+  constexpr double kAbout = 4;  // approximate number of intervals between ticks
   const double rough = -lowest / kAbout, decade = std::pow(10, std::floor(std::log10(rough)));
   double step = 10 * decade;
   if (rough < 1.5 * decade)

@@ -31,8 +31,8 @@ using Bytes = std::vector<unsigned char>;
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kMostBytes = 24'000'000;  // largest size of the page
-constexpr std::size_t kMostParticles = 200'000;
-constexpr int kColours = 24;
+constexpr std::size_t kMostParticles = 200'000;  // of more particles, only every n-th is shown
+constexpr int kColours = 24;                     // for gamma < 0
 
 template <class Number>
 void append(Bytes& bytes, Number value) {

@@ -60,7 +60,7 @@ struct Drawing {
   std::size_t every = 1;         ///< every such particle is drawn
 };
 
-constexpr int kColours = 20;
+constexpr int kColours = 20;  // for gamma < 0
 // More than 20000 particles in a panel could not be told apart.
 constexpr std::size_t kMostParticles = 20000;
 
@@ -250,7 +250,7 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
 /// The number of columns of panels, for a picture of about the proportions of a slide with few
 /// empty places.
 int columns_for(int panels, double width_over_height) {
-  constexpr double kSlide = 2.2;
+  constexpr double kSlide = 2.2;  // width over height of the picture
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
@@ -266,7 +266,7 @@ int columns_for(int panels, double width_over_height) {
 }
 
 std::string colour_bar(double lowest, bool touching, double left, double top, double width) {
-  constexpr int kHeight = 12;
+  constexpr int kHeight = 12;  // [page units]
   std::string text;
   const double step = width / kColours;
   for (int c = 0; c < kColours; ++c)
@@ -290,6 +290,7 @@ std::string colour_bar(double lowest, bool touching, double left, double top, do
 }  // namespace
 
 std::string particles_picture(const Playback& playback, const std::string& title, int panels) {
+  // Sizes of the picture and of its margins, title and captions [page units].
   constexpr double kWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
   const auto chosen = chosen_frames(playback, panels);
   const int count = static_cast<int>(chosen.size());

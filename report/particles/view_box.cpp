@@ -84,6 +84,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(room, plane, playback.dimension);
+  // Margin, and smallest size in any direction, both in sizes of the box.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(room, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
