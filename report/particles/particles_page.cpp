@@ -30,7 +30,7 @@ using Bytes = std::vector<unsigned char>;
 // The numbers are written as they are in memory, and the script reads them as little-endian.
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t kMostBytes = 24'000'000;  // largest size of the page
+constexpr std::size_t kMostBytes = 24'000'000;   // largest size of the page
 constexpr std::size_t kMostParticles = 200'000;  // of more particles, only every n-th is shown
 constexpr int kColours = 24;                     // for gamma < 0
 
