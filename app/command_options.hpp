@@ -18,10 +18,6 @@ inline constexpr const char* kFolder = "DIR";
 inline constexpr const char* kModel = "MODEL";
 inline constexpr const char* kModels = "MODEL,...";
 
-/// The message for a folder that another process has locked (LockedFolder).
-inline constexpr const char* kFolderIsHeld =
-    "another viscontact writes into it; wait until it has ended, or write elsewhere";
-
 /// The names in a registry as "word|word".
 template <class Table>
 std::string words_of(const Table& table) {

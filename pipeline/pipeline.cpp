@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "viscontact/app/command_options.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"

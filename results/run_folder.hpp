@@ -6,6 +6,10 @@
 
 namespace viscontact {
 
+/// The message for a folder that another process has locked (LockedFolder).
+inline constexpr const char* kFolderIsHeld =
+    "another viscontact writes into it; wait until it has ended, or write elsewhere";
+
 /// The folder of a run; each function returns the path of a file or sub-folder in it.
 struct RunFolder {
   std::filesystem::path path;

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -31,6 +30,7 @@
 #include "viscontact/report/particles/particles_picture.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
