@@ -1,3 +1,4 @@
+// Checks of outputs and models, and the options --jobs and --json.
 #include "viscontact/app/command_options.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +13,11 @@
 namespace viscontact {
 namespace {
 
-/// Where a file of that name is or would be, a link that leads nowhere yet included.
+/// The path at which the file of this name is or will be, after symbolic links, also those to files
+/// that do not exist yet.
 std::filesystem::path resolved_place_of(std::filesystem::path path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // as the kernel
+  constexpr int kMostLinks = 40;  // the limit of Linux for links that lead to links
   path = fs::absolute(path);
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
     path = path.parent_path() / fs::read_symlink(path);
@@ -52,7 +54,8 @@ CLI::Option* add_json(CLI::App& command, bool& json) {
 }
 
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
-  // Not the number: the manual is made on one machine and read on another.
+  // The default is given in words, because the manual page is made on one machine and read on
+  // another.
   return command.add_option("-j,--jobs", jobs, help)
       ->check(CLI::Range(1, 1024))
       ->default_str("one for each core");

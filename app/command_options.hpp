@@ -1,4 +1,4 @@
-// What several commands do with their options.
+// Options that several commands have, and checks of options.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,17 +11,14 @@
 
 namespace viscontact {
 
-// Type names of options: by them --help, the manual and the shells' completion know what goes there. Words to choose from are "word|word".
+// Type names of options. --help, the manual page and the completion of shells know from them what
+// the value of an option is. An option with a choice of words has the type name "word|word".
 inline constexpr const char* kFile = "FILE";
 inline constexpr const char* kFolder = "DIR";
 inline constexpr const char* kModel = "MODEL";
 inline constexpr const char* kModels = "MODEL,...";
 
-/// What is said of a folder into which another process writes (LockedFolder).
-inline constexpr const char* kFolderIsHeld =
-    "another viscontact writes into it; wait until it has ended, or write elsewhere";
-
-/// "word|word" of the names in a table.
+/// The names in a registry as "word|word".
 template <class Table>
 std::string words_of(const Table& table) {
   std::string words;
@@ -29,11 +26,12 @@ std::string words_of(const Table& table) {
   return words;
 }
 
-/// Refuses what is none of the words; --help has them in the type name.
+/// A check that refuses any value but these words. It has no description, because --help shows the
+/// words in the type name.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// The value of a call that reads a word of the command line, such as the name of a basis: the
-/// Error(kBadInput) of a word that is not known becomes an Error(kWrongUsage) that names the option.
+/// Calls `read`, which reads a word of the command line, such as the name of a basis, and returns
+/// its value. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option.
 template <class Read>
 auto from_option(std::string_view option, const Read& read) {
   try {
@@ -44,19 +42,19 @@ auto from_option(std::string_view option, const Read& read) {
   }
 }
 
-/// Throws Error(kWrongUsage) that names the option for a name that is not a model's.
+/// Throws Error(kWrongUsage) that names the option if one of the names is not that of a model.
 void check_models(std::string_view option, const std::vector<std::string>& names);
 
-/// Throws Error(kWrongUsage) if an output has no name, or two have the same.
+/// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file.
 void check_outputs(const std::vector<std::string>& paths);
 
-/// One FreeFEM process for each core.
+/// The default number of FreeFEM processes: one for each core.
 int default_jobs();
 
-/// The option -j, --jobs into `jobs`.
+/// Adds the option -j, --jobs, which sets `jobs`.
 CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 
-/// The flag --json into `json`.
+/// Adds the flag --json, which sets `json`.
 CLI::Option* add_json(CLI::App& command, bool& json);
 
 }  // namespace viscontact

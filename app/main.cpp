@@ -1,5 +1,5 @@
-// viscontact: the command line. Arguments are read here, the work is done in pipeline.cpp, every
-// Error ends up at the bottom.
+// The program viscontact: reads the command line and calls the stages in pipeline/. Every Error is
+// caught in main(), which prints its message and returns its exit code (results/exit_code.hpp).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +14,7 @@
 #include "viscontact/app/commands/fit_command.hpp"
 #include "viscontact/app/commands/init_command.hpp"
 #include "viscontact/app/commands/particles_command.hpp"
+#include "viscontact/app/commands/rerun.hpp"
 #include "viscontact/app/commands/sweep_command.hpp"
 #include "viscontact/app/commands/tabulate_command.hpp"
 #include "viscontact/app/help/completion.hpp"
@@ -24,7 +25,6 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/pipeline/rerun.hpp"
 #include "viscontact/pipeline/simulate_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/report.hpp"
@@ -113,7 +113,7 @@ void add_simulate(CLI::App& app) {
     check_outputs({o->folder});
     check_models("--models", o->models);
     const Case c = read_case(o->case_file);
-    // What the command line does not say is as in the case.
+    // Options that are not given are as in the case.
     const FitRequest request = c.fit.value_or(FitRequest{});
     OutsideFit outside{request.below, request.above};
     if (limit->count() > 0)
@@ -198,7 +198,7 @@ void add_run(CLI::App& app) {
   });
 }
 
-/// The commands that write themselves out of the command line that all are in.
+/// Adds the commands `completion` and `man`, whose texts are made from the command line itself.
 void add_self_description(CLI::App& app) {
   auto* completion = app.add_subcommand(
       "completion", "completion for a shell: source <(viscontact completion bash)");
@@ -257,7 +257,7 @@ int run(int argc, char** argv) {
   }
   try {
     auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});
-    std::ranges::reverse(arguments);  // as CLI11 takes them
+    std::ranges::reverse(arguments);  // CLI11 takes the arguments in reverse order
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
@@ -289,7 +289,7 @@ int main(int argc, char** argv) {
     viscontact::complain("viscontact: there is not enough memory for this");
     return exit_code_of(ErrorKind::kNotConverged);
   } catch (const std::exception& error) {
-    // The file system or a library, in a way that no check foresaw.
+    // An error of the file system or of a library that no check has found before.
     viscontact::complain(fmt::format("viscontact: {}", error.what()));
     return exit_code_of(ErrorKind::kBadInput);
   }

@@ -1,3 +1,4 @@
+// The three options whose value may be left out, and how their values differ from names of files.
 #include "viscontact/app/optional_values.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace viscontact {
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
     std::string_view command, name;
-    bool (*is_value)(std::string_view word);  // whatever files there are
+    bool (*is_value)(std::string_view word);  // true: a value even if a file has this name
   };
   constexpr auto is_number = [](std::string_view word) {
     return parse_number(word.substr(0, word.find(','))).has_value();
@@ -26,7 +27,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
                             {"tabulate", "--plot", is_number},
                             {"simulate", "--lubrication-limit", is_limit}};
   const auto is_file = [](const std::string& word) {
-    std::error_code ignored;  // of a name that no file can have
+    std::error_code ignored;  // some words cannot be names of files
     return word.ends_with(".csv") || word.ends_with(".toml") ||
            std::filesystem::exists(word, ignored);
   };
@@ -35,7 +36,7 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
     const auto at = std::ranges::find(arguments, option.name);
     if (at == arguments.end() || at + 1 == arguments.end()) continue;
     if (option.is_value(at[1]) || !is_file(at[1])) continue;
-    // Last of the options it stands alone.
+    // At the end, no word follows the option that it could take as its value.
     std::rotate(at, at + 1, std::ranges::find(arguments, "--"));
   }
   return arguments;

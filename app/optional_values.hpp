@@ -1,4 +1,4 @@
-// Options that may stand without a value, told from the file that stands behind them.
+// Options whose value may be left out: keeps them from taking the file after them as their value.
 #pragma once
 
 #include <string>
@@ -6,10 +6,11 @@
 
 namespace viscontact {
 
-/// The arguments of a command line, from the command's name on. An option that may stand without
-/// a value (`fit --fix`, `tabulate --plot`, `simulate --lubrication-limit`) would take the word
-/// behind it as its value even where that is the command's file, as in `fit --fix own.csv`. There
-/// the option is moved behind all others.
+/// Returns the arguments of a command line, from the command's name on, in an order that CLI11
+/// reads correctly. An option whose value may be left out (`fit --fix`, `tabulate --plot`,
+/// `simulate --lubrication-limit`) would take the word after it as its value even if that is the
+/// command's file, as in `fit --fix own.csv`. In this case the option is moved to the end, or
+/// before the word "--".
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
 }  // namespace viscontact

@@ -1,4 +1,5 @@
-// Times of viscous contact: motions of one sphere, per step and row. Run by bench/run.
+// Benchmark of viscous contact: computing time per step and per row of motions of one sphere, in
+// the units of the lecture's case. bench/run runs it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -16,7 +17,7 @@ namespace {
 
 const std::filesystem::path kData = std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data";
 
-/// The lecture's motion (data/cases/lecture.toml), rows and steps every `step`.
+/// The motion of the lecture's case (data/cases/lecture.toml) with rows and time steps `step` [T].
 Motion lecture_motion(double step) {
   Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
   motion.reference_time_step = step;
@@ -30,7 +31,7 @@ void count_steps(benchmark::State& state, double steps) {
       steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// Argument: steps.
+/// Time of a motion with rows; the benchmark's argument is the number of steps.
 void single_sphere(benchmark::State& state) {
   const auto steps = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / steps);
@@ -41,7 +42,7 @@ void single_sphere(benchmark::State& state) {
 }
 BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 
-/// The same steps without rows: what the scheme and the means of the force cost.
+/// Time of the same steps without rows: that of the scheme and of the mean forces alone.
 void single_sphere_without_rows(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
   const auto motion = lecture_motion(4.0 / steps);
@@ -60,7 +61,7 @@ void single_sphere_without_rows(benchmark::State& state) {
 }
 BENCHMARK(single_sphere_without_rows)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 
-/// Per requested time.
+/// Time of reference_exact for each output time; the argument is the number of output times.
 void reference_exact(benchmark::State& state) {
   const auto times = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / times);

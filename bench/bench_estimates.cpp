@@ -1,11 +1,14 @@
-// How often the error estimate of a row is true: random rows of every geometry that has an exact solution, with random gaps, sizes, velocity
-// ratios and asked accuracies (log-uniform from FINEST_ACCURACY to 1e-5). Not part of bench/run: with the defaults, hours on one core.
+// Measures how often the error of a row is at most its error estimate. The rows are random rows of
+// every geometry with an exact solution; gaps, sizes, velocity ratios and accuracies are random
+// (accuracies log-uniform from FINEST_ACCURACY to 1e-5). bench/run does not run it, because with
+// the defaults it takes hours on one core.
 //
 //   bench_estimates [ROWS_PER_GEOMETRY=100 [FINEST_ACCURACY=1e-7 [SEED=1 [GEOMETRY]]]]
 //
-// Lists every row whose error is above its estimate or whose estimate is above what was asked; then for each geometry the share of rows
-// whose error is at most the estimate, median and largest of error/estimate, and the share of rows that did not reach what was
-// asked and said so (est > asked) or did not say so (err > asked).
+// Prints every row whose error is above its estimate or whose estimate is above the accuracy. Then
+// prints for each geometry the share of rows whose error is at most the estimate, median and
+// largest value of error/estimate, the share of rows whose estimate is above the accuracy (est >
+// asked), and the share of the other rows whose error is above the accuracy (err > asked).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +27,7 @@ namespace {
 
 std::vector<SolvedRow> solve_all(const FreeFem& freefem, const std::vector<ExactRow>& rows) {
   std::vector<SolvedRow> solved;
-  std::mutex mutex;  // of `solved` and the output
+  std::mutex mutex;  // protects `solved` and the output
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = 0; (i = next++) < rows.size();) try {
@@ -42,7 +45,7 @@ std::vector<SolvedRow> solve_all(const FreeFem& freefem, const std::vector<Exact
   std::vector<std::jthread> workers;
   for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
     workers.emplace_back(work);
-  workers.clear();  // wait
+  workers.clear();  // waits until all threads have ended
   return solved;
 }
 

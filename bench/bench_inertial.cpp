@@ -1,4 +1,6 @@
-// Time and true error of `inertial` on the lecture's case with the shipped fit; a file to put SciPy's Radau beside it (radau.py). Run by bench/run.
+// Benchmark of the model `inertial` on the lecture's case with the shipped fit: computing time, and
+// error of the gap against an oracle in long double. With STATES.csv, writes a file with which
+// radau.py compares SciPy's Radau. bench/run runs it.
 //
 // usage: bench_inertial [STATES.csv]
 #include <fmt/format.h>
@@ -21,7 +23,8 @@ namespace {
 
 const std::string kSource = VISCONTACT_SOURCE_FOLDER;
 
-/// The lecture's case (data/cases/lecture.toml).
+/// The motion of the lecture's case (data/cases/lecture.toml), with the relative tolerance of
+/// CVODE.
 Motion lecture_motion(double tolerance) {
   Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
   motion.reference_time_step = 1e-3;
@@ -29,7 +32,7 @@ Motion lecture_motion(double tolerance) {
   return motion;
 }
 
-/// R of a fit of the lecture's basis.
+/// The resistance R(q) [M/T] of a fit in the lecture's basis, in long double.
 InertialProblem::Function resistance(const Fit& fit) {
   return [fit](long double q) {
     long double force = 0;
@@ -53,10 +56,10 @@ int run(const std::vector<std::string>& arguments) {
       {20, 1, 0, resistance(fit), {{2, [](long double) { return -200.0L; }}, {4, [](long double) {
                                                                                 return 200.0L;
                                                                               }}}});
-  constexpr int kTimes = 400;
+  constexpr int kTimes = 400;  // times at which gaps are compared
   std::vector<double> times, exact;
   for (int i = 1; i <= kTimes; ++i) {
-    times.push_back(i == kTimes ? 4.0 : 10 * i * 1e-3);  // times of rows
+    times.push_back(i == kTimes ? 4.0 : 10 * i * 1e-3);  // every tenth output time
     oracle.advance(times.back());
     exact.push_back(static_cast<double>(oracle.gap()));
   }
@@ -76,7 +79,7 @@ int run(const std::vector<std::string>& arguments) {
     double error = 0;
     std::size_t compared = 0;
     for (const auto& row : trajectory.rows) {
-      // A row's time may be another rounding of the same decimal.
+      // The time of a row may differ from this time by rounding.
       if (compared < times.size() && std::abs(row.time - times[compared]) < 1e-12)
         error = std::max(error, std::abs(row.gap / exact[compared++] - 1));
     }

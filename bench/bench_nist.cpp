@@ -1,4 +1,5 @@
-// Certified digits that the least squares of the fit reach on the NIST Statistical Reference Datasets of linear regression.
+// Prints how many certified digits the least squares of the fit reach on the data sets for linear
+// regression of the NIST Statistical Reference Datasets. bench/run runs it.
 #include <fmt/format.h>
 
 #include "tests/fitting/nist_sets.hpp"

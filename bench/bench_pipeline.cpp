@@ -1,4 +1,5 @@
-// Times of the C++ parts on the shipped table and fit of the lecture's case. Run by bench/run.
+// Benchmark of the C++ parts on the shipped tables and fits: computing times of reading, fitting,
+// simulating and comparing. bench/run runs it.
 #include <benchmark/benchmark.h>
 
 #include "viscontact/case_file/case_file.hpp"
@@ -18,7 +19,7 @@ void read_table(benchmark::State& state) {
 }
 BENCHMARK(read_table)->Unit(benchmark::kMicrosecond);
 
-/// The basis is the argument's place among all_bases(). 60 rows; covariance and diagnostics included.
+/// The name of the basis; the benchmark's argument is its index in all_bases().
 std::string basis_of(const benchmark::State& state) {
   return std::string(all_bases().at(static_cast<std::size_t>(state.range(0))).name);
 }
@@ -27,6 +28,7 @@ Fit fit_of_plane(const std::string& basis) {
   return fit_force_table(read_force_table(kData / "tables/plane.csv"), basis, Weights::kRelative);
 }
 
+/// Time of a fit of 60 rows with its covariance and diagnostics.
 void fit_60_rows(benchmark::State& state) {
   const auto table = read_force_table(kData / "tables/plane.csv");
   for (auto _ : state)
@@ -37,7 +39,8 @@ BENCHMARK(fit_60_rows)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
 LubricationForce lecture_force() { return LubricationForce(read_fit(kData / "fits/lecture.json")); }
 
-/// A gap in [3e-3, 1] that changes from call to call, so that nothing is computed once for all.
+/// The next gap in [3e-3, 1]. It differs from the last gap, so that the compiler cannot compute the
+/// result once for all calls.
 double next_gap(double gap) { return gap < 0.9 ? gap * 1.07 : 3e-3; }
 
 void measure_function(benchmark::State& state, double (LubricationForce::*function)(double) const) {
@@ -53,7 +56,7 @@ BENCHMARK(resistance)->DenseRange(0, 2);
 void impulse(benchmark::State& state) { measure_function(state, &LubricationForce::impulse); }
 BENCHMARK(impulse)->DenseRange(0, 2);
 
-/// 10^4 draws of the lecture's q_min.
+/// Time of 10^4 random draws of the smallest gap in the lecture's case.
 void monte_carlo_minimal_gap(benchmark::State& state) {
   const auto c = read_case(kData / "cases/lecture.toml");
   const auto fit = read_fit(kData / "fits/lecture.json");

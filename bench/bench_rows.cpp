@@ -1,4 +1,6 @@
-// Rows of the tabulation: true error, error estimate, cost and memory, and the same beside a textbook script. Run by bench/run.
+// Benchmark of rows of the tabulation: error against exact solutions, error estimate, computing
+// time and memory; then the error of a textbook script (textbook.edp) in the same computing time.
+// bench/run runs it. Radius, viscosity and speed are 1.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -73,7 +75,7 @@ void measure_geometries(const FreeFem& freefem) {
   for (const double accuracy : {1e-5, 1e-6}) {
     for (const double gap : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0}) {
       print_row(freefem, "plane, unbounded", unit("plane", {}, {}, accuracy), gap,
-                plane_drag_factor(gap));
+                bispherical_plane_factor(gap));
       print_row(freefem, "free surface, unbounded", unit("free_surface", {}, {}, accuracy), gap,
                 free_surface_drag_factor(gap));
       print_row(freefem, "equal spheres", unit("sphere", {1, 0}, {}, accuracy), gap,
@@ -84,7 +86,8 @@ void measure_geometries(const FreeFem& freefem) {
     }
     for (const double radius : {3.0, 5.0, 20.0, 80.0})
       for (const double gap : {1e-4, 1e-2, 1.0, 10.0})
-        if (gap + 1 <= radius)  // the exact solution's range: up to mid-height
+        // The exact solution is for spheres below the middle of the container.
+        if (gap + 1 <= radius)
           print_row(freefem, fmt::format("plane, {} x {}", radius, 2 * radius),
                     unit("plane", {}, Container{radius, 2 * radius}, accuracy), gap,
                     sphere_in_cylinder_drag_factor(gap, radius, 2 * radius));
@@ -93,7 +96,7 @@ void measure_geometries(const FreeFem& freefem) {
   print_header();
   for (const double gap : {1e-4, 1e-2, 1.0, 10.0})
     print_row(freefem, "plane, unbounded", unit("plane", {}, {}, 1e-7), gap,
-              plane_drag_factor(gap));
+              bispherical_plane_factor(gap));
 }
 
 void measure_growth(const FreeFem& freefem) {
@@ -102,18 +105,19 @@ void measure_growth(const FreeFem& freefem) {
   for (int i = -6; i <= 0; ++i) {
     const double gap = std::pow(10.0, i);
     print_row(freefem, "plane, unbounded", unit("plane", {}, {}, 1e-5), gap,
-              plane_drag_factor(gap));
+              bispherical_plane_factor(gap));
   }
 }
 
-/// The textbook's best error in the CPU time that the row took, the round that crosses it included.
+/// Prints the error of a row and the smallest error that the textbook script reaches in the CPU
+/// time of the row. The round of the script in which this time ends is included.
 void measure_textbook(const FreeFem& freefem) {
   const FreeFem here{freefem.executable, std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
   fmt::print(
       "\nBeside bench/textbook.edp, at equal CPU time\n{:<8} {:>12} {:>7} {:>14} {:>7} {:>8}\n",
       "gap/r", "error", "CPU s", "textbook error", "CPU s", "ratio");
   for (const double gap : {1.0, 0.1, 0.01, 0.001}) {
-    const double exact = plane_drag_factor(gap);
+    const double exact = bispherical_plane_factor(gap);
     const auto row = solve(freefem, unit("plane", {}, {}, 1e-5), gap);
     const double error = std::abs(row.drag_factor / exact - 1);
     const auto result =

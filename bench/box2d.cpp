@@ -1,6 +1,12 @@
-// The benchmark box2d: discs fall into a box. box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X] [--threads N] [--print STRETCH]
-// Discs on a lattice of spacing 2.1 in a box of width 2.1 ceil(sqrt N) with floor and two walls, jitter +-0.05, radii 0.8 to 1, m = r^2, g = 1,
-// h = 0.05, gamma_min = -2; prints CPU time, iterations, residual and memory by stretches of time.
+// Benchmark of many particles: N discs fall into a box. Prints CPU time, iterations, residual and
+// memory for each STRETCH of time.
+//
+//   box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
+//         [--threads N] [--print STRETCH]
+//
+// The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
+// width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
+// time step is 0.05 and gamma_min = -2.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -80,7 +86,7 @@ int main(int argc, char** argv) {
           shown, report.time, 1e3 * spent / steps, 1e3 * longest, double(iterations) / steps,
           report.contacts, report.glued, residual, unconverged,
           kinetic_energy(simulation.state().particles));
-      std::fflush(stdout);  // long runs are watched
+      std::fflush(stdout);  // shows the line at once, because a run can be long
       shown = report.time;
       spent = residual = longest = 0;
       steps = iterations = unconverged = 0;

@@ -1,5 +1,6 @@
-// Columns of equal discs and spheres under gravity, and chains that are pushed: iterations, CPU time
-// and error of gamma. Prints a row for each number of particles and dimension.
+// Benchmark of many particles: columns of equal discs or spheres under gravity, and chains that are
+// pushed at one end. Prints iterations, CPU time and relative error of gamma for each number of
+// particles and dimension. Radii, masses and gravity are 1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +55,8 @@ void run(int dimension, int count, bool column) {
     unconverged += report.converged ? 0 : 1;
   }
   const double seconds = cpu_seconds() - begin;
-  // A contact carries what is beyond it: its weight, or its share of the push.
+  // The exact impulse of a contact is the weight of the particles beyond the contact, or their
+  // share of the pushing force, times the time.
   double error = 0;
   const double t = kSteps * setting.time_step;
   for (const auto& film : simulation.state().pairs) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""What a user waits for: --help of every command, a run on the shipped table, the size of its report. Medians, least and peak memory.
+"""Measures what a user waits for: --help of every command, and a run on the shipped table. Prints
+median and smallest times, peak memory and the size of the report.
 
 bench/commands.py PROGRAM   (from the source folder)
 """
@@ -14,7 +15,8 @@ import time
 
 
 def measure(command, times, before=lambda: None):
-    """Wall seconds (median, least) and peak resident megabytes of the program alone."""
+    """Median and smallest wall time [s] of the command, and its peak resident memory [MiB], without
+    those of other processes that it starts."""
     seconds, peak = [], 0
     for _ in range(times):
         before()
@@ -37,7 +39,8 @@ slowest = max(((measure([program, name, "--help"], 11), name) for name in names)
 print(f"--help, slowest of {len(names)} commands ({name}): median {median * 1e3:.1f} ms, least {least * 1e3:.1f} ms, {memory:.0f} MB")
 
 with tempfile.TemporaryDirectory() as folder:
-    # The lecture's case with its shipped table: tabulate finds it up to date; fit, simulate, compare, report are made.
+    # The run has the shipped table of the lecture's case: tabulate finds it up to date, and the
+    # other stages run.
     case, run = "data/cases/lecture.toml", os.path.join(folder, "run")
 
     def fresh():

@@ -1,7 +1,9 @@
-# The target coverage_report (preset coverage-report): the lines that the tests have run so far, in a table.
-# Left out: the tests and the benchmarks, which are not what is tested; the FreeFEM scripts, which gcov does not know; Slurm's nodes and other runs that
-# end without exit(), which write no counts; by the test preset, the tests that kill the program at a random moment or let it write small files only:
-# a file of counts that is torn so is refused from then on, with all that the later tests add to it.
+# The target coverage_report (preset coverage-report) prints a table of the lines that the tests
+# have run so far. These are not counted: tests and benchmarks, because they are not under test;
+# FreeFEM scripts, because gcov reads C++ only; nodes of Slurm and other processes that end without
+# exit(), because they write no counts. The test preset leaves out the tests that kill the program
+# at a random moment or limit the size of its files: they can damage a file of counts, and gcov then
+# refuses this file with all counts of later tests.
 find_program(VISCONTACT_GCOVR gcovr)
 add_custom_target(coverage_report
   COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C ${VISCONTACT_GCOVR} --root ${PROJECT_SOURCE_DIR} --object-directory ${PROJECT_BINARY_DIR}

@@ -1,4 +1,5 @@
-# Writes a C++ file whose functions return the texts of files: cmake -D OUTPUT=... -D HEADER=... "-D TEXTS=name=file|name=file" -P embed_texts.cmake
+# Writes a C++ file OUTPUT whose functions, declared in HEADER, return the texts of files:
+#   cmake -D OUTPUT=... -D HEADER=... "-D TEXTS=name=file|name=file" -P embed_texts.cmake
 set(code "// Generated from files by cmake/embed_texts.cmake.\n#include \"${HEADER}\"\n\nnamespace viscontact {\n")
 string(REPLACE "|" ";" pairs "${TEXTS}")
 foreach(pair IN LISTS pairs)

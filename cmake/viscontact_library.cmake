@@ -1,15 +1,15 @@
 # viscontact_library(NAME SOURCES FILE... [HEADERS FILE...] [NEEDS PART...] [FIND PACKAGE...]
 #                    [PUBLIC LIBRARY...] [PRIVATE LIBRARY...])
 #
-# Adds a part of Viscontact that can be used on its own: the target viscontact_NAME, also viscontact::NAME.
-# Files are named relative to the folder of the CMakeLists.txt that calls it.
+# Adds a part of Viscontact that can be used on its own, as the targets viscontact_NAME and
+# viscontact::NAME. Paths of files are relative to the folder of the CMakeLists.txt that calls it.
 #
-# HEADERS  public headers; they are installed, all others are internal
-# NEEDS    parts of Viscontact that it links to
-# FIND     arguments of find_dependency, one string a package, for those who use the part after
-#          find_package(viscontact COMPONENTS NAME)
-# PUBLIC   libraries of others whose headers the public headers include
-# PRIVATE  libraries of others that only its sources use
+# HEADERS  public headers, which are installed; all other headers are internal
+# NEEDS    parts of Viscontact that the part links to
+# FIND     arguments of find_dependency, one string for each package, for projects that use the part
+#          through find_package(viscontact COMPONENTS NAME)
+# PUBLIC   external libraries whose headers the public headers include
+# PRIVATE  external libraries that only the sources of the part use
 #
 # A part without HEADERS belongs to the program alone and is not installed.
 function(viscontact_library name)
@@ -39,7 +39,7 @@ function(viscontact_library name)
   endforeach()
   install(EXPORT viscontact-${name} NAMESPACE viscontact:: FILE viscontact-${name}-targets.cmake
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscontact)
-  # What the package's configuration says of the part: viscontact-config.cmake.in.
+  # These variables describe the part in viscontact-config.cmake.in.
   list(JOIN arg_FIND "\" \"" find)
   string(APPEND description "set(viscontact_${name}_needs ${arg_NEEDS})\n")
   string(APPEND description "set(viscontact_${name}_find \"${find}\")\n")

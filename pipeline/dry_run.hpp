@@ -1,4 +1,4 @@
-// What --dry-run prints: how many rows a command would compute and about how long that takes.
+// The output of --dry-run: how many rows a command would compute and about how long that takes [s].
 #pragma once
 
 #include <string>
@@ -9,22 +9,26 @@
 
 namespace viscontact {
 
-/// The rows of one output.
+/// The number of rows of one output and their time.
 struct DryRun {
-  std::string output;
-  std::uint64_t rows = 0,
-                finished = 0;  ///< finished ones are there and would not be computed again
-  double seconds_per_row = 0;  ///< of one core
-  std::string basis;           ///< what that is taken from, in words
+  std::string output;  ///< path of the table or of the sweep's file
+  /// All rows, and those of them that are finished and would not be computed again.
+  std::uint64_t rows = 0, finished = 0;
+  double seconds_per_row = 0;  ///< on one core [s]
+  std::string basis;           ///< what seconds_per_row was estimated from, in words
 };
 
-/// Of a table. The time is the mean of its finished rows, else that of the shipped tables: of the right order on a machine like theirs.
+/// The estimate for a table. The time of a row is the mean over the finished rows. If there are
+/// none, it is the time that rows of the shipped tables took, which has the right order of
+/// magnitude on a similar machine.
 DryRun dry_run(const CaseTable& one);
 
-/// Of a sweep into a file, by computing three of its rows.
+/// The estimate for a sweep into the file `output`; computes up to three of its rows to measure
+/// them.
 DryRun dry_run(const Sweep& sweep, const std::string& output);
 
-/// A line for each, the time for all of them with `jobs` at once; as JSON, if asked for.
+/// A line for each output, then the time for all of them if `jobs` rows are computed at once; the
+/// same as JSON if `json` is true.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact

@@ -1,4 +1,4 @@
-// How far a model of motion has come, on a terminal.
+// The progress line of `simulate`: how far a model has come in the motion's time.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,13 +11,14 @@
 
 namespace viscontact {
 
-/// Shows on a terminal how far a model has come in the motion's time, ten times a second at most.
+/// Shows the percentage of the motion's time that a model has computed, at most ten times a second.
 class ProgressOfModel {
  public:
-  /// `which`: the model in words.
+  /// `which` names the model in words; `end_time` [T] > 0 is the end of the motion.
   ProgressOfModel(std::string which, double end_time)
       : which_(std::move(which)), end_time_(end_time) {}
 
+  /// To be called after each step with the time [T] that the model has reached.
   void operator()(double time) {
     constexpr auto kBetween = std::chrono::milliseconds(100);
     const auto now = std::chrono::steady_clock::now();

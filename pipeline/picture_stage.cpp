@@ -1,3 +1,4 @@
+// Choice of gaps, names of files and order of writing for the pictures of a tabulation.
 #include "viscontact/pipeline/picture_stage.hpp"
 
 #include <fmt/format.h>
@@ -18,17 +19,19 @@
 namespace viscontact {
 namespace {
 
+/// One of the files that are written for each gap.
 struct PictureFile {
-  std::string_view end;     ///< of the file's name
-  std::string_view marker;  ///< a text that is in every file of this kind
-  std::string_view kind;    ///< in words
+  std::string_view end;     ///< end of the file's name
+  std::string_view marker;  ///< text that every file of this kind contains
+  std::string_view kind;    ///< name of the kind in messages
 };
 constexpr PictureFile kMesh{"_mesh.svg", "<svg", "picture"};
 constexpr PictureFile kFlow{"_flow.svg", "<svg", "picture"};
 constexpr PictureFile kFilm{"_film.svg", "<svg", "picture"};
 constexpr PictureFile kVtu{".vtu", "<VTKFile", "VTK file"};
 
-/// Seven digits of the gap are enough for gaps_to_picture to find it by the file's name.
+/// The path of a file for one gap. The name has seven digits of the gap, so that gaps_to_picture
+/// (relative tolerance 1e-6) accepts the number in the name.
 std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
                               const PictureFile& file) {
   return folder / fmt::format("gap_{:.7g}{}", gap, file.end);
@@ -43,7 +46,7 @@ void check_pictures(const std::vector<double>& gaps, const std::filesystem::path
 }
 
 std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
-  constexpr double kTolerance = 1e-6;
+  constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
   std::vector<double> gaps;

@@ -1,10 +1,12 @@
+// The stages fit, compare and shift, and the main job. Before the main job simulates again, it
+// removes the outputs that depend on the old trajectories; a change must keep this order, so that a
+// run that is killed never leaves outputs that do not belong together.
 #include "viscontact/pipeline/pipeline.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "viscontact/app/command_options.hpp"
 #include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -33,8 +35,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True if the file can be read and passes the test; a file that is no such file at all does not
-/// count as up to date.
+/// True if `path` is a file and `test` returns true. A test that throws an Error, because the file
+/// is damaged or of another kind, counts as false.
 template <class Test>
 bool up_to_date(const fs::path& path, const Test& test) {
   if (!fs::is_regular_file(path)) return false;
@@ -45,12 +47,13 @@ bool up_to_date(const fs::path& path, const Test& test) {
   }
 }
 
-/// Says so if trajectories of ours were made from different cases or fits: their distances then mix two causes.
+/// Warns if the trajectories were made from different cases or fits, because the distances between
+/// them then have two causes. Trajectories that the user wrote have no such record and are skipped.
 void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
   for (const auto* key : {"case", "fit"}) {
     const Trajectory* first = nullptr;
     for (const auto& trajectory : trajectories) {
-      if (!trajectory.provenance.contains(key)) continue;  // a user's own
+      if (!trajectory.provenance.contains(key)) continue;
       if (first == nullptr) first = &trajectory;
       if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
       warn(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
@@ -60,7 +63,8 @@ void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
   }
 }
 
-/// The place of a trajectory's model in the table of models; beyond it for a user's own.
+/// The index of a trajectory's model in the registry of models; the size of the registry if the
+/// file is not named after a model.
 std::ptrdiff_t rank_of(const fs::path& file) {
   try {
     return find_model(file.stem().string()).model - all_models().data();
@@ -69,7 +73,7 @@ std::ptrdiff_t rank_of(const fs::path& file) {
   }
 }
 
-/// The files of a folder, if it is there, that are named after models.
+/// The CSV files of a folder that are named after models; none if the folder does not exist.
 std::vector<fs::path> files_of_models(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
@@ -79,8 +83,8 @@ std::vector<fs::path> files_of_models(const fs::path& folder) {
   return files;
 }
 
-/// The trajectory files of a folder: those in trajectories/ if it is a run's folder, else its own
-/// .csv files.
+/// The trajectory files of a folder: those in its trajectories/ if it is a run's folder, otherwise
+/// the .csv files in the folder itself. Throws Error(kBadInput) if the folder does not exist.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
   const auto inner = RunFolder{folder}.trajectories();
   const fs::path place = fs::is_directory(inner) ? inner : folder;
@@ -90,7 +94,7 @@ std::vector<fs::path> trajectory_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(place))
     if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
       files.push_back(entry.path());
-  // In the order of the table of models, then by name.
+  // First the models in the order of the registry, then the user's files by name.
   std::ranges::sort(files, {},
                     [&](const fs::path& file) { return std::pair(rank_of(file), file); });
   return files;
@@ -107,7 +111,7 @@ std::vector<fs::path> files_of_motion(const Case& c) {
 Fit fit_file(const fs::path& table_path, const ForceTable& table, const FitSettings& settings) {
   try {
     Fit fit = fit_force_table(table, settings);
-    if (fs::is_regular_file(table_path))  // a pipe has been read
+    if (fs::is_regular_file(table_path))  // a pipe cannot be read a second time
       fit.table_sha256 = content_sha256(read_file(table_path));
     fit.versions = library_versions();
     return fit;
@@ -174,7 +178,7 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   write_output(shift_path, TextKind::kHashComment, text, provenance);
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
-  // Last, because the picture needs gnuplot, which may be missing.
+  // The picture comes last because it needs gnuplot, which may be missing.
   if (!plot_path.empty())
     write_output(plot_path, TextKind::kSvg, plot_wall_shift(shift, rough.geometry), provenance);
 }
@@ -202,7 +206,7 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
 
 namespace {
 
-/// True if the report was made from what the fit's errors do, and that is not there any more.
+/// True if the report used uncertainty.json, which has since been deleted.
 bool uncertainty_is_lost(const RunFolder& run) {
   if (fs::exists(run.uncertainty())) return false;
   try {
@@ -210,7 +214,7 @@ bool uncertainty_is_lost(const RunFolder& run) {
     return provenance && std::ranges::any_of(provenance->inputs, [&](const InputFile& input) {
              return fs::path(input.file).filename() == run.uncertainty().filename();
            });
-  } catch (const Error&) {  // no report, or half of one: it will be made
+  } catch (const Error&) {  // the report is missing or damaged, so it will be made anyway
     return false;
   }
 }
@@ -284,7 +288,8 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   } else {
     const auto results = simulate_case(c, {fit, fit_text}, models, outside);
     throw_if_interrupted();
-    // What was made from the old trajectories goes before the new ones come, so that no crash leaves it beside them.
+    // Outputs that were made from the old trajectories are removed before the new trajectories are
+    // written, so that a crash never leaves both in the folder.
     remove_file(run.comparison());
     remove_file(run.report());
     for (const auto& file : files_of_models(run.trajectories())) remove_file(file);
@@ -296,7 +301,7 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json) {
   compare_stage(folder, {}, reference_without(models, failed), run.comparison(), given, json);
   throw_if_interrupted();
   write_report(folder, given);
-  // Last, so that the results of the other models are whole.
+  // This error is thrown last, so that the results of the other models are complete.
   if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
 }
 

@@ -1,3 +1,4 @@
+// Checks that need no table: number of gaps, parameters of models, interval of the motion.
 #include "viscontact/pipeline/run_checks.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
                                 "into the section [fit]",
                                 motion.initial_gap, what, bound, model, remedy));
   };
-  // What the models themselves refuse, found with the exact drag: nothing outside an interval, and no table yet.
+  // The models check their own parameters with the exact drag, because there is no table yet; the
+  // exact drag has no interval that a model could leave.
   const LubricationForce exact(exact_plane_fit(c.viscosity, c.radius));
   for (const auto& name : models) {
     const auto choice = find_model(name);

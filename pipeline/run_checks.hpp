@@ -1,4 +1,4 @@
-// What of a run cannot end well, seen before the long tabulation.
+// Checks a case for errors before the tabulation starts, which can take hours.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace viscontact {
 
-/// Throws Error(kBadInput) naming the case if its gaps are fewer than the terms to be fitted, or a model that needs the drag would start outside them without
-/// an extension (`[fit] below`, `above`).
+/// Throws Error(kBadInput) that names the case if it has fewer gaps than terms to be fitted, if a
+/// parameter of a model is wrong, or if a model that needs the drag would start outside the gaps
+/// while the case asks for no limit there (`[fit] below`, `above`).
 void check_run(const Case& c, const std::vector<std::string>& models);
 
-/// Warns on standard error if models will leave the case's tabulated gaps, and how far they will
-/// go. The motion is computed with the exact drag of a plane in a half-space, so nothing is said for
-/// another geometry, nor where a model takes more than a million steps.
+/// Warns on standard error if models will leave the interval of the case's gaps, and says how far.
+/// The motion is estimated with the exact drag near a plane in a half-space; therefore other
+/// geometries are not checked. Motions of more than a million steps are not checked either.
 void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models);
 
 }  // namespace viscontact

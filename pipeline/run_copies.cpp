@@ -1,3 +1,4 @@
+// Checking and writing the copies of a run's inputs.
 #include "viscontact/pipeline/run_copies.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Throws Error(kBadInput) if `copy` exists in a folder without a run and differs from `text` in
+/// more than its provenance. `kind` names the kind of file in the message.
 void check_copy(const RunFolder& run, const fs::path& copy, const std::string& text,
                 std::string_view kind) {
   if (!fs::is_regular_file(copy) || holds_a_run(run)) return;

@@ -1,4 +1,4 @@
-// The copies of its inputs that a run's folder holds.
+// The copies of case, force files and fit in a run's folder.
 #pragma once
 
 #include "viscontact/case_file/case_file.hpp"
@@ -6,23 +6,25 @@
 
 namespace viscontact {
 
-/// The forces of the case's files, one text after the other.
+/// The texts of the case's force files, one after the other.
 std::string text_of_forces(const Case& c);
 
-/// True if the folder is one into which Viscontact has simulated before: it has a folder of
-/// trajectories, and this is empty, as an interrupted run leaves it, or holds a file that Viscontact
-/// wrote.
+/// True if Viscontact has simulated into this folder before. Then the folder has a sub-folder of
+/// trajectories that contains a file that Viscontact wrote, or that is empty because the run was
+/// interrupted.
 bool holds_a_run(const RunFolder& run);
 
-/// Throws Error(kBadInput) if a copy of the case or of its force files would replace another file of
-/// that name in a folder that does not hold a run: then it is the user's own. (In a folder that
-/// holds one it is the copy that the earlier run made.)
+/// Throws Error(kBadInput) if a copy of the case or of its force files would replace a different
+/// file of the same name in a folder without a run, because that file is the user's. In a folder
+/// with a run, that file is the copy that the earlier run made, and it may be replaced.
 void check_case_copies(const RunFolder& run, const Case& c);
 
-/// The same of the fit.
+/// The same check for the copy of the fit.
 void check_fit_copy(const RunFolder& run, const std::string& fit_text);
 
-/// Makes the folder of trajectories, then the copies.
+/// Makes the folder of trajectories, then writes the copies. The order matters: holds_a_run knows
+/// by the folder of trajectories that the copies may be replaced, even if the run is interrupted
+/// here.
 void write_copies(const RunFolder& run, const Case& c, const std::string& fit_text);
 
 }  // namespace viscontact

@@ -1,3 +1,6 @@
+// Running the models of a case and recording what each trajectory was made from. `run` decides by
+// this record (identity_of_trajectory) whether a trajectory is up to date, so the record must name
+// everything that changes a trajectory.
 #include "viscontact/pipeline/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +30,8 @@ namespace fs = std::filesystem;
 constexpr const char* kBelowKey = "drag below the fit";
 constexpr const char* kAboveKey = "drag above the fit";
 
-/// What identifies the inputs of a trajectory, in its "# key: value" lines.
+/// The lines "# key: value" that identify the inputs of a trajectory: hashes of case, fit and
+/// forces, limits of the drag, revision of the models and version.
 CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text,
                                    const OutsideFit& outside) {
   CsvComments comments = {{"case", sha256(c.text)},
@@ -42,7 +46,8 @@ CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text,
   return comments;
 }
 
-/// True if a trajectory with these lines was made from those inputs.
+/// True if a trajectory with the lines `comments` was made from the inputs `identity`. The two keys
+/// of the limits are compared even if `identity` lacks them, because a missing key means no limit.
 bool is_made_from(const CsvComments& comments, const CsvComments& identity) {
   const auto value = [](const CsvComments& of, const std::string& key) {
     const auto found = of.find(key);
@@ -69,7 +74,8 @@ std::string time_step_of(std::string_view model, const Motion& motion) {
   return "variable";
 }
 
-/// What the fit's errors do to the motion without inertia; nothing where there is no such motion, or the fit is exact.
+/// The effect of the fit's errors on the motion without inertia (JSON). Empty if the fit is exact,
+/// or if this motion cannot be computed; then a warning says why.
 std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFit& outside) {
   constexpr std::size_t kTimes = 81;
   if (is_exact_plane(fit)) return "";
@@ -83,8 +89,9 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
   }
 }
 
-/// How far beyond the fit's interval a model goes, as the end of a message; empty if it does not, or
-/// if that cannot be said. The drag is continued by its limits below and above the interval.
+/// Says, as the end of a message, how far a model goes beyond the fit's interval; empty if it stays
+/// inside or if no estimate is possible. For the estimate, the drag outside the interval is given
+/// by its limits.
 std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, const Fit& fit,
                              OutsideFit outside) {
   if (choice.exact_drag || is_exact_plane(fit)) return "";
@@ -108,7 +115,7 @@ std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, co
   return text;
 }
 
-/// The record of a model that failed with this error of simulate().
+/// The record of a model for which simulate() threw this error.
 FailedModel failure_of(const ModelChoice& choice, const Error& error, const Motion& motion,
                        const Fit& fit, const OutsideFit& outside) {
   std::string reason = error.what();
@@ -119,7 +126,8 @@ FailedModel failure_of(const ModelChoice& choice, const Error& error, const Moti
   return {choice.name, reason, error.kind(), {}};
 }
 
-/// Throws Error(kBadInput) naming the case if a parameter of a model is wrong, whatever the drag is.
+/// Throws Error(kBadInput) that names the case if a parameter of a model is wrong. The check uses
+/// the exact drag, so that it does not depend on the fit's interval.
 void check_parameters(const Case& c, const std::vector<std::string>& models) {
   const LubricationForce exact(exact_plane_fit(c.viscosity, c.radius));
   for (const auto& name : models) try {
@@ -145,8 +153,8 @@ Simulated simulate_case(const Case& c, const FitFile& fit_file,
   simulated.fit_text = fit_file.text;
   const fs::path& fit_path = fit_file.path;
   const Fit fit = parse_fit(fit_file.text, fit_path.string());
-  // A fit of another viscosity could be scaled, one of another radius could not; neither is done
-  // silently.
+  // A fit for another viscosity could be scaled, but a fit for another radius could not. Neither is
+  // done without the user's knowledge.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
     throw_bad_input({fit_path.string()},
                     fmt::format("is of viscosity {} and radius {}; the case has viscosity {} and "
@@ -204,12 +212,13 @@ void write_simulated(const RunFolder& run, const Case& c, const Simulated& simul
     remove_file(run.uncertainty());
   else
     write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
-  // Last: by the trajectories `run` sees whether all this has been done.
+  // The trajectories come after the other files, because `run` takes their presence as the sign
+  // that these files are written.
   for (const auto& trajectory : simulated.trajectories)
     write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
                  write_trajectory(trajectory), provenance);
   auto failed = recorded_failures(run, simulated.made_from);
-  // What other models did with the same inputs stays recorded.
+  // The record keeps the failures of models that were not run now, if their inputs were the same.
   std::erase_if(failed, [&](const FailedModel& other) {
     const auto is_it = [&](const auto& model) { return model.model == other.model; };
     return std::ranges::any_of(simulated.trajectories, is_it) ||
@@ -222,7 +231,7 @@ void write_simulated(const RunFolder& run, const Case& c, const Simulated& simul
     write_output(run.failed_models(), TextKind::kJson, write_failed_models(failed), provenance);
   for (const auto& model : simulated.failed) {
     remove_file(run.trajectory(model.model));
-    // The reason of the first is in the error that ends the command.
+    // The error that ends the command gives the reason of the first model.
     if (&model != &simulated.failed.front())
       say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
   }
@@ -236,7 +245,7 @@ bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
   try {
     return is_made_from(read_trajectory(file).provenance,
                         identity_of_trajectory(c, fit_text, outside));
-  } catch (const Error&) {  // no trajectory at all is not up to date
+  } catch (const Error&) {  // not a trajectory
     return false;
   }
 }
@@ -253,8 +262,8 @@ std::vector<FailedModel> recorded_failures(const RunFolder& run,
 
 namespace {
 
-/// The fit file of the case's exact drag as it is to stand in the run's folder: the one that is
-/// there, if it says the same.
+/// The fit file for the exact drag of the case in the run's folder. If the file there differs in
+/// its provenance only, its text is returned unchanged, so that it is not written with a new time.
 FitFile exact_fit_file(const Case& c, const RunFolder& run, const Provenance& provenance) {
   const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
   if (fs::is_regular_file(run.fit()))
@@ -282,7 +291,8 @@ void simulate_stage(const Case& c, const SimulateRequest& request) {
   inputs.insert(inputs.end(), c.force_files.begin(), c.force_files.end());
   if (!exact) inputs.push_back(path);
   auto provenance = provenance_of({inputs, {}});
-  // The command repeated for another folder finds no fit there.
+  // If `rerun` repeats the command for another folder, that folder has no fit; so the recorded
+  // command names this fit.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
     say(fmt::format("simulate: the drag is {}",

@@ -1,4 +1,5 @@
-// The models of motion run on a case with a fit, and what of it goes into a run's folder.
+// The stage simulate: runs the models of motion on a case with a fit, and writes trajectories and
+// the record of failed models into a run's folder.
 #pragma once
 
 #include <filesystem>
@@ -14,64 +15,71 @@
 
 namespace viscontact {
 
-/// Where the fit says nothing.
+/// What the drag is outside the interval of the fit: an error, or a limit.
 struct OutsideFit {
   BelowInterval below = BelowInterval::kError;
   AboveInterval above = AboveInterval::kError;
 };
 
-/// A fit file: its name for messages, and its text.
+/// A fit file: its path for messages, and its text.
 struct FitFile {
   std::filesystem::path path;
   std::string text;
 };
 
-/// The models of a run: those asked for, else those that the case names, else all that run by default.
+/// The models of a run: `asked`, or if this is empty those that the case names, or if the case
+/// names none, the default models of the registry.
 std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
 
+/// The results of a simulation, before they are written.
 struct Simulated {
-  std::string fit_text;   ///< of the file
+  std::string fit_text;   ///< text of the fit file
   CsvComments made_from;  ///< what identifies case, fit and version in the files that are written
   std::vector<Trajectory> trajectories;
   std::vector<FailedModel> failed;  ///< models without a trajectory
-  std::string
-      uncertainty;  ///< what the fit's errors do to the motion without inertia (JSON); empty if there is nothing to say
+  /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or
+  /// the effect cannot be computed.
+  std::string uncertainty;
 };
 
-/// Runs the models; writes nothing. A model that fails (because it leaves the fit's interval, or does
-/// not converge) does not stop the others. Throws Error(kBadInput) that names the case or the fit if
-/// the fit is of another viscosity or radius than the case, or if a parameter of a model is wrong;
-/// and the first model's Error if no model can be computed.
+/// Runs the models and writes no file. A model that fails, because it leaves the fit's interval or
+/// does not converge, does not stop the others. Throws Error(kBadInput) that names the case or the
+/// fit if the fit has another viscosity or radius than the case, or if a parameter of a model is
+/// wrong. Throws the error of the first model if all models fail, and Error(kInterrupted).
 Simulated simulate_case(const Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside);
 
-/// Writes the trajectories, the models that failed, what the fit's errors do, and copies of case and
-/// fit. An earlier trajectory of a model that failed is removed: it is of other inputs.
+/// Writes the trajectories, the record of failed models, uncertainty.json and the copies of case
+/// and fit. An earlier trajectory of a model that failed is removed, because it was made from other
+/// inputs.
 void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
                      const Provenance& provenance);
 
-/// True if the folder has the model's trajectory, made from this case and this fit (its text), by the present models.
+/// True if the folder has the model's trajectory and this was made from this case, this fit
+/// (`fit_text`) and the present revision of the models.
 bool is_simulated(const RunFolder& run, const std::string& model, const Case& c,
                   const std::string& fit_text, const OutsideFit& outside);
 
-/// The models of these that failed when they were run with this case and this fit (its text), as the
-/// folder records it.
+/// Those of `models` that, by the record in the folder, failed with this case and this fit
+/// (`fit_text`).
 std::vector<FailedModel> recorded_failures(const RunFolder& run,
                                            const std::vector<std::string>& models, const Case& c,
                                            const std::string& fit_text, const OutsideFit& outside);
 
-/// What a simulation is run with, apart from the case.
+/// The inputs of a simulation besides the case.
 struct SimulateRequest {
-  std::string
-      fit;  ///< fit file; empty: that of the case, the exact drag of the case, or DIR/fit.json
-  std::filesystem::path folder;     ///< DIR, a run's folder
-  std::vector<std::string> models;  ///< names; none: those that the case names, or all
+  /// Path of the fit. If it is empty, the fit is that which the case names, or the exact drag if
+  /// the case asks for it, or fit.json in `folder`.
+  std::string fit;
+  std::filesystem::path folder;     ///< the run's folder
+  std::vector<std::string> models;  ///< names of models; empty: see models_to_run
   OutsideFit outside;
 };
 
-/// Runs models into the run folder's trajectories; copies case and fit beside them. Throws as
-/// simulate_case, or Error(kWrongUsage) if there is no fit at all, having written nothing; and
-/// error_of() the models that failed, having written what the others computed.
+/// Runs the models and writes their trajectories and the copies of case and fit into the run's
+/// folder. Before anything is written, throws as simulate_case does, Error(kWrongUsage) if there is
+/// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, throws
+/// error_of() them after the results of the others are written.
 void simulate_stage(const Case& c, const SimulateRequest& request);
 
 }  // namespace viscontact

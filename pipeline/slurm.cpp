@@ -1,3 +1,5 @@
+// The array job of a tabulation: its tasks, its script and the calls of squeue and sbatch. Each
+// task runs `viscontact tabulate --task K/T`, where K is the number of the task.
 #include "viscontact/pipeline/slurm.hpp"
 
 #include <fmt/format.h>
@@ -16,21 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Slurm's MaxArraySize is 1001 unless its configuration says otherwise; task numbers are below it.
+// The default of Slurm's MaxArraySize is 1001, and the numbers of tasks must be smaller.
 constexpr std::size_t kMostTasks = 1000;
 
 fs::path absolute_output(const fs::path& output) {
   const fs::path whole = fs::absolute(output).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();  // "folder/" is "folder"
+  return whole.has_filename() ? whole : whole.parent_path();  // "folder/" becomes "folder"
 }
 
-/// The same for each submission with that output, so that an earlier job is found.
+/// The name of the job. It depends on the output's path only, so that refuse_second_job finds an
+/// earlier job for the same output by its name.
 std::string job_name(const fs::path& output) {
-  constexpr std::size_t kDigits = 12;
+  constexpr std::size_t kDigits = 12;  // of the hash: 48 bits, enough to distinguish outputs
   return "viscontact-" + sha256(absolute_output(output).string()).substr(0, kDigits);
 }
 
-/// What a program of Slurm answers, without the last line's end.
+/// Runs a program of Slurm and returns its output without the last newline. Throws
+/// Error(kExternalProgram) if the program cannot be run or fails.
 std::string ask_slurm(const std::vector<std::string>& command) {
   auto result = run_process(command);
   while (!result.output.empty() && result.output.back() == '\n') result.output.pop_back();
@@ -50,6 +54,7 @@ std::string ask_slurm(const std::vector<std::string>& command) {
   return result.output;
 }
 
+/// Throws Error(kBadInput) if Slurm has a job for this output that is not over.
 void refuse_second_job(const fs::path& output) {
   std::string jobs =
       ask_slurm({"squeue", "--noheader", "--format=%F", "--states=PENDING,RUNNING,SUSPENDED",
@@ -79,7 +84,8 @@ std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, s
   return tasks;
 }
 
-/// "0-3,7": what sbatch's --array takes, without a needless word, for it has a longest length.
+/// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Runs of numbers are
+/// shortened, because sbatch limits the length of this text.
 std::string array_of(const std::vector<std::size_t>& tasks) {
   std::string text;
   for (std::size_t first = 0, last = 0; first < tasks.size(); first = last + 1) {
@@ -90,7 +96,7 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-/// The script of a task: this program with the cases as submitted.
+/// The script of a task, which runs this program with the cases as submitted.
 std::string task_script(const std::vector<CaseTable>& tables, const SlurmRequest& request,
                         std::size_t count) {
   std::string command = shell_word(fs::read_symlink("/proc/self/exe").string()) + " tabulate";
@@ -103,7 +109,8 @@ std::string task_script(const std::vector<CaseTable>& tables, const SlurmRequest
       count);
 }
 
-/// sbatch puts numbers in place of %x in the name of a log; a % of ours is %%.
+/// The names of the logs, in which sbatch replaces %A by the job's number and %a by the task's. A %
+/// in the path of the folder is written as %%.
 std::string log_pattern(const fs::path& folder) {
   std::string pattern;
   for (const char character : folder.string())
@@ -111,6 +118,7 @@ std::string log_pattern(const fs::path& folder) {
   return pattern + "/%A_%a.log";
 }
 
+/// The command, for the user, that puts the tables together after the job is over.
 std::string gather_command(const std::vector<CaseTable>& tables, const fs::path& output) {
   std::string command = "viscontact tabulate";
   for (const auto& one : tables) command += " " + shell_word(one.c.path.string());
@@ -143,7 +151,8 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   const auto script = folder / "task.sh";
   write_file(script, task_script(tables, request, count));
 
-  // A task that a dying node takes along is to be run again, unless the user's options say no.
+  // With --requeue, the tasks of a node that fails are run again. The user's options come later on
+  // the command line and can change this.
   std::vector<std::string> command = {"sbatch", "--requeue"};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),
@@ -152,7 +161,8 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   if (request.jobs) command.push_back(fmt::format("--cpus-per-task={}", *request.jobs));
   command.push_back(script.string());
   std::string job = ask_slurm(command);
-  job = job.substr(0, job.find(';'));  // "number;cluster" where there are several
+  // If there are several clusters, sbatch prints "number;cluster".
+  job = job.substr(0, job.find(';'));
   say(
       fmt::format("tabulate: Slurm job {} of {} tasks; logs in {}; when it is over (squeue -j {}):"
                   "\n  {}",

@@ -1,3 +1,5 @@
+// Tabulation of several cases in one process, in shares, and gathering. Journals of finished rows
+// are removed only after their table is written.
 #include "viscontact/pipeline/tabulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +32,8 @@ void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
                       row.gap, row.reference_velocity, row.relative_error_estimate, asked));
 }
 
-/// True, and said so, if the table is there; journals that a late process left behind go.
+/// True if the table of this case exists; then a message says so, and journals that a process wrote
+/// after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
   const auto table = find_table(one.table, one.hash());
   if (!table) return false;
@@ -52,7 +55,7 @@ void show_rows(const TabulateProgress& progress) {
                             progress.rows, progress.seconds_left));
 }
 
-/// How many rows there are, and how many of them an earlier call has finished.
+/// Says in words how many rows there are and how many of them an earlier call has finished.
 std::string rows_in_words(const CaseTable& one, const std::vector<GridPoint>& points) {
   const auto missing = missing_points(read_row_record(one.table, one.hash()), points);
   const auto kept = points.size() - missing.size();
@@ -71,7 +74,8 @@ void tabulate_one(const CaseTable& one, int jobs) {
   write_table(one, std::move(table), provenance);
 }
 
-/// Which process writes a journal: no two that live at a time have the same name.
+/// The name of the process that writes a journal. It contains share, host and process id, so that
+/// no two processes that run at the same time have the same name.
 std::string writer_name(const Share& share) {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
@@ -86,7 +90,7 @@ std::string words_for(const GridPoint& point) {
 [[noreturn]] void throw_missing(const CaseTable& one, const RowRecord& record,
                                 const std::vector<GridPoint>& missing,
                                 const fs::path& slurm_folder) {
-  constexpr std::size_t kNamed = 3;
+  constexpr std::size_t kNamed = 3;  // rows that the message names
   std::string named;
   for (std::size_t i = 0; i < missing.size() && i < kNamed; ++i)
     named += (i > 0 ? "; " : "") + words_for(missing[i]);
@@ -117,11 +121,14 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   say(fmt::format("tabulate: {} is gathered", one.table.string()));
 }
 
-/// Does the work of each table. What is wrong with the rows of one does not stop the others.
+/// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
+/// which comes from rows, does not stop the other tables; such errors are thrown together at the
+/// end. Any other error stops the work.
 template <class Work>
 void for_each_table(const std::vector<CaseTable>& tables, const Work& work) {
   if (tables.size() == 1) return work(0);
-  auto kind = ErrorKind::kBadInput;  // the lower of those that may be gathered here
+  // The largest kind is thrown. This start value is smaller than the two kinds that are gathered.
+  auto kind = ErrorKind::kBadInput;
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     throw_if_interrupted();
@@ -159,7 +166,7 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
   std::vector<CaseTable> tables;
   for (std::size_t i = 0; i < case_files.size(); ++i) {
     tables.push_back({read_case(case_files[i]), names[i]});
-    (void)tables.back().tabulation();  // each case has one, or nothing is begun
+    (void)tables.back().tabulation();  // throws if a case has no tabulation, before any work begins
   }
   return tables;
 }

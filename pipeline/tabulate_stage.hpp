@@ -1,5 +1,5 @@
-// The tables of one or several cases: computed here, computed in shares by the tasks of a cluster's job,
-// or put together from what those have finished.
+// The stage tabulate: the tables of one or several cases. The rows are computed by this process, or
+// in shares by the tasks of a job on a cluster; then gather_stage puts the tables together.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace viscontact {
 
-/// A case and the file that its table goes to.
+/// A case and the file for its table.
 struct CaseTable {
   Case c;
   std::filesystem::path table;
@@ -20,35 +20,38 @@ struct CaseTable {
   std::string hash() const { return tabulation_hash(tabulation()); }
 };
 
-/// One case: its table is `output`. Several: `output` is a folder, and the tables are named after
-/// the case files. Throws Error(kWrongUsage) if two would be the same, Error(kBadInput) as
-/// read_case does.
+/// Reads the cases. For one case, `output` is the file of the table. For several cases, `output` is
+/// a folder and the tables are named after the case files. Throws Error(kWrongUsage) if two tables
+/// would have the same name, and Error(kBadInput) as read_case does or if a case has no tabulation.
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const std::filesystem::path& output);
 
-/// Task `number` of `count`: every row whose number over all tables' grids is congruent to it.
+/// The share of task `number` among `count` tasks: the rows are numbered through the grids of all
+/// tables, and the share has those whose number is congruent to `number` modulo `count`.
 struct Share {
   std::size_t number = 0, count = 1;
 };
 
-/// "K/T" with 0 <= K < T. Throws Error(kWrongUsage).
+/// Reads "K/T". Throws Error(kWrongUsage) unless these are integers with 0 <= K < T.
 Share parse_share(const std::string& text);
 
-/// For each table, the points of its grid that are in the share.
+/// The points of each table's grid that belong to the share.
 std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
                                               const Share& share);
 
-/// Tabulates what is missing, one table after the other, `jobs` rows at once; tables of the same
-/// inputs that are there already stay. Rows that fail stop neither the others nor the other tables:
-/// Error(kExternalProgram) at the end names them.
+/// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
+/// tables. A table that was already made from the same inputs is left as it is. A row that fails
+/// stops neither the other rows nor the other tables; Error(kExternalProgram) at the end names the
+/// rows that failed.
 void tabulate_stage(const std::vector<CaseTable>& tables, int jobs);
 
-/// Computes what is missing of a share, into journals of its own; writes no table.
+/// Computes the missing rows of a share and writes them into journals of its own, but no table.
+/// Throws as tabulate_stage does.
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs);
 
-/// Writes the tables from finished rows, computing none. Throws at the end, with the rows that are
-/// missing: Error(kExternalProgram) if some have failed, else Error(kNotConverged). `slurm_folder`
-/// is where logs and submitted cases are (slurm.hpp).
+/// Writes the tables from finished rows and computes none. If rows are missing, throws at the end
+/// an error that names them: Error(kExternalProgram) if some of them failed, else
+/// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (slurm.hpp).
 void gather_stage(const std::vector<CaseTable>& tables, const std::filesystem::path& slurm_folder);
 
 }  // namespace viscontact

@@ -1,4 +1,4 @@
-// A comparison as a table to read on a terminal.
+// The comparison of models as a table for the terminal, in the units of the case.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace viscontact {
 
-/// One line per model: smallest gap and its time, film recovered from gamma, times of contact, largest distance to the
-/// reference model.
+/// One line per model: smallest gap and its time, recovered film, times of contact, largest
+/// distance to the reference.
 std::string comparison_table(const Comparison& comparison);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Text, JSON and picture of fits.
 #include "viscontact/report/fit_summary.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ std::string misfit_in_words(const FitDiagnostics& d) {
                                   : ": but for the outliers, the data explain the residuals");
 }
 
-/// The largest residual of a row that is left out, as text.
+/// The residual of the left-out row as text, or a dash if there is no such row.
 std::string left_out(const std::optional<LeftOutRow>& row, const char* format) {
   return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
@@ -83,7 +84,7 @@ std::string basis_json(const std::vector<BasisResult>& results) {
 }
 
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results) {
-  // Okabe & Ito 2008, as in the report.
+  // Colours that colour-blind readers tell apart (Okabe & Ito 2008), as in the report.
   constexpr std::array kColours = {"#D55E00", "#0072B2", "#009E73", "#CC79A7"};
   Panel panel{"Relative residuals of the fits",
               "gap q",
@@ -92,7 +93,8 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
               true,
               {"set format y '1e%T'", "set key below Left reverse noopaque"},
               {}};
-  // Of a long table every n-th row: a picture shows no more.
+  // Of a table with more than 2000 rows, only every n-th row is drawn, because a picture cannot
+  // show more points.
   constexpr std::size_t kMostPoints = 2000;
   const std::size_t stride = 1 + table.rows.size() / kMostPoints;
   std::size_t place = 0;
@@ -111,7 +113,7 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
       for (const auto& term : result.fit->terms)
         force += term.coefficient * find_term(term.name).value().value(row.gap);
       const double residual = std::abs(force * row.reference_velocity / u0 / row.force - 1);
-      // Nothing to see of a zero on a logarithmic axis.
+      // A logarithmic axis has no zero, so a residual of 0 is not drawn.
       curve.points.emplace_back(row.gap, residual > 0 ? residual : std::nan(""));
     }
     panel.curves.push_back(curve);

@@ -1,4 +1,4 @@
-// A fit in words, and bases side by side.
+// A fit in words, and the fits in several bases side by side.
 #pragma once
 
 #include <string>
@@ -8,16 +8,18 @@
 
 namespace viscontact {
 
-/// A line or a few: basis, residuals, what the misfit comes from, outliers.
+/// One or a few lines: basis, residuals, the cause of the misfit, outliers.
 std::string fit_in_words(const Fit& fit);
 
-/// A table of lines, one a basis, and a line that names the best.
+/// A table with one line for each basis, and a last line that names the best basis.
 std::string basis_table(const std::vector<BasisResult>& results);
 
-/// The same as JSON: a list of objects, each the fit file of a basis, or "basis" and "failure".
+/// The results as JSON: a list with an object for each basis, which is its fit file, or has "basis"
+/// and "failure" if the fit failed.
 std::string basis_json(const std::vector<BasisResult>& results);
 
-/// Relative residuals of every basis over the gap, beside the table's error estimates, as SVG. Throws Error(kExternalProgram) as draw_svg.
+/// An SVG of the relative residuals of every basis over the gap, beside the table's error
+/// estimates. Throws Error(kExternalProgram) as draw_svg does.
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results);
 
 }  // namespace viscontact

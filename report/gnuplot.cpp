@@ -1,3 +1,5 @@
+// Writes gnuplot's commands and data, runs gnuplot and reads its SVG. Texts of the user must pass
+// through quoted_for_gnuplot, because gnuplot can run commands of the shell.
 #include "viscontact/report/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ std::string data_block(const std::string& name, const Curve& curve) {
   return text + "END_OF_CURVE\n";
 }
 
-// Stands for a transparent cell: gnuplot complains of missing values in a matrix.
+// The value of a transparent cell, because gnuplot warns of missing values in a matrix.
 constexpr double kTransparent = 1e99;
 
 std::string data_block(const std::string& name, const ColourField& field) {
@@ -46,7 +48,7 @@ std::string plot_of(const std::string& name, const ColourField& field) {
       name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
 }
 
-/// What a program said last.
+/// The last 300 characters of a program's output.
 std::string last_part(const std::string& output) {
   constexpr std::size_t kLength = 300;
   return output.size() <= kLength ? output : output.substr(output.size() - kLength);
@@ -88,9 +90,9 @@ std::string quoted_for_gnuplot(const std::string& text) {
     if (c == '\n')
       result += "\\n";
     else if (c == '`')
-      result += "\\140";  // as it stands it would run a command of the shell
+      result += "\\140";  // an unescaped backquote would run a command of the shell
     else if (static_cast<unsigned char>(c) < ' ')
-      result += "\uFFFD";  // it would stand in the SVG, where no control character may
+      result += "\uFFFD";  // control characters are not allowed in an SVG
     else
       result += c;
   }
@@ -106,8 +108,9 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
-  constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);  // a picture takes one second
-  // Its warnings come after the picture, not within.
+  // A picture takes about one second, so ten minutes mean that gnuplot hangs.
+  constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
+  // The shell command puts gnuplot's warnings after the picture, so that none is within it.
   const auto result = run_process(
       {"/bin/sh", "-c",
        "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
@@ -115,7 +118,7 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height) {
   if (result.timed_out)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("gnuplot had not ended after {} s and was stopped", kLongest.count()));
-  constexpr int kCannotBeRun = 126, kNotFound = 127;  // of the shell
+  constexpr int kCannotBeRun = 126, kNotFound = 127;  // exit codes of the shell
   if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
     throw GnuplotMissing(
         ErrorKind::kExternalProgram,

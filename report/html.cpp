@@ -1,3 +1,4 @@
+// Escaping for HTML and for addresses (RFC 3986).
 #include "viscontact/report/html.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ std::string escaped(std::string_view text) {
     else if (c == '"')
       result += "&quot;";
     else if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t')
-      result += "\uFFFD";  // no XML may hold it, not even escaped
+      result += "\uFFFD";  // XML does not allow control characters, not even escaped
     else
       result += c;
   }
@@ -31,7 +32,7 @@ std::string section(std::string_view heading, const std::string& body) {
 
 namespace {
 
-/// A relative file's name as part of an address (RFC 3986).
+/// The name of a relative file as part of an address (RFC 3986).
 std::string as_url(const std::string& file) {
   std::string url;
   for (const char c : file) {

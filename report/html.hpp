@@ -1,4 +1,4 @@
-// Small pieces of HTML.
+// Pieces of HTML: escaped text, sections, links and rows of tables.
 #pragma once
 
 #include <string>
@@ -8,16 +8,18 @@
 
 namespace viscontact {
 
-/// Text with the characters that mean something in HTML replaced.
+/// The text with the special characters of HTML escaped.
 std::string escaped(std::string_view text);
 
-/// A heading with what it heads; empty if there is nothing.
+/// A section with a heading; empty if `body` is empty.
 std::string section(std::string_view heading, const std::string& body);
 
-/// A link from a run's report to a file of the run, by its name relative to the folder; the words alone if there is no such file.
+/// A link from the report to a file of the run. `file` is relative to the run's folder; `words` is
+/// the text of the link, by default the file's name. If there is no such file, the text without a
+/// link.
 std::string link_to(const RunFolder& run, const std::string& file, std::string_view words = {});
 
-/// "<tr><td>a</td><td>b</td></tr>" of cells that are HTML already.
+/// A row "<tr><td>a</td><td>b</td></tr>"; the cells must be HTML already.
 template <class... Cells>
 std::string table_row(const Cells&... cells) {
   std::string row = "<tr>";

@@ -1,3 +1,5 @@
+// Puts the report together: tables, warnings, plots and provenance. The plots are drawn by gnuplot
+// as still pictures and by report/page/report.js as pictures that can be zoomed.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
@@ -37,8 +39,8 @@ constexpr std::string_view kStillPicture = "<div class=still><svg";
 
 std::vector<Plot> plots_of(const RunResults& run) {
   const auto& motion = required_motion(run.c);
-  // Below the fit's interval only pictures are at stake, and what lies there was computed with the
-  // user's consent.
+  // Below the fit's interval, the lubrication limit is used here without asking: only pictures
+  // depend on it, and trajectories reach that far only if the user has allowed a limit there.
   const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
                              plot_gaps(run.trajectories),
@@ -53,8 +55,9 @@ std::vector<Plot> plots_of(const RunResults& run) {
   return plots;
 }
 
-/// Draws all plots at once, because each is a process of gnuplot, most of whose time is its start. If
-/// one cannot be drawn, none is, and `failure` is the reason.
+/// Draws all plots at the same time, because each is a process of gnuplot and most of its time is
+/// its start. If one plot cannot be drawn, no picture is returned with an SVG, and `failure` is the
+/// reason.
 std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
@@ -68,14 +71,15 @@ std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure) 
     drawn.assign(plots.size(), "");
   }
   for (auto& drawing : drawings)
-    if (drawing.valid()) drawing.wait();  // it refers to its plot
+    if (drawing.valid()) drawing.wait();  // the drawing refers to its plot, which is moved below
   std::vector<Picture> pictures;
   for (std::size_t i = 0; i < plots.size(); ++i)
     pictures.push_back({std::move(plots[i]), std::move(drawn[i])});
   return pictures;
 }
 
-/// The pictures of these names, each a place for its zoomable twin with the still one in it.
+/// The pictures of these names as HTML. Each has the data from which report.js draws the plot that
+/// can be zoomed, and the still picture for browsers without scripts and for printing.
 std::string figures(const std::vector<Picture>& pictures,
                     std::initializer_list<std::string_view> names) {
   std::string text;
@@ -129,7 +133,7 @@ std::string summary(const RunResults& run) {
 }
 
 std::string page_of(const RunResults& run, const std::vector<Picture>& pictures) {
-  // Nothing is fetched: the browser is told so.
+  // The Content-Security-Policy forbids the browser to load anything from elsewhere.
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
@@ -164,8 +168,8 @@ std::string page_of(const RunResults& run, const std::vector<Picture>& pictures)
   return page;
 }
 
-/// A report without gnuplot's pictures is written: a warning if gnuplot is not there, an error if
-/// it is and fails.
+/// To be called after a report without still pictures is written: warns if gnuplot is missing,
+/// throws Error(kExternalProgram) if gnuplot failed.
 void warn_or_throw(const std::exception_ptr& failure) {
   constexpr const char* kWritten =
       "the report is written, without still pictures and without the files in plots/";
@@ -195,7 +199,8 @@ bool report_is_current(const std::filesystem::path& folder) {
     if (page.find(kStillPicture) == std::string::npos) return false;
     const auto provenance = provenance_in(page, run.report().string());
     if (!provenance) return false;
-    for (const auto& input : provenance->inputs)  // a pipe's content is in the copy of the case
+    // Pipes (without a hash) are skipped, because their content is in the copy of the case.
+    for (const auto& input : provenance->inputs)
       if (!input.sha256.empty() && !change_of(input, provenance->folder).empty()) return false;
     return std::ranges::all_of(kPlotNames, [&](std::string_view name) {
       return page.find(fmt::format("\"plots/{}.svg\"", name)) == std::string::npos ||
@@ -219,7 +224,8 @@ void write_report(const std::filesystem::path& folder,
   for (const auto& [plot, svg] : pictures)
     write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
   write_output(run.folder.report(), TextKind::kHtml, page, provenance);
-  for (const auto name : kPlotNames)  // of an earlier report
+  // Plots of an earlier report that this report does not have are removed.
+  for (const auto name : kPlotNames)
     if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
         pictures.end())
       remove_file(run.folder.plot(std::string(name)));

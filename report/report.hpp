@@ -1,4 +1,5 @@
-// report.html: one self-contained page with what a run found.
+// report.html: one self-contained page with the results of a run. The page must not load anything
+// from elsewhere.
 #pragma once
 
 #include <filesystem>
@@ -6,12 +7,13 @@
 
 namespace viscontact {
 
-/// Writes report.html into a run's folder from its case, fit, trajectories and comparison (and
-/// table, if there is one), and its plots into plots/. If gnuplot cannot be run, the report is written
-/// without its still pictures and without plots/, and a warning says so: the plots that the browser
+/// Writes report.html into a run's folder from its case, fit, trajectories, comparison and table
+/// (if there is one), and its plots into plots/. If gnuplot cannot be run, a warning says so and
+/// the report is written without still pictures and without plots/; the plots that the browser
 /// draws need no gnuplot. Throws Error(kBadInput) if an input is missing or wrong, or as
-/// check_report_files; Error(kExternalProgram) if gnuplot fails, after the report was written likewise.
-/// `given`: the user's files from which the same command made the folder's; empty if the folder's are the user's.
+/// check_report_files does. If gnuplot fails, throws Error(kExternalProgram) after the report is
+/// written without still pictures. `given` are the files of the user from which the same command
+/// made the files in the folder; it is empty if the user gave the files in the folder.
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given = {});
 
@@ -19,8 +21,8 @@ void write_report(const std::filesystem::path& folder,
 /// Viscontact did not write.
 void check_report_files(const std::filesystem::path& folder);
 
-/// True if the folder's report and its plots are there, made from what the report's inputs still are.
-/// A report without still pictures is never current: gnuplot may be there now.
+/// True if the report and its plots exist and the inputs of the report have not changed since. A
+/// report without still pictures is never current, because gnuplot may have been installed since.
 bool report_is_current(const std::filesystem::path& folder);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Collects the provenance of the run's files.
 #include "viscontact/report/report_origin.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 namespace viscontact {
 namespace {
 
-/// What reads like the command as it was typed.
+/// The command as a user would type it in a shell.
 std::string command_line(const std::vector<std::string>& words) {
   std::string line;
   for (const auto& word : words) {

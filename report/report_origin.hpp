@@ -1,4 +1,5 @@
-// How a run's files were made: commands, inputs with their hashes, versions, times; as HTML.
+// The section of the report that says how the run's files were made: commands, inputs with their
+// hashes, versions and times.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace viscontact {
 
-/// Throws Error(kBadInput) if the provenance in a file is damaged.
+/// The section as HTML. Throws Error(kBadInput) if the provenance in a file is damaged.
 std::string origin_section(const RunResults& run);
 
 }  // namespace viscontact

@@ -1,4 +1,4 @@
-// The files of app/report_page, as they are built into the executable (cmake/embed_texts.cmake).
+// The files of report/page, as they are built into the executable (cmake/embed_texts.cmake).
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// Translates a plot into panels of gnuplot and into JSON.
 #include "viscontact/report/report_plot.hpp"
 
 #include <fmt/format.h>
@@ -11,15 +12,17 @@
 namespace viscontact {
 namespace {
 
-/// The name of a tick is a format.
+/// The text with % doubled, because gnuplot reads the name of a tick as a format.
 std::string doubled_percent(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '%' ? std::string("%%") : std::string(1, c);
   return result;
 }
 
-constexpr int kWidth = 860;
+constexpr int kWidth = 860;  // [pixels]
 
+/// What gnuplot (pointtype) and report.js call a kind of point. The rows are in the order of
+/// PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;
@@ -45,7 +48,7 @@ std::string gnuplot_style(const CurveStyle& style) {
   return text;
 }
 
-/// A bound in gnuplot's words.
+/// A bound of a range in gnuplot's syntax; "*" lets gnuplot choose.
 std::string bound(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "*";
 }
@@ -77,7 +80,8 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   return settings;
 }
 
-/// Eight digits: more than a picture shows, and than most of the numbers behind it hold.
+/// The number with eight digits, which are more than a picture can show and keep the page small.
+/// Null if the number is not finite.
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(std::stod(fmt::format("{:.8g}", value)))
                               : nlohmann::ordered_json(nullptr);
@@ -145,7 +149,7 @@ std::string json_of(const Plot& plot) {
   std::string text =
       nlohmann::ordered_json{{"name", plot.name}, {"panels", std::move(panels)}}.dump(
           -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  // "</script>" in a title would end the element, "<!--" begin another.
+  // "</script>" in a title would end the script element, and "<!--" would begin a comment.
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at)
     text.replace(at, 1, "\\u003c");
   return text;

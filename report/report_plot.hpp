@@ -1,4 +1,5 @@
-// A plot of the report as data, from which both its picture and its zoomable twin on the page are made.
+// A plot of the report as data. Both the still picture (gnuplot) and the plot that can be zoomed
+// (report/page/report.js) are made from it, so both must understand every member.
 #pragma once
 
 #include <optional>
@@ -10,51 +11,56 @@ namespace viscontact {
 
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
+/// How a curve is drawn.
 struct CurveStyle {
   std::string colour{};        ///< "#rrggbb"
-  double width = 2;            ///< of the line [pixels]; 0: points only
-  std::vector<double> dash{};  ///< lengths of strokes and holes in turn [pixels]; empty: solid
+  double width = 2;            ///< width of the line [pixels]; 0: points only
+  std::vector<double> dash{};  ///< lengths of dashes and spaces in turn [pixels]; empty: solid
   PointKind point = PointKind::kNone;
-  double point_size = 1;  ///< 1: about 7 pixels
+  double point_size = 1;  ///< in units of about 7 pixels
 };
 
+/// A curve of points (x, y).
 struct PlotCurve {
-  std::string legend{};  ///< in words; empty: goes with the curve before it
+  /// Words in the legend. A curve without words belongs to the entry of the curve before it.
+  std::string legend{};
   CurveStyle style{};
-  std::vector<std::pair<double, double>>
-      points{};  ///< x never falls; a non-finite y interrupts the line
+  /// The values of x must not decrease; a non-finite y interrupts the line.
+  std::vector<std::pair<double, double>> points{};
 };
 
 struct PlotAxis {
   std::string label{};
   bool logarithmic = false;
-  std::optional<double> low{}, high{};  ///< what is shown at first; nothing: what the curves need
+  std::optional<double> low{}, high{};  ///< range at first; nothing: as the curves need
 };
 
+/// Where the legend of the still picture is.
 enum class KeyPlace { kBelow, kTopRight, kBottomRight };
 
+/// Curves on common axes.
 struct PlotPanel {
   std::string title{};
   PlotAxis x{}, y{};
   std::vector<PlotCurve> curves{};
   KeyPlace key = KeyPlace::kBelow;
-  std::vector<std::string> rows{};  ///< if y counts rows: the names of 1, 2, ... from the bottom
+  std::vector<std::string> rows{};  ///< names of y = 1, 2, ... if y numbers rows from the bottom
 };
 
 /// Panels one below the other.
 struct Plot {
-  std::string name{};  ///< of its file, plots/NAME.svg
-  int height = 440;    ///< of the picture [pixels]
+  std::string name{};  ///< name of the file plots/NAME.svg
+  int height = 440;    ///< height of the still picture [pixels]
   std::vector<PlotPanel> panels{};
 };
 
 /// False if no panel has a curve.
 bool shows_something(const Plot& plot);
 
-/// As an SVG element by gnuplot. Throws Error(kExternalProgram) as draw_svg.
+/// The plot as an SVG element by gnuplot. Throws Error(kExternalProgram) as draw_svg does.
 std::string svg_of(const Plot& plot);
 
-/// As JSON for report/page/report.js, fit to stand in a script element.
+/// The plot as JSON for report/page/report.js; the text may stand in a script element.
 std::string json_of(const Plot& plot);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Curves, colours and axes of the report's plots.
 #include "viscontact/report/report_plots.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +19,10 @@ namespace {
 constexpr const char* kBlack = "#000000";
 constexpr const char* kBlue = "#0072B2";
 constexpr const char* kOrange = "#D55E00";
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts a line
+// A value that interrupts a line.
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
-/// The model of that name; nothing for a user's own.
+/// The model of this name; nothing if the user wrote the trajectory and the name is no model's.
 std::optional<ModelChoice> known_model(std::string_view name) {
   try {
     return find_model(name);
@@ -29,8 +31,9 @@ std::optional<ModelChoice> known_model(std::string_view name) {
   }
 }
 
-/// Colours that colour-blind readers tell apart (Okabe & Ito 2008), by place in the table of
-/// models; curves that lie on each other differ in dash and width too.
+/// The style of a model's line. The colour, which colour-blind readers tell apart (Okabe & Ito
+/// 2008), depends on the model's index in the registry. Dash and width differ, too, so that curves
+/// that lie on each other can be seen.
 CurveStyle line_style(std::string_view model, bool film = false) {
   constexpr std::array kColours = {"#56B4E9", "#0072B2", "#000000", "#E69F00", "#009E73",
                                    "#CC79A7", "#D55E00", "#7F7F7F", "#8C564B", "#B8A100"};
@@ -58,13 +61,14 @@ std::string legend_of(std::string_view model) {
   return choice ? description_of(*choice) : std::string(model);
 }
 
-/// Few enough rows for a page: every n-th, and with each skipped run its extremes of `value`, so
-/// that no minimum is lost.
+/// Rows of a trajectory, few enough for a page. The rows are divided into runs of n rows; the first
+/// row of each run is kept, and the rows in which `value` is smallest and largest, so that no
+/// extreme is lost.
 std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows,
                                           std::size_t trajectories,
                                           double (*value)(const TrajectoryRow&)) {
-  constexpr std::size_t kRuns = 400,
-                        kRunsOfAll = 3200;  // of many models fewer: the page stays small
+  // At most 400 runs for a trajectory and about 3200 for all of them keep the page small.
+  constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
   std::vector<const TrajectoryRow*> kept;
   const std::size_t run =
       std::max<std::size_t>(1, rows.size() / std::min(kRuns, 1 + kRunsOfAll / trajectories));
@@ -96,13 +100,14 @@ Plot plot_fit(const ForceTable& table, const Fit& fit) {
   const double stokes = stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
-    if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;  // another table
+    // A row outside the fit's interval belongs to another table than that of the fit.
+    if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;
     residual.points.emplace_back(
         row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
     if (row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
-  constexpr int kSamples = 300;
+  constexpr int kSamples = 300;  // points of the fit's curve
   const auto [low, high] = fit.gap_interval;
   for (int i = 0; i <= kSamples; ++i) {
     const double gap = std::clamp(
@@ -110,10 +115,10 @@ Plot plot_fit(const ForceTable& table, const Fit& fit) {
         high);
     line.points.emplace_back(gap, force.resistance(gap) / stokes);
   }
-  // Rows of several velocities start again at the smallest gap.
+  // A table with several velocities has the gaps once for each; curves need them in order.
   for (auto* curve : {&points, &residual, &estimate})
     std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
-  // Nothing to see of a zero on a logarithmic axis.
+  // A logarithmic axis has no zero, so a residual of 0 is not drawn.
   for (auto& [gap, value] : residual.points)
     if (value == 0) value = kGap;
   PlotPanel residuals{"Relative residual of the fit",
@@ -147,8 +152,9 @@ Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Mo
                            const LubricationForce& force) {
   PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
-  double thinnest = std::numeric_limits<double>::infinity();  // of what is worth seeing: not a
-                                                              // released sphere's first step
+  // The axis must show the gaps of models without contact and the recovered films. The gaps of
+  // contact models do not count, because in the first step after the release they are very small.
+  double thinnest = std::numeric_limits<double>::infinity();
   for (const auto& trajectory : trajectories) {
     PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     PlotCurve film{"", line_style(trajectory.model, true), {}};
@@ -165,7 +171,7 @@ Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Mo
       try {
         if (in_contact && contact->film_thickness) thickness = contact->film_thickness(*row->gamma);
       } catch (const Error&) {
-        // Thinner than the fit knows: not drawn.
+        // A film that is too thin for the fit is not drawn.
       }
       film.points.emplace_back(row->time, thickness);
       if (thickness > 0) thinnest = std::min(thinnest, thickness);
@@ -173,7 +179,7 @@ Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Mo
     if (!contact)
       for (const auto& row : trajectory.rows)
         if (row.gap > 0) thinnest = std::min(thinnest, row.gap);
-    // A model without contact that goes through the plane all the same: a cross at the lower edge.
+    // A cross near the lower edge marks a model without contact that goes through the plane.
     if (!contact && trajectory.rows.back().gap == 0)
       through.emplace_back(trajectory.rows.back().time, 0);
     panel.curves.push_back(curve);
@@ -231,13 +237,13 @@ Plot plot_solid_force(const std::vector<Trajectory>& trajectories) {
 }
 
 Plot plot_external_force(const ExternalForce& force, double end_time) {
-  // Steps are drawn as such: two points at each jump.
+  // Each jump of the force has two points, so that it is drawn as a step.
   PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
   PlotCurve curve{"external force", {kBlack}, {}};
   auto stops = force.jumps();
   std::erase_if(stops, [&](double t) { return t >= end_time; });
   stops.push_back(end_time);
-  constexpr int kPoints = 2000;
+  constexpr int kPoints = 2000;  // for the whole time; more could not be seen
   double from = 0;
   for (const double to : stops) {
     const int points = 2 + static_cast<int>(kPoints * (to - from) / end_time);
@@ -260,7 +266,7 @@ Plot plot_external_force(const ExternalForce& force, double end_time) {
 }
 
 Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
-  // A row a model, from the top down.
+  // Each model has a row; the first model is at the top.
   const auto rows = comparison.models.size();
   PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
   PlotCurve computed{"smallest gap computed", {kBlue, 0, {}, PointKind::kDisc, 1.2}, {}};
@@ -289,8 +295,11 @@ Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<Publish
   }
   if (all.empty()) return {};
   const auto [low, high] = std::ranges::minmax(all);
-  constexpr double kManyDecades = 30;  // beyond that ratio a linear axis shows the largest only
-  constexpr double kClose = 1.3;       // an axis from 0 would hide the difference
+  // If the ratio of largest to smallest is above kManyDecades, the axis is logarithmic, because a
+  // linear axis would show the largest only. If it is below kClose, the axis does not begin at 0,
+  // because the difference would be hidden.
+  constexpr double kManyDecades = 30;
+  constexpr double kClose = 1.3;
   const double span = std::max(high - low, 0.05 * high);
   panel.x.logarithmic = high / low > kManyDecades;
   panel.x.low = panel.x.logarithmic ? low / 3 : high < kClose * low ? low - span : 0;

@@ -1,4 +1,5 @@
-// The plots of the report. One without curves has nothing to show.
+// The plots of the report, in the units of the case. A plot without curves has nothing to show and
+// is left out (shows_something).
 #pragma once
 
 #include <optional>
@@ -12,32 +13,33 @@
 
 namespace viscontact {
 
-/// The table's drag factor with the fit, and below it their relative difference beside the table's
-/// own error estimates.
+/// The drag factor of the table and of the fit; below, the relative difference of the two beside
+/// the table's error estimates.
 Plot plot_fit(const ForceTable& table, const Fit& fit);
 
-/// q(t) of all trajectories, on a linear scale.
+/// The gap q(t) of all trajectories, on a linear scale.
 Plot plot_gaps(const std::vector<Trajectory>& trajectories);
 
-/// q(t) on a logarithmic scale; where a contact model is in contact, the film thickness that its
-/// gamma stands for, dashed.
+/// The gap q(t) on a logarithmic scale. While a contact model is in contact, the recovered film is
+/// drawn as a dashed line.
 Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
                            const LubricationForce& force);
 
 /// gamma(t) of the contact models.
 Plot plot_gamma(const std::vector<Trajectory>& trajectories);
 
-/// What the solids carry over time.
+/// The force of the solid contact over time.
 Plot plot_solid_force(const std::vector<Trajectory>& trajectories);
 
-/// f_ext(t) from 0 to the end.
+/// The external force f_ext(t) from 0 to `end_time` [T].
 Plot plot_external_force(const ExternalForce& force, double end_time);
 
-/// The thinnest film of each model, recovered from gamma for contact models, beside the published
+/// The thinnest film of each model (for contact models the recovered film), beside the published
 /// value if the case has one.
 Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published);
 
-/// Bands of the inertialess gap over time, relative to the fit's own.
+/// Uncertainty of the gap over time in the motion without inertia, as bands relative to the gap
+/// with the fit as it is.
 Plot plot_uncertainty(const FitUncertainty& uncertainty);
 
 }  // namespace viscontact

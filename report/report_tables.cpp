@@ -1,3 +1,4 @@
+// Rows and words of the report's tables.
 #include "viscontact/report/report_tables.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ std::string trust(const FitDiagnostics& d) {
   if (d.left_out_end)
     text += fmt::format(", beyond an end (an extrapolation) {:.3g} at gap {:.4g}",
                         d.left_out_end->relative_residual, d.left_out_end->gap);
-  // A fit file of an earlier version does not tell the two apart.
+  // A fit file of an earlier version has one value for inner rows and end rows together.
   if (d.leave_one_out_rms && !d.left_out_inner && !d.left_out_end)
     text += fmt::format(", largest {:.3g} at gap {:.4g}", d.leave_one_out_largest.value(),
                         d.leave_one_out_gap.value());
@@ -40,7 +41,7 @@ std::string trust(const FitDiagnostics& d) {
   return text;
 }
 
-/// A description's model as a link to its trajectory.
+/// The name of a model as a link to its trajectory.
 std::string model_link(const RunResults& run, const std::string& model) {
   return link_to(run.folder, "trajectories/" + model + ".csv", model);
 }

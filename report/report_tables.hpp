@@ -1,4 +1,5 @@
-// The report's numbers, as HTML; each table says and links the file that it is from.
+// The tables of the report as HTML, in the units of the case. Each table names and links the file
+// from which its numbers are.
 #pragma once
 
 #include <string>
@@ -7,19 +8,19 @@
 
 namespace viscontact {
 
-/// What was computed, in a sentence, and the case's numbers.
+/// A sentence that says what was computed, and the parameters of the case.
 std::string parameters_table(const RunResults& run);
 
-/// Smallest gaps, contact and distances of each model.
+/// Smallest gap, times of contact and distance to the reference of each model.
 std::string models_table(const RunResults& run);
 
-/// Impulses and works of each model; empty if there are none.
+/// The budget (impulses and works) of each model; empty if no model has one.
 std::string budget_table(const RunResults& run);
 
-/// The fit's coefficients and how far to trust them.
+/// The coefficients of the fit and its diagnostics.
 std::string fit_table(const RunResults& run);
 
-/// What the fit's errors do to the smallest gap; empty if that is not known.
+/// The effect of the fit's errors on the smallest gap, in words; empty if it is not known.
 std::string uncertainty_words(const RunResults& run);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Finds what to warn of in fit, table, trajectories and hashes of a run.
 #include "viscontact/report/report_warnings.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ using Warnings = std::vector<ReportWarning>;
 
 std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
 
-/// The model of a trajectory; nothing for a user's own.
+/// The model of a trajectory; nothing if the user wrote the trajectory and its name is no model's.
 std::optional<ModelChoice> model_of(const Trajectory& trajectory) {
   try {
     return find_model(trajectory.model);
@@ -27,7 +28,7 @@ std::optional<ModelChoice> model_of(const Trajectory& trajectory) {
   }
 }
 
-/// Drag, or a film recovered from gamma, where the table has no row.
+/// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
 void add_extrapolation(Warnings& warnings, const RunResults& run) {
   if (run.fit.terms.empty()) return;  // exact
   const auto [low, high] = run.fit.gap_interval;
@@ -39,7 +40,8 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
         std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
     const double smallest = first->gap, largest = last->gap;
     const bool contact = choice->model->contact != nullptr;
-    // What a contact model does at a gap of zero is no drag; its film is.
+    // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
+    // compared instead.
     const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
     if (thinnest > 0 && thinnest < low)
       warnings.push_back(
@@ -65,8 +67,9 @@ void add_failed_models(Warnings& warnings, const RunResults& run) {
          "failed_models.json"});
 }
 
-/// A residual is compared with the error estimate of its own row: that of another row may be much
-/// larger. A fit file of an earlier version does not have this comparison.
+/// Warns if the residuals are larger than the table's error estimates. Each residual is compared
+/// with the error estimate of its own row, because that of another row may be much larger. A fit
+/// file of an earlier version does not have this comparison.
 void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
   if (d.misfit != Misfit::kBasis) return;
   if (const auto& worst = d.worst_to_estimate)
@@ -128,7 +131,8 @@ void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
   }
 }
 
-/// The gaps of models that do not know the solids, where these would touch.
+/// Warns if models that do not compute the solid contact have gaps at which the rough surfaces
+/// would touch.
 void add_roughness(Warnings& warnings, const RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];
@@ -156,7 +160,8 @@ void add_refused_draws(Warnings& warnings, const RunResults& run) {
          "uncertainty.json"});
 }
 
-/// Files that carry another input's hash than that of the file here.
+/// Warns of files that were made from other inputs: the hash that they record differs from that of
+/// the file in the folder.
 void add_other_origin(Warnings& warnings, const RunResults& run) {
   const auto fit_hash = content_sha256(read_file(run.folder.fit()));
   const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},

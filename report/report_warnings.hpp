@@ -1,4 +1,4 @@
-// What a reader should know before trusting a run's numbers.
+// The warnings of the report: what a reader should know before relying on the numbers of a run.
 #pragma once
 
 #include <string>
@@ -8,19 +8,21 @@
 
 namespace viscontact {
 
+/// A warning of the report.
 struct ReportWarning {
-  std::string text;  ///< a sentence with its numbers, without the full stop
-  std::string file;  ///< where they are from, relative to the run's folder
+  std::string text;  ///< a sentence with numbers, without the full stop
+  std::string file;  ///< file of these numbers, relative to the run's folder
 };
 
-/// A fit is called poor from this largest relative residual on.
+/// A fit is called poor if its largest relative residual is above this.
 inline constexpr double kPoorFit = 0.01;
 
-/// Of the draws of coefficients, the share from which on those refused are worth a word.
+/// The report warns if more than this share of the random draws of coefficients was refused.
 inline constexpr double kManyRefused = 0.01;
 
-/// Drag taken from outside the fitted interval, a poor fit, rows less accurate than asked, spheres through the plane, files that were not made
-/// from each other. In that order; empty: nothing to warn of.
+/// The warnings of a run, in this order: drag from outside the fit's interval, a poor fit, rows
+/// less accurate than was asked, spheres that go through the plane, files that were not made from
+/// each other. Empty if there is nothing to warn of.
 std::vector<ReportWarning> warnings_of(const RunResults& run);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// The table of exit codes, with a row for each kind of error.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>
@@ -14,7 +15,8 @@ constexpr std::array<std::pair<ErrorKind, int>, 5> kExitCodes = {{
     {ErrorKind::kBadInput, 3},
     {ErrorKind::kNotConverged, 4},
     {ErrorKind::kExternalProgram, 5},
-    {ErrorKind::kInterrupted, 130},  // as shells report an end by SIGINT: 128 + 2
+    // Shells report a process that SIGINT (signal 2) ended by 128 + 2.
+    {ErrorKind::kInterrupted, 130},
 }};
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Reading and writing failed_models.json, and the choice of the reference when models have failed.
 #include "viscontact/results/failed_models.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ std::vector<FailedModel> read_failed_models(const std::filesystem::path& path) {
       failed.push_back({name, entry.at("reason"), kind_of_exit_code(entry.at("exit_code")),
                         entry.at("made_from").get<CsvComments>()});
     return failed;
-  } catch (const std::exception&) {  // no JSON of this form, or no exit code of ours
+  } catch (const std::exception&) {  // not JSON of this form, or an unknown exit code
     throw_bad_input({path.string()},
                     "is not a record of failed models; remove it and simulate again");
   }

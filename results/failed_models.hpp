@@ -1,5 +1,5 @@
-// The models that a simulation could not compute, while others could: recorded in a run's folder,
-// so that `compare` and `report` can say why these have no trajectory.
+// The record of the models that failed in a simulation (failed_models.json in a run's folder), so
+// that `compare` and `report` can say why these models have no trajectory.
 #pragma once
 
 #include <filesystem>
@@ -13,41 +13,43 @@
 
 namespace viscontact {
 
+/// A model that failed, and why.
 struct FailedModel {
-  std::string model;   ///< its name, with suffixes
-  std::string reason;  ///< the message of its Error, without the name of the model
+  std::string model;   ///< name of the model, with suffixes
+  std::string reason;  ///< message of the Error, without the name of the model
   ErrorKind kind = ErrorKind::kBadInput;
   CsvComments made_from;  ///< what identifies case, fit and version, as in a trajectory file
 };
 
 /// Reads the record (JSON). Returns an empty list if there is no such file.
-/// Throws Error(kBadInput) if the file is something else.
+/// Throws Error(kBadInput) if the file is not such a record.
 std::vector<FailedModel> read_failed_models(const std::filesystem::path& path);
 
-/// The entries of a run's folder that were made from these inputs (FailedModel::made_from). A damaged
-/// record counts as none.
+/// The entries in the record of a run's folder that were made from these inputs
+/// (FailedModel::made_from). The list is empty if the record is damaged.
 std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvComments& made_from);
 
-/// The text of the record.
+/// The text (JSON) of the record.
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
-/// The one error of a simulation in which these models (at least one) failed and `computed` others
-/// (which may be 0) did not. It names the case, carries the reason of the first and has the exit code of the first.
+/// The error that ends a simulation in which the models of `failed` (at least one) failed and
+/// `computed` other models (0 or more) did not. The error names the case and has the kind and the
+/// reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
-/// The models of the folder's record that failed and have none of these trajectories.
+/// The models in the record of the folder that have none of these trajectories.
 std::vector<ModelWithoutTrajectory> failures_without(const std::vector<Trajectory>& trajectories,
                                                      const RunFolder& run);
 
-/// The model that `run` compares these models with: `inertial`, or the first if there is no
-/// `inertial`; a model that failed does not count. `models` is not empty.
+/// The reference that `run` compares `models` (at least one) with: `inertial` if it was computed,
+/// else the first model that was computed, else `inertial`.
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
-/// The model that `compare` compares with: the one that was asked for. If none was (`asked` is
-/// empty), it is `inertial`, or the first that has a trajectory if `inertial` failed.
-/// Throws Error(kBadInput) with the reason if the one that was asked for is one that failed.
+/// The reference that `compare` uses: `asked`, or if this is empty `inertial`, or if `inertial`
+/// failed the model of the first trajectory. Throws Error(kBadInput) with the recorded reason if
+/// the model `asked` failed.
 std::string reference_among(const std::vector<Trajectory>& trajectories,
                             const std::vector<ModelWithoutTrajectory>& failed,
                             const std::string& asked);

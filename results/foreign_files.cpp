@@ -1,3 +1,4 @@
+// Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp).
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +25,13 @@ std::string head_of(const std::filesystem::path& path) {
   return head;
 }
 
-/// True if the text holds a line of provenance (provenance.hpp), or the same as other programs
-/// write JSON out again: "provenance", then an object whose first key is "command".
+/// True if the text contains a provenance (provenance.hpp): the word "provenance", then an object
+/// whose first key is "command". Other programs may have written the JSON again with other spaces
+/// and line ends, so the characters between these two words are not compared.
 bool has_provenance(std::string_view text) {
   constexpr std::string_view kName = "provenance", kFirstKey = "\"command\"";
-  constexpr std::size_t kMostBetween = 40;  // a quote, a colon, a brace, spaces, a line end
+  // Between the two words are a quote, a colon, a brace, spaces and a line end.
+  constexpr std::size_t kMostBetween = 40;
   for (auto at = text.find(kName); at != std::string_view::npos; at = text.find(kName, at + 1))
     if (text.substr(at + kName.size(), kMostBetween + kFirstKey.size()).find(kFirstKey) !=
         std::string_view::npos)
@@ -44,7 +47,7 @@ bool is_written_by_viscontact(const std::filesystem::path& path) {
 
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind) {
-  // For what is there and is no regular file, write_file has errors of its own.
+  // If `path` is a folder or a device, write_file throws an error that says so.
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return;
   const std::string head = head_of(path);

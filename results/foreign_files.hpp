@@ -1,4 +1,5 @@
-// Files that are in the way of an output and that Viscontact did not write.
+// Protects files that Viscontact did not write, or that are of another kind, from being replaced by
+// an output.
 #pragma once
 
 #include <filesystem>
@@ -6,16 +7,16 @@
 
 namespace viscontact {
 
-/// True if Viscontact wrote the file at `path`, which exists: its first MiB holds the provenance
-/// that every output records there. The rest is not read; a restart file can be a gigabyte long.
+/// True if Viscontact wrote the file at `path`, which must exist. Only the first MiB is read,
+/// because every output records its provenance there and a restart file can be a gigabyte long.
 /// Throws Error(kBadInput) that names the path if the file cannot be read.
 bool is_written_by_viscontact(const std::filesystem::path& path);
 
-/// Throws Error(kBadInput) if a file is at `path` that a command must not replace or delete: one
-/// that Viscontact did not write, or one of another kind. `marker` is a text that files of the right
-/// kind have in their first MiB; empty: any kind. `kind` names the kind in the message: "picture".
-/// An empty file may be replaced, and so may a path at which there is nothing. To be called before
-/// any work is done.
+/// Throws Error(kBadInput) if the file at `path` must not be replaced or deleted, because
+/// Viscontact did not write it or because it is of another kind. `marker` is a text that every file
+/// of the right kind has in its first MiB; an empty marker accepts any kind. `kind` names the kind
+/// in the message, for example "picture". An empty file may be replaced. Does nothing if there is
+/// no regular file at `path`. To be called before any work is done, so that no work is lost.
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind);
 

@@ -1,3 +1,5 @@
+// The provenance line: writing it into each kind of file, finding it and reading it again. The
+// beginning of its JSON (kBegin) must not change, because earlier files are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
 #include <fmt/chrono.h>
@@ -17,7 +19,7 @@
 namespace viscontact {
 namespace {
 
-// By this a line is known, among those of a user's.
+// A line is a provenance if it contains this name followed by this beginning of an object.
 constexpr std::string_view kName = "provenance";
 constexpr std::string_view kBegin = "{\"command\":[";
 
@@ -32,10 +34,12 @@ std::vector<std::string> own_command() {
   return command;
 }
 
-/// Now, or when SOURCE_DATE_EPOCH says (reproducible-builds.org).
+/// The present time, or the time in SOURCE_DATE_EPOCH [s since 1970] if that is set
+/// (reproducible-builds.org). Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not such a time.
 std::string time_of_making() {
   std::time_t now = std::time(nullptr);
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+    // The last second of the year 9999: later years have five digits.
     constexpr std::time_t kYear9999 = 253402300799;
     const std::string_view text = epoch;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), now);
@@ -49,14 +53,14 @@ std::string time_of_making() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
-/// A pipe can be read but once.
+/// SHA-256 of a file; empty for a pipe, because a pipe can be read only once.
 std::string hash_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)
              ? ""
              : sha256(read_file(file));
 }
 
-/// On one line.
+/// The provenance as JSON on one line.
 std::string as_line(const Provenance& provenance) {
   Json json;
   json["command"] = provenance.command;
@@ -72,7 +76,8 @@ std::string as_line(const Provenance& provenance) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// JSON without the characters that would end the element, script or comment around it.
+/// `json` in which each of the `characters` is written as \uXXXX, because it would end the element,
+/// script or comment around the JSON. The JSON keeps its meaning.
 std::string without(std::string_view characters, const std::string& json) {
   std::string text;
   for (const char c : json)
@@ -83,9 +88,10 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
+/// What stands around the JSON in a kind of file.
 struct Wrapping {
   std::string before, after;
-  std::string_view forbidden;  ///< between them
+  std::string_view forbidden;  ///< characters that must not stand between `before` and `after`
 };
 
 Wrapping wrapping_of(TextKind kind) {
@@ -108,7 +114,8 @@ Wrapping wrapping_of(TextKind kind) {
   return {};
 }
 
-/// Where a line can be put in: behind the newline that follows `mark`, or at once if none does.
+/// The position for a new line: after `mark`, and after the newline if one follows `mark`. The text
+/// must contain `mark` at or after the position `from`.
 std::size_t line_after(const std::string& text, std::string_view mark, std::size_t from = 0) {
   const auto at = text.find(mark, from);
   assert(at != std::string::npos);
@@ -134,7 +141,8 @@ std::size_t place_in(TextKind kind, const std::string& text) {
   return 0;
 }
 
-/// The line of a text that holds its provenance: where it begins, where the JSON begins, where the line ends.
+/// Positions in the line that contains the provenance: begin of the line, begin of the JSON, end of
+/// the line.
 struct Line {
   std::size_t begin = 0, json = 0, end = 0;
 };
@@ -145,7 +153,7 @@ std::optional<Line> find_line(const std::string& text) {
     const Line line{newline == std::string::npos ? 0 : newline + 1, at,
                     std::min(text.find('\n', at), text.size())};
     const auto before = std::string_view(text).substr(line.begin, at - line.begin);
-    // The longest frame has a few characters between name and object.
+    // All frames have at most three characters between the name and the object ("\": ").
     if (const auto name = before.rfind(kName);
         name != std::string_view::npos && before.size() - name - kName.size() <= 3)
       return line;
@@ -261,7 +269,8 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
                         Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
-  if (provenance.folder.empty()) {  // without_folders: the name of the output is shortened, too
+  // After without_folders, the name of the output must not tell its folder either.
+  if (provenance.folder.empty()) {
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);
   }

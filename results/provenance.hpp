@@ -1,4 +1,5 @@
-// How a file was made: written into every output, read back by `viscontact rerun` and by the report.
+// Provenance: how a file was made. Every output contains its provenance as one line;
+// `viscontact rerun` and the report read it. Files of earlier versions must stay readable.
 #pragma once
 
 #include <filesystem>
@@ -11,67 +12,87 @@
 
 namespace viscontact {
 
-/// A file that went into an output. An intermediate one was made by the same command, as a run's table.
+/// A file that an output was made from.
 struct InputFile {
-  std::string file;    ///< path, relative to the folder of the command
-  std::string sha256;  ///< of its bytes; empty for what is no file, as a pipe
-  bool intermediate = false;
+  std::string file;           ///< path, relative to the folder of the command
+  std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is no file but a pipe
+  bool intermediate = false;  ///< true if the same command made it, as `run` makes its table
 };
 
+/// How a file was made: command, inputs and versions.
 struct Provenance {
-  std::vector<std::string> command;  ///< as it was typed: program, arguments
-  std::string folder;  ///< in which it was typed, absolute; empty: not told (without_folders)
-  std::vector<InputFile> inputs;                ///< in the order in which they are used
-  std::map<std::string, std::string> versions;  ///< program: version
-  std::string output;  ///< the file that was written, as named by the command
-  std::string made;    ///< UTC, ISO 8601 to the second; that of SOURCE_DATE_EPOCH if it is set
+  /// The command as it was typed: program, then arguments.
+  std::vector<std::string> command;
+  /// Absolute path of the folder in which the command ran; empty if left out (without_folders).
+  std::string folder;
+  /// The files that the output was made from, in the order in which they are used.
+  std::vector<InputFile> inputs;
+  /// Version of each program and library, by its name.
+  std::map<std::string, std::string> versions;
+  /// The file that was written, as the command names it.
+  std::string output;
+  /// Time at which the file was made: UTC, ISO 8601 to the second. If SOURCE_DATE_EPOCH is set, it
+  /// is that time.
+  std::string made;
 };
 
 /// The files that an output is made from.
 struct Inputs {
-  std::vector<std::filesystem::path> given;         ///< by the user
-  std::vector<std::filesystem::path> intermediate;  ///< made by the same command
+  std::vector<std::filesystem::path> given;         ///< files that the user gave
+  std::vector<std::filesystem::path> intermediate;  ///< files that the same command made
 };
 
-/// Of what this process makes from these files, which are read for their hashes: to be asked for before a long computation, in which a user may edit
-/// them. `output` and `made` are empty. Throws Error(kBadInput) if one cannot be read.
+/// The provenance of what this process makes from these files; `output` and `made` are empty. The
+/// files are read for their hashes, so this function must be called before a long computation,
+/// during which a user may edit them. Throws Error(kBadInput) if a file cannot be read.
 Provenance provenance_of(const Inputs& inputs);
 
-/// Where in a word of a command an absolute path would begin: behind "--output=" or "-o", else at 0.
+/// The position in a word of a command at which an absolute path would begin: after "--output=" (or
+/// another option with "=") or after "-o", otherwise 0.
 std::size_t path_in_word(const std::string& word);
 
-/// The same for a file that is made to be handed on: it names its source, and not where on a machine
-/// it lies. `folder` is empty; a path below it is relative to it, any other absolute path and the
-/// program are their file names only.
+/// The provenance for a file that users pass on to others: it names the sources, but not the
+/// folders of a machine. `folder` becomes empty. An absolute path below `folder` becomes relative
+/// to `folder`; of any other absolute path, and of the program, only the file name stays.
 Provenance without_folders(Provenance provenance);
 
-/// `text` with the provenance in it, as one line: a comment at its head, for kJson the first key, for kSvg metadata, for kHtml a data script in <head>.
-/// `text` is whole and of that kind; an object with keys, for kJson.
+/// `text` with the provenance in it as one line: the first key for kJson, metadata for kSvg, a data
+/// script in <head> for kHtml, and otherwise a comment at the head. `text` must be a complete file
+/// of that kind; for kJson it must be an object with at least one key.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
-/// `text` as it was before with_provenance: what two makings of the same have in common.
+/// `text` as it was before with_provenance. Two files that were made in the same way at different
+/// times are equal without their provenance.
 std::string without_provenance(const std::string& text);
 
-/// The SHA-256 by which files of ours name each other: of what two makings have in common.
+/// SHA-256 of the text without its provenance. Files of Viscontact refer to each other by this
+/// hash.
 std::string content_sha256(const std::string& text);
 
-/// The provenance in a text of any kind; nothing if it has none. Throws Error(kBadInput) naming `file` if it is damaged.
+/// The provenance in a text of any kind, or nothing if the text has none. Throws Error(kBadInput)
+/// that names `file` if the provenance is damaged.
 std::optional<Provenance> provenance_in(const std::string& text, const std::string& file);
 
-/// The same of a file. Throws Error(kBadInput) if it cannot be read, too.
+/// The provenance in the file at `path`, or nothing if the file has none. Throws Error(kBadInput)
+/// if the file cannot be read or its provenance is damaged.
 std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 
-/// What has become of an input since; empty if it is as it was. `folder`: where the command ran. Throws Error(kBadInput) if it cannot be read.
+/// Says in words how an input has changed since the output was made; empty if it has not changed.
+/// `folder` is the folder in which the command ran. Throws Error(kBadInput) if the input cannot be
+/// read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
-/// "# provenance: {...}\n", made now, for the CSV file `path`, which is written row by row.
+/// The line "# provenance: {...}\n" with the present time, for the CSV file `path`, which is
+/// written row by row. Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.
 std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
 
-/// What write_output writes: the text with the provenance, made now.
+/// The text that write_output writes: `text` with the provenance and the present time. Throws
+/// Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
-/// write_file with the provenance, made now.
+/// Writes `text` with the provenance and the present time to `path`. Throws as output_text and
+/// write_file do.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 

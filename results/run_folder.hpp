@@ -1,4 +1,4 @@
-// The names in a run's folder.
+// The names of the files in a run's folder. Users and scripts rely on them (docs/file-formats.md).
 #pragma once
 
 #include <filesystem>
@@ -6,13 +6,17 @@
 
 namespace viscontact {
 
+/// The message for a folder that another process has locked (LockedFolder).
+inline constexpr const char* kFolderIsHeld =
+    "another viscontact writes into it; wait until it has ended, or write elsewhere";
+
+/// The folder of a run; each function returns the path of a file or sub-folder in it.
 struct RunFolder {
   std::filesystem::path path;
 
-  std::filesystem::path case_file() const {
-    return path / "case.toml";
-  }  ///< a copy of the case that was run
-  /// Where the copy of a file goes that the case names.
+  /// The copy of the case that was run.
+  std::filesystem::path case_file() const { return path / "case.toml"; }
+  /// The copy of a file that the case names.
   std::filesystem::path beside_case(const std::filesystem::path& file) const {
     return path / file.filename();
   }
@@ -24,7 +28,7 @@ struct RunFolder {
   }
   std::filesystem::path comparison() const { return path / "comparison.json"; }
   std::filesystem::path uncertainty() const { return path / "uncertainty.json"; }
-  /// The models without a trajectory, and why; there only if a model failed.
+  /// The models that failed, with reasons; exists only if a model failed.
   std::filesystem::path failed_models() const { return path / "failed_models.json"; }
   std::filesystem::path plot(const std::string& name) const {
     return path / "plots" / (name + ".svg");

@@ -1,3 +1,4 @@
+// Reads case, fit, comparison, trajectories, table and uncertainty of a run.
 #include "viscontact/results/run_results.hpp"
 
 #include "viscontact/common/error.hpp"
@@ -7,10 +8,10 @@
 namespace viscontact {
 namespace {
 
-/// True if the table in the folder is the run's own: the fit was made from it; or the case asks for
-/// a fit of a table, so that another table in its place deserves a warning. A case with `exact` or
-/// `file` in [fit] needs no table: then table.csv is what an earlier case has left there, or a file
-/// of the user's, and may be anything.
+/// True if the table in the folder belongs to the run. This is so if the fit was made from it, and
+/// also if the case asks for a fit of a table: then the report warns if the table is another one. A
+/// case with `exact` or `file` in [fit] needs no table, so that table.csv may be the table of an
+/// earlier case or any file of the user.
 bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;
   const bool needs_none = is_exact_plane(fit) || (c.fit && (c.fit->exact || c.fit->file));

@@ -1,4 +1,4 @@
-// What a run's folder holds, read.
+// Reads the results of a run from its folder, for the report.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +15,24 @@
 
 namespace viscontact {
 
+/// The results of a run.
 struct RunResults {
   RunFolder folder;
   Case c;
   Fit fit;
   Comparison comparison;
-  std::vector<Trajectory>
-      trajectories;  ///< those of the comparison's models that are there; at least one
-  std::optional<ForceTable> table;  ///< of the fit; none if the run needs none
+  /// The trajectories of the models in the comparison, as far as their files exist; at least one.
+  std::vector<Trajectory> trajectories;
+  /// The table that the fit was made from; nothing if the run needs no table.
+  std::optional<ForceTable> table;
   std::optional<FitUncertainty> uncertainty;
 };
 
-/// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or a file is wrong.
+/// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or if a file
+/// cannot be read.
 RunResults read_run(const std::filesystem::path& folder);
 
-/// The files that were read.
+/// The files that the results were read from.
 std::vector<std::filesystem::path> files_of(const RunResults& results);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Versions as the headers of the libraries state them, and as FreeFEM reports its own.
 #include "viscontact/results/versions.hpp"
 
 #include <ceres/version.h>

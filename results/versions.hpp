@@ -1,4 +1,4 @@
-// Which versions of what made a result.
+// Versions of the programs and libraries that make a result, for its provenance.
 #pragma once
 
 #include <map>
@@ -6,10 +6,10 @@
 
 namespace viscontact {
 
-/// Viscontact and the libraries it was built with: name to version.
+/// The versions of Viscontact and of the libraries it was built with, by name.
 std::map<std::string, std::string> library_versions();
 
-/// The version that FreeFEM gives of itself, or "not found".
+/// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run.
 std::string freefem_version_or_not_found();
 
 }  // namespace viscontact

@@ -1,3 +1,5 @@
+// Progress line and coloured messages by ANSI escape sequences; a terminal with TERM=dumb gets
+// none.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +28,8 @@ void show_progress(const std::string& text) {
 
 void clear_progress() { show_progress(""); }
 
-// Nobody may be listening (a closed or full standard error): then the words are lost, not the work.
+// Errors of fputs are ignored: if standard error is closed or full, only the message is lost, and
+// the work goes on.
 void say(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
 void warn(const std::string& text) {

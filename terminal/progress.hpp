@@ -1,4 +1,5 @@
-// What a person at the terminal sees: a progress line, words in colour; plain text anywhere else.
+// Messages on standard error for a person at a terminal: a progress line, messages and words in
+// colour. Where standard error is no terminal, messages are plain text and progress is not shown.
 #pragma once
 
 #include <string>
@@ -6,24 +7,28 @@
 
 namespace viscontact {
 
-/// Replaces the progress line by `text` if standard error is a terminal that can do that.
+/// Replaces the progress line by `text` if standard error is a terminal that understands escape
+/// sequences; otherwise does nothing.
 void show_progress(const std::string& text);
 
-/// Removes it.
+/// Removes the progress line.
 void clear_progress();
 
-/// A line on standard error: what is being done.
+/// Writes a line to standard error.
 void say(const std::string& text);
 
-/// The same with its word "warning:" in yellow.
+/// Writes a line to standard error, in which the word "warning:" is yellow.
 void warn(const std::string& text);
 
-/// The same with its first word in red: an error.
+/// Writes an error message to standard error, with its first word in red.
 void complain(const std::string& text);
 
+/// The values are the codes of ANSI escape sequences (SGR) for the colour of text.
 enum class Colour { kRed = 31, kGreen = 32, kYellow = 33 };
 
-/// The word for that stream (a file descriptor): in colour if it is a terminal, and NO_COLOR (no-color.org) is not set.
+/// Returns the word in colour if the file descriptor is a terminal that understands escape
+/// sequences and the variable NO_COLOR (no-color.org) is not set or empty; otherwise the word as it
+/// is.
 std::string coloured(std::string_view word, Colour colour, int descriptor);
 
 }  // namespace viscontact

@@ -1,4 +1,5 @@
-// The commented case that `viscontact init` writes.
+// The case with comments that `viscontact init` writes; CMake makes the source from
+// case_template.toml.
 #pragma once
 
 #include <string_view>

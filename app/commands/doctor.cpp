@@ -1,3 +1,4 @@
+// Findings on FreeFEM and gnuplot.
 #include "viscontact/app/commands/doctor.hpp"
 
 #include <fmt/format.h>
@@ -26,8 +27,9 @@ struct Finding {
 
 using Report = std::function<void(const Finding&)>;
 
-/// A row of which the exact value is known: gap 0.1 below a sphere of radius 1 in a container so
-/// wide that it does not matter at 1e-4 (Brenner 1961: 11.45915720340955722964).
+/// Solves a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so wide
+/// that it changes the drag factor by less than 1e-4. kBrenner is the drag factor by the series of
+/// Brenner (1961).
 Finding solve_known_row(const FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;
@@ -45,7 +47,8 @@ Finding solve_known_row(const FreeFem& freefem) {
 void examine_freefem(const Report& report) {
   try {
     auto freefem = default_freefem();
-    freefem.row_limit = freefem.version_limit;  // the row takes about a second
+    // The row takes about a second, so the shorter time limit is enough.
+    freefem.row_limit = freefem.version_limit;
     report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
                               freefem.executable, freefem.script_folder.string())});
     report(solve_known_row(freefem));
@@ -56,7 +59,7 @@ void examine_freefem(const Report& report) {
 }
 
 Finding examine_gnuplot() {
-  constexpr auto kLongest = std::chrono::minutes(1);  // it answers within a second
+  constexpr auto kLongest = std::chrono::minutes(1);  // gnuplot answers within a second
   const auto gnuplot = run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest);
   if (!gnuplot.started || gnuplot.exit_status != 0)
     return {false,

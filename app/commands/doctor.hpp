@@ -1,10 +1,10 @@
-// What is installed, and how to mend what is missing.
+// The command `doctor`: checks which programs are installed, and says how to install missing ones.
 #pragma once
 
 namespace viscontact {
 
-/// Prints what is there to standard output, one line each or as JSON, and solves a small problem with FreeFEM
-/// against Brenner's exact value. True if nothing is missing.
+/// Prints the findings to standard output, one line each or as JSON. Solves a small problem with
+/// FreeFEM and compares the drag with Brenner's exact value. True if nothing is missing or wrong.
 bool examine(bool json);
 
 }  // namespace viscontact

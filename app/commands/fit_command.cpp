@@ -1,3 +1,4 @@
+// Options of `fit` (fits of a table, comparison of bases) and `export` (a fit as code or numbers).
 #include "viscontact/app/commands/fit_command.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,9 @@
 namespace viscontact {
 namespace {
 
-/// --fix without a value or with "1/q": theory's coefficient; "1/q=56.5": that one.
+/// Reads the value of --fix, which fixes the leading coefficient. No value, "1/q" or "theory" fixes
+/// it at its value by lubrication theory; "1/q=56.5" fixes it at 56.5. Throws Error(kWrongUsage)
+/// for any other value.
 void read_fix(const std::string& word, FitSettings& settings) {
   settings.hold_leading = true;
   if (word.empty() || word == kLeadingTerm || word == "theory") return;
@@ -106,7 +109,7 @@ void add_fit(CLI::App& app) {
     try {
       if (o->compare_bases) compare_bases_stage(o->table, settings, plot, o->json);
     } catch (const Error& error) {
-      // The fit does not need gnuplot: it is written first.
+      // The fit does not need gnuplot, so it is written before this error is thrown.
       if (error.kind() != ErrorKind::kExternalProgram) throw;
       without_picture = error;
     }

@@ -1,4 +1,4 @@
-// The commands fit and export.
+// The commands `fit` and `export`.
 #pragma once
 
 namespace CLI {
@@ -7,7 +7,9 @@ class App;
 
 namespace viscontact {
 
+/// Adds the command `fit`.
 void add_fit(CLI::App& app);
+/// Adds the command `export`.
 void add_export(CLI::App& app);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Writes the case and prints the next commands for it.
 #include "viscontact/app/commands/init_command.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,8 @@ void add_init(CLI::App& app) {
     if (std::filesystem::exists(std::filesystem::symlink_status(path)))
       throw_bad_input({*file}, "is there and is not replaced; remove it first, or write elsewhere");
     write_file(path, case_template());
-    const auto named = [](std::string name) {  // no option
+    // A name that begins with "-" is written as "./-...", so that it is not read as an option.
+    const auto named = [](std::string name) {
       return shell_word(name.starts_with('-') ? "./" + name : name);
     };
     auto results = path;

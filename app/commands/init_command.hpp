@@ -1,4 +1,4 @@
-// The command init: a commented case to begin with.
+// The command `init`: writes a case with comments to begin with.
 #pragma once
 
 namespace CLI {
@@ -7,6 +7,7 @@ class App;
 
 namespace viscontact {
 
+/// Adds the command `init`.
 void add_init(CLI::App& app);
 
 }  // namespace viscontact

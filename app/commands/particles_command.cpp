@@ -1,3 +1,4 @@
+// Options of `particles`.
 #include "viscontact/app/commands/particles_command.hpp"
 
 #include <memory>

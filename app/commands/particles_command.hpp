@@ -1,4 +1,4 @@
-// viscontact particles: the command line of many particles.
+// The command `particles`: simulates many particles (pipeline/particles/particles_stage.hpp).
 #pragma once
 
 #include <CLI/CLI.hpp>

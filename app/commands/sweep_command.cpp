@@ -1,3 +1,4 @@
+// Options of `sweep`, the choice of what its picture shows, and the messages.
 #include "viscontact/app/commands/sweep_command.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,8 @@ struct SweepOptions {
   bool dry_run = false, json = false;
 };
 
-/// The command line, and where it is silent the case's [sweep].
+/// The plan of the sweep: options of the command line; where they are missing, the case's section
+/// [sweep].
 SweepPlan plan_of(const SweepOptions& o, const Case& c) {
   SweepPlan plan = planned(c);
   if (!o.fit.empty()) plan.fit = read_fit(o.fit);
@@ -41,14 +43,16 @@ SweepPlan plan_of(const SweepOptions& o, const Case& c) {
   plan.seed = o.seed;
   if (!o.models.empty()) {
     plan.models = o.models;
-    // The case's reference was one of the case's models.
+    // The reference of the case need not be among the models of the command line.
     if (std::ranges::find(plan.models, plan.reference) == plan.models.end()) plan.reference.clear();
   }
   if (!o.reference.empty()) plan.reference = o.reference;
   return plan;
 }
 
-/// What to draw: the command line, else the case's [sweep] as far as it fits what is varied and run, else the first keys and the smallest gaps.
+/// What to draw, by the options of the command line. Where they are missing, the case's section
+/// [sweep] decides if the sweep has its keys and columns; otherwise the first varied keys are the
+/// axes and the smallest gaps are drawn. Throws Error(kWrongUsage) for a map of random samples.
 SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan) {
   const SweepRequest request = c.sweep.value_or(SweepRequest{});
   const auto is_varied = [&](const std::string& key) {
@@ -86,6 +90,7 @@ SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan
   return picture;
 }
 
+/// Throws Error(kWrongUsage) if the sweep does not have the axes and columns of the picture.
 void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   const auto columns = sweep_columns(plan);
   const auto check = [&](const std::string& name) {
@@ -112,7 +117,7 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   }
 }
 
-/// "about 3 min", from the time that the rows so far have taken.
+/// The remaining time in words, "about 3 min left", estimated from the rows of this call.
 class Remaining {
  public:
   std::string after(std::uint64_t done, std::uint64_t size) {
@@ -130,7 +135,7 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
-/// "; ... failed at 3 points", or nothing if no model failed anywhere.
+/// Says which models failed, "; ... failed at 3 points"; empty if none failed at any point.
 std::string failures_in_words(const SweepOutcome& outcome) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");

@@ -1,3 +1,5 @@
+// Options of `tabulate`, and the choice between tabulating here, in shares, by Slurm, and
+// gathering.
 #include "viscontact/app/commands/tabulate_command.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +81,8 @@ void add_tabulate(CLI::App& app) {
     const auto share = o->task.empty() ? Share() : parse_share(o->task);
     const auto tables = read_case_tables(o->case_files, o->output);
     for (const auto& one : tables) refuse_other_kind(one.table.string(), "# case: ", "table");
-    std::vector<std::vector<double>> pictures;  // gaps, for each table; before any work is done
+    // The gaps of the pictures of each table are checked before any work is done.
+    std::vector<std::vector<double>> pictures;
     if (plot->count() > 0)
       for (const auto& one : tables) {
         pictures.push_back(gaps_to_picture(one.tabulation(), o->plot));

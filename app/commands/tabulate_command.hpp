@@ -5,6 +5,7 @@
 
 namespace viscontact {
 
+/// Adds the command `tabulate`.
 void add_tabulate(CLI::App& app);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Writes the scripts; texts of options are quoted for the shell.
 #include "viscontact/app/help/completion.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 bool is_flag(const CLI::Option& option) { return option.get_type_size() == 0; }
 
-/// "-o" and "--output".
+/// The names of an option, such as "-o" and "--output".
 std::vector<std::string> names_of_option(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const auto& name : option.get_snames()) names.push_back("-" + name);
@@ -26,7 +27,7 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
   return names;
 }
 
-/// What may stand there, if it is one of a few words.
+/// The words that the option's value can be, if it is a choice of words; otherwise empty.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
   if (type == kModel || type == kModels) type = words_of(all_models());
@@ -34,7 +35,7 @@ std::vector<std::string> words_for(const CLI::Option& option) {
   return CLI::detail::split(type, '|');
 }
 
-/// Shell text that offers what belongs there, for bash.
+/// Bash code that offers the possible values of the option; empty if there are none to offer.
 std::string bash_offer(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == kFile) return "_viscontact_files";
@@ -45,14 +46,14 @@ std::string bash_offer(const CLI::Option& option) {
   return "";
 }
 
-/// Within single quotes of a shell.
+/// The text as it must be written within single quotes of a shell.
 std::string quoted(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result;
 }
 
-/// What _arguments reads as it stands.
+/// The text with the special characters of zsh's function _arguments escaped.
 std::string zsh_description(const std::string& text) {
   std::string result;
   for (const char c : text) {

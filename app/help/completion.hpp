@@ -1,4 +1,5 @@
-// Completion of the command line by the shells, made from the command line itself.
+// Scripts for shells that complete the command line. They are made from the options as CLI11 has
+// them, so that they always agree with --help.
 #pragma once
 
 #include <string>
@@ -9,10 +10,11 @@ class App;
 
 namespace viscontact {
 
-/// A script for bash, to be sourced or put among its completions as "viscontact": commands, options, words to choose from, files.
+/// A script for bash that completes commands, options, words of a choice and files. It is to be
+/// sourced, or installed as "viscontact" in bash's folder of completions.
 std::string bash_completion(const CLI::App& app);
 
-/// A function for zsh, to be put on its fpath as "_viscontact"; with descriptions.
+/// A function for zsh, with descriptions, to be installed as "_viscontact" in a folder of fpath.
 std::string zsh_completion(const CLI::App& app);
 
 }  // namespace viscontact

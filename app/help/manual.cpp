@@ -1,3 +1,4 @@
+// Exit codes, environment variables and options in roff.
 #include "viscontact/app/help/manual.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ constexpr std::array kEnvironment = {
     std::pair("SOURCE_DATE_EPOCH", "seconds since 1970 to be written as the time of making"),
 };
 
-/// Text in which roff finds nothing to interpret.
+/// The text with the special characters of roff escaped.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {

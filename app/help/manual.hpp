@@ -1,4 +1,5 @@
-// The manual page, made from the command line itself.
+// The manual page. It is made from the options as CLI11 has them, so that it always agrees with
+// --help.
 #pragma once
 
 #include <string>
@@ -9,10 +10,10 @@ class App;
 
 namespace viscontact {
 
-/// What --help of the program says below its commands: exit codes and environment.
+/// The text of --help below the commands: exit codes and environment variables.
 std::string help_footer();
 
-/// viscontact(1) in the language of man: every command with its options as --help has them.
+/// The page viscontact(1) in the language roff: every command with its options.
 std::string manual(const CLI::App& app, const std::string& version);
 
 }  // namespace viscontact

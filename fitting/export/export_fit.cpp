@@ -83,7 +83,7 @@ std::vector<std::string> facts(const Fit& fit, std::string_view source) {
       fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.",
                   fit.basis, fit.largest_relative_residual, fit.rms_relative_residual)};
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)
-    lines.push_back(fmt::format("MaximumOfBlocks error estimate of the table: {:.3g}.",
+    lines.push_back(fmt::format("Largest error estimate of the table: {:.3g}.",
                                 fit.diagnostics->largest_error_estimate));
   if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
   if (!fit.table_sha256.empty())

@@ -1,3 +1,5 @@
+// Compares the provenance of restart.bin with that of this call, and reads state, record and
+// frames.
 #include "viscontact/pipeline/particles/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The provenance of a file that may be a gigabyte long: it stands in the first 64 kB.
+/// The provenance of a restart file. Only its first 64 kB are read: they contain the provenance,
+/// and the file can be a gigabyte long.
 std::optional<Provenance> provenance_at_head(const fs::path& path) {
   constexpr std::size_t kHead = 65536;
   std::string head(kHead, '\0');
@@ -30,7 +33,8 @@ std::optional<Provenance> provenance_at_head(const fs::path& path) {
   return provenance_in(head, path.string());
 }
 
-/// What the run of `before` was made from that `now` is not; empty: nothing.
+/// Says in words how the inputs or the version of the run `before` differ from `now`; empty if they
+/// are the same.
 std::string difference(const Provenance& before, const Provenance& now) {
   const auto version = [](const Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
@@ -48,7 +52,7 @@ std::string difference(const Provenance& before, const Provenance& now) {
 }  // namespace
 
 FrameTimes frame_times(const ParticlesCase& c, double first_time) {
-  // Times that differ by rounding are equal.
+  // Times that differ by less than 1e-6 time steps differ by rounding only.
   return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
 }
 
@@ -107,19 +111,19 @@ bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& 
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
   if (!std::ranges::all_of(kParticleResults, is_there)) return false;
   try {
-    // run.json is the last file that is written.
+    // run.json is the last file that a run writes.
     const auto record = nlohmann::json::parse(read_file(folder / "run.json"));
     return record.at("to_time") == run.state.time &&
            std::ranges::all_of(particles::read_pvd(folder / "particles.pvd"), is_there,
                                &FrameFile::second);
   } catch (const std::exception&) {
-    return false;  // damaged: it is written again
+    return false;  // a damaged file: the run continues and writes it again
   }
 }
 
 bool is_named_as_frame(const fs::path& path) {
   constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  constexpr std::size_t kDigits = 5;
+  constexpr std::size_t kDigits = 5;  // smallest number of digits
   const std::string name = path.filename();
   if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
       name.size() < kBegin.size() + kDigits + kEnd.size())

@@ -1,4 +1,5 @@
-// What an earlier call of `particles` has left in its folder, and whether it can be gone on with.
+// The run that an earlier call of `particles` left in its folder: whether it can be continued, and
+// from which state. A continued run must give the same files as a run that was never interrupted.
 #pragma once
 
 #include <filesystem>
@@ -11,38 +12,39 @@
 
 namespace viscontact {
 
-/// Everything that a run needs to go on as if it had not been interrupted.
+/// The state of an interrupted run, from which it continues.
 struct EarlierRun {
   particles::State state;
   StepRecord record;
-  ParticleFrames frames;  ///< refers to the provenance that was given to find_earlier_run
+  ParticleFrames frames;  ///< refers to the provenance that find_earlier_run was given
 };
 
-/// When the frames of a case are due, in a run that began at `first_time`.
+/// The times of the frames of a case, in a run that began at `first_time` [T].
 FrameTimes frame_times(const ParticlesCase& c, double first_time);
 
-/// Throws Error(kBadInput) naming `restart` if the state is of other particles or planes than the case.
+/// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
+/// contacts with planes that the case does not have.
 void check_same_particles(const particles::State& state, const ParticlesCase& c,
                           const std::filesystem::path& restart);
 
-/// The run of the same inputs that is in the folder. If there is none, or if it cannot be gone on
-/// with, nothing; the reason is then told to the user, unless the folder has no restart.bin.
+/// The run in the folder, if it was made from the same inputs by the same version; otherwise
+/// nothing. If the folder has a restart.bin that cannot be used, a message says why.
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
                                            const std::filesystem::path& folder,
                                            const Provenance& provenance);
 
-/// True if the run has come to its end and every file of it is there.
+/// True if the run has reached the end time of the case and all its files exist.
 bool is_finished(const EarlierRun& run, const ParticlesCase& c,
                  const std::filesystem::path& folder);
 
-/// Removes the frames of the folder that are not among those of `run`: what was written between the
-/// last restart.bin and the end of the process, and the frame of the interrupt itself.
+/// Removes the frames in the folder that are not frames of `run`. These are the frames that were
+/// written after the last restart.bin, and the frame that was written because of the interrupt.
 void remove_later_frames(const EarlierRun& run, const std::filesystem::path& folder);
 
 /// True for a file name of the form particles_NNNNN.vtp.
 bool is_named_as_frame(const std::filesystem::path& path);
 
-/// The names of all files of a run but its frames.
+/// The names of all files of a run, except its frames.
 inline constexpr const char* kParticleResults[] = {
     "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
     "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};

@@ -1,3 +1,4 @@
+// Writing frames (VTK), keeping some of them for the page, and reading them again.
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
                             const particles::Setting& setting) {
   for (const auto& file : files) {
     files_.push_back(file);
-    // A frame that is not drawn is read all the same: it must be there.
+    // A frame that is not kept is read as well, because its file must exist.
     auto [positions, contacts] = particles::read_vtp(folder_ / file.second, playback_.dimension);
     if (positions.size() != playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
@@ -68,7 +69,7 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
 }
 
 void ParticleFrames::end(const Simulation& simulation) {
-  if (files_.empty()) return;  // not even the first could be written
+  if (files_.empty()) return;  // writing the first frame failed
   const auto& state = simulation.state();
   if (files_.back().first < state.time) add(simulation);
   if (playback_.frames.back().time < state.time)
@@ -80,7 +81,7 @@ void ParticleFrames::keep(Frame frame) {
   kept_bytes_ += frame.positions.size() * sizeof(float) +
                  frame.contacts.size() * sizeof(particles::CurrentContact);
   playback_.frames.push_back(std::move(frame));
-  // Beyond what a page can show, every second is enough.
+  // 256 MiB are more than a page can show, so from there on every second frame is enough.
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
   if (kept_bytes_ > kMostBytes && playback_.frames.size() > 4) {
     std::vector<Frame> half;

@@ -1,4 +1,5 @@
-// The frames of a simulation of many particles: files for ParaView, and what page and picture show.
+// The frames of a simulation of many particles: files for ParaView, and the playback that the page
+// and the picture show. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +14,22 @@
 
 namespace viscontact {
 
-/// The times at which frames are due: multiples of an interval after the first time, each taken
-/// after the first step that reaches it.
+/// The times of frames: multiples of an interval after the first time. A frame is written after the
+/// first step that reaches such a time.
 struct FrameTimes {
-  double first = 0;     ///< [T]
+  double first = 0;     ///< time of the first frame [T]
   double interval = 0;  ///< [T], at least a time step
-  double tiny = 0;      ///< times that differ by less are equal [T]
+  double tiny = 0;      ///< times that differ by less count as equal [T]
 
-  /// When the frame after the one at `time` is due [T].
+  /// The time of the frame after the one at `time` [T].
   double after(double time) const;
 };
 
-/// The name of a frame's file and its time [T].
+/// The time of a frame [T] and the name of its file.
 using FrameFile = std::pair<double, std::string>;
 
-/// Frames are written as they come, and kept to be drawn.
+/// Writes frames to files, and keeps those that the page and the picture draw. The memory for the
+/// kept frames is bounded: if there are too many, every second of them is dropped.
 class ParticleFrames {
  public:
   /// `provenance` must outlive this object.
@@ -37,11 +39,12 @@ class ParticleFrames {
   /// Writes a frame of the present state.
   void add(const particles::Simulation& simulation);
 
-  /// Takes up the frames that an interrupted run has written, in place of writing them. Throws
-  /// Error(kBadInput) naming the file if one cannot be read or is of other particles.
+  /// Reads the frames that an interrupted run has written, in place of writing them. Throws
+  /// Error(kBadInput) that names the file if a frame cannot be read or has other particles.
   void resume(const std::vector<FrameFile>& files, const particles::Setting& setting);
 
-  /// The last state is always among the frames.
+  /// Adds the last state to the frames, unless it is among them. Does nothing if no frame was
+  /// written.
   void end(const particles::Simulation& simulation);
 
   const particles::Playback& playback() const { return playback_; }
@@ -57,9 +60,9 @@ class ParticleFrames {
   std::size_t every_ = 1, kept_bytes_ = 0;
 };
 
-/// The frames in particles.pvd, as write_pvd writes it, that belong to a run up to `time`: without
-/// later ones, and without one that was written only because the run was interrupted at `time`.
-/// Throws Error(kBadInput) naming the file if it cannot be read.
+/// The frames in particles.pvd (as write_pvd writes it) that belong to a run up to `time` [T].
+/// Later frames are left out, and so is a frame that was written only because the run was
+/// interrupted. Throws Error(kBadInput) that names the file if it cannot be read or has no frame.
 std::vector<FrameFile> frames_until(const std::filesystem::path& pvd, double time,
                                     const FrameTimes& times);
 

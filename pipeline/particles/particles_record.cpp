@@ -1,3 +1,4 @@
+// Writing and reading steps.csv: comment lines with the sums as JSON, then the rows of steps.
 #include "viscontact/pipeline/particles/particles_record.hpp"
 
 #include <fmt/format.h>
@@ -17,14 +18,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Beyond a million rows, 50 MB, every thousandth step and those that did not converge are enough.
+// A million rows are 50 MB. After that many steps, only every thousandth step and the steps that
+// did not converge get a row.
 constexpr std::int64_t kMostRows = 1000000, kThen = 1000;
 
 std::string comment_begin(std::int64_t last_step) {
   return fmt::format("# record after step {}: ", last_step);
 }
 
-/// The value of `key`, put into `value`.
+/// Assigns the value of `key` to `value`. Throws Json::exception if there is none of this type.
 template <class Value>
 void get(const Json& json, const char* key, Value& value) {
   json.at(key).get_to(value);

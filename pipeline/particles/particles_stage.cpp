@@ -1,3 +1,6 @@
+// The course of a run of many particles: checks, continuing an earlier run, time steps, saving and
+// results. restart.bin must be written after steps.csv and particles.pvd (Run::save), so that a run
+// that is killed at any time can be continued.
 #include "viscontact/pipeline/particles/particles_stage.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -28,6 +30,7 @@
 #include "viscontact/report/particles/particles_picture.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
@@ -38,6 +41,8 @@ using particles::Simulation;
 using particles::StepReport;
 using Clock = std::chrono::steady_clock;
 
+/// The state at the start: that of the case, or that of the restart file. Throws Error(kBadInput)
+/// if the restart file has other particles, or is not earlier than the end of the case.
 particles::State first_state(const ParticlesCase& c, const std::string& restart) {
   particles::State state;
   if (restart.empty()) {
@@ -51,7 +56,8 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
     throw_bad_input({restart},
                     fmt::format("is at time {} and {} ends at {}, so that nothing is left to do",
                                 state.time, c.path.string(), c.end_time));
-  // Another step than before begins a grid of times of its own.
+  // If the time step differs from that of the earlier run, the times of the steps are counted from
+  // this state on.
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
   if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
@@ -61,6 +67,7 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
   return state;
 }
 
+/// The content of run.json.
 nlohmann::ordered_json record_of(const ParticlesCase& c, const StepTotals& record,
                                  const Simulation& simulation) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
@@ -90,7 +97,7 @@ nlohmann::ordered_json record_of(const ParticlesCase& c, const StepTotals& recor
   return json;
 }
 
-/// Takes away what an earlier run left in the folder, so that at no time there is a mixture of two.
+/// Removes the files of an earlier run, so that the folder never contains files of two runs.
 void remove_earlier_run(const fs::path& folder) {
   for (const auto* name : kParticleResults) remove_file(folder / name);
   std::vector<fs::path> frames;
@@ -99,7 +106,8 @@ void remove_earlier_run(const fs::path& folder) {
   for (const auto& frame : frames) remove_file(frame);
 }
 
-/// Throws if the folder has a file with the name of a result that Viscontact did not write.
+/// Throws Error(kBadInput) if a file in the folder has the name of a result but Viscontact did not
+/// write it.
 void check_folder_is_ours(const fs::path& folder) {
   const auto check = [](const fs::path& path) { refuse_other_kind(path, "", "result"); };
   for (const auto* name : kParticleResults) check(folder / name);
@@ -107,7 +115,7 @@ void check_folder_is_ours(const fs::path& folder) {
     if (is_named_as_frame(entry.path())) check(entry.path());
 }
 
-/// Refuses to write over what the run is made from.
+/// Throws Error(kBadInput) if the run would overwrite one of its inputs.
 void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
@@ -127,10 +135,10 @@ void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs
   }
 }
 
-/// A run on its way: everything in it is there to be written at any time.
+/// A run with its state, frames and record, which can be written at any time.
 class Run {
  public:
-  /// `record` and `frames` are those of an interrupted run, or new ones.
+  /// `record` and `frames` are those of the interrupted run that continues, or new ones.
   Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance,
       StepRecord record, ParticleFrames frames)
       : case_(c),
@@ -141,7 +149,7 @@ class Run {
         record_(std::move(record)),
         earlier_(record_) {}
 
-  /// To the end, or until it is interrupted.
+  /// Computes steps until the end time, or until the user interrupts the run.
   void simulate() {
     if (frames_.files().empty()) frames_.add(simulation_);
     save();
@@ -155,12 +163,12 @@ class Run {
         next_frame = times.after(report.time);
       }
       tell(report);
-      constexpr double kSaveEvery = 60;  // seconds
+      constexpr double kSaveEvery = 60;  // [s]
       if (seconds_since(last_saved_) > kSaveEvery) save();
     }
   }
 
-  /// All that there is to see and to go on from. Returns the record.
+  /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     clear_progress();
     frames_.end(simulation_);
@@ -170,7 +178,7 @@ class Run {
           particles::write_particles(state.particles));
     write("final_contacts.csv", TextKind::kHashComment,
           particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
-    constexpr int kPanels = 4;
+    constexpr int kPanels = 4;  // states in the still picture
     write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           particles_picture(frames_.playback(), case_.title, kPanels));
@@ -189,7 +197,7 @@ class Run {
     write_output(folder_ / name, kind, text, provenance_);
   }
 
-  /// The sums, with the time and memory of this call and those before it.
+  /// The sums, with computing time and memory of this call and the calls before it.
   StepTotals with_costs() const {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -200,9 +208,10 @@ class Run {
     return record;
   }
 
-  /// What a killed run is gone on from, and the frames so far. restart.bin comes last, because a
-  /// run goes on from its step: whenever the process is killed, the other files know that step.
-  /// steps.csv may then be newer by one call of this function, so it keeps the record of the one before.
+  /// Writes the files from which a killed run is continued, and the list of frames. A run continues
+  /// from the step of restart.bin, so restart.bin is written last: whenever the process is killed,
+  /// the other files contain that step. steps.csv may be newer than restart.bin by one call of this
+  /// function; therefore it contains the record of the previous call, too.
   void save() {
     const auto record = with_costs();
     write("particles.pvd", TextKind::kXml, particles::write_pvd(frames_.files()));
@@ -215,7 +224,7 @@ class Run {
   }
 
   void tell(const StepReport& report) {
-    constexpr double kEvery = 0.2;  // seconds
+    constexpr double kEvery = 0.2;  // [s]
     if (seconds_since(last_word_) < kEvery) return;
     show_progress(fmt::format(
         "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
@@ -229,11 +238,12 @@ class Run {
   const Provenance& provenance_;
   ParticleFrames frames_;
   StepRecord record_;
-  StepTotals earlier_;  // as they were when restart.bin was written
+  StepTotals earlier_;  // the sums when restart.bin was last written
   Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
 };
 
-/// The last words on a run that was written. Throws if it was interrupted or has a step that did not converge.
+/// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
+/// interrupted, Error(kNotConverged) if a step did not converge.
 void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
                                    const fs::path& folder) {
   say(fmt::format(
@@ -270,7 +280,7 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
                     c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
 }
 
-/// For a run that has nothing left to do: what the call that ended it said.
+/// Says of a finished run what the call that finished it said, and throws the same error.
 void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
                    bool json) {
   if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
@@ -315,7 +325,8 @@ void run_particles(const ParticlesRequest& request) {
   try {
     run.simulate();
   } catch (const Error&) {
-    // A step that cannot be computed left the state before it: that is kept, too, unless it is the writing that failed.
+    // If a step cannot be computed, the state before it is written. If writing itself was the
+    // error, a second error of writing is ignored and the first is thrown.
     try {
       run.write_results();
     } catch (const Error&) {

@@ -1,20 +1,24 @@
-// A simulation of many particles from its case to its files.
+// The command `particles`: simulates many particles from a case and writes the files of the run.
 #pragma once
 
 #include <string>
 
 namespace viscontact {
 
+/// The options of the command `particles`.
 struct ParticlesRequest {
-  std::string case_file, folder, restart;  ///< restart: empty for a start from the case's particles
+  /// Paths; `restart` is empty if the run starts from the particles of the case.
+  std::string case_file, folder, restart;
   int threads = 1;
-  bool json = false;  ///< print the record
+  bool json = false;  ///< true: print run.json to standard output
 };
 
-/// Reads the case, simulates, and writes into the folder what docs/file-formats.md says. Throws Error(kBadInput) for a bad case or restart file before
-/// anything is written; once all is written, Error(kNotConverged) if a step did not reach the tolerance or cannot be computed, Error(kInterrupted).
-/// An interrupted run of the same inputs in the folder goes on, and a finished one is left as it is; of
-/// any other run, the files in the folder are removed at the beginning.
+/// Reads the case, simulates, and writes the files of docs/file-formats.md into the folder. If the
+/// folder has an interrupted run of the same inputs, this run continues; a finished run of the same
+/// inputs is left as it is; the files of any other run are removed at the beginning. Throws
+/// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
+/// must not be replaced. Throws after everything is written: Error(kNotConverged) if a step did not
+/// reach the tolerance or cannot be computed, Error(kInterrupted) if the user interrupted the run.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact

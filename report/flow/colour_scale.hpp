@@ -1,4 +1,4 @@
-// A scale of colours: nodes, and what is between them.
+// Colour scales that are given by nodes, with linear interpolation between them.
 #pragma once
 
 #include <array>
@@ -8,11 +8,13 @@
 namespace viscontact {
 
 struct ColourNode {
-  double place;
+  double place;               ///< position on the scale
   std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
 };
 
-/// "#rrggbb" at a place of the scale, linear between nodes; beyond the first or last, theirs. At least two nodes, places rising.
+/// The colour "#rrggbb" at a place of the scale. It is linear between nodes; before the first and
+/// after the last node it is that of the node. There must be at least two nodes, with increasing
+/// places.
 std::string colour_between(std::span<const ColourNode> nodes, double place);
 
 }  // namespace viscontact

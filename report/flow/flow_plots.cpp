@@ -1,3 +1,5 @@
+// Views, outlines, meshes, pressures and streamlines of the flow in the half-plane (rho, z), in the
+// units of the case.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
@@ -18,25 +20,26 @@
 namespace viscontact {
 namespace {
 
-// Of the drawing, in pixels.
+// Sizes of the drawing [pixels].
 constexpr double kPlotWidth = 640;
 constexpr double kTallestPlot = 640;
 constexpr double kStretchedPlot = 360;
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
-constexpr double kColourBar = 165;  // and its numbers, to the right
+constexpr double kColourBar = 165;  // at the right, with its numbers
 constexpr double kNoColourBar = 30;
 
-constexpr double kGapReach =
-    2.5;  // of a gap's view: there the film of a plane is 7 times as thick as in its middle
+// Half the width of a gap's view, in units of sqrt(2 gap radius). There, the film over a plane is
+// about 7 times as thick as in its middle.
+constexpr double kGapReach = 2.5;
 
 struct PlotView {
   Window window;
-  double plot_width = 0, plot_height = 0;  // pixels
-  /// How much larger heights are drawn than widths.
+  double plot_width = 0, plot_height = 0;  // [pixels]
+  /// How many times larger heights are drawn than widths.
   double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
 };
 
-/// At equal scales on both axes.
+/// A view with equal scales on both axes.
 PlotView unstretched(const Window& window) {
   const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
   return {window, window.width() * scale, window.height() * scale};
@@ -46,6 +49,9 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
+/// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
+/// the axis and is at most 12 radii high, otherwise the fluid within 3.2 radii of the sphere's
+/// centre.
 PlotView surroundings(const CurvedMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   Window fluid;
@@ -62,7 +68,8 @@ PlotView surroundings(const CurvedMesh& mesh, double radius, double gap) {
                               std::min(centre + reach, fluid.top + margin)});
 }
 
-/// `reach` in the width of the film's middle, sqrt(2 gap radius).
+/// A view of the gap; `reach` is half its width in units of sqrt(2 gap radius), the width of the
+/// middle of the film.
 PlotView gap_view(const CurvedMesh& mesh, double radius, double gap, double reach = kGapReach) {
   constexpr double kOfSphere = 0.9;  // of the radius, at most
   constexpr double kMargin = 0.08;   // of the height
@@ -74,7 +81,7 @@ PlotView gap_view(const CurvedMesh& mesh, double radius, double gap, double reac
     if (rho < half && z > -top) bottom = std::min(bottom, z);
   const double margin = kMargin * (top - bottom);
   Window window{-half, half, bottom - margin, top + margin};
-  const double widest = std::max(half, window.height() / 2);  // not higher than wide
+  const double widest = std::max(half, window.height() / 2);  // the view is not higher than wide
   window.left = -widest;
   window.right = widest;
   if (window.height() > kFlattest * window.width()) return unstretched(window);
@@ -90,7 +97,7 @@ void mirror(std::vector<Polyline>& lines) {
   }
 }
 
-/// Without points that are less than a pixel from the one before.
+/// The lines without points that are less than a pixel away from the point before them.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
@@ -107,7 +114,7 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView
   return result;
 }
 
-/// Both halves of curves of rho >= 0, as one curve with interruptions.
+/// One curve, with interruptions, of the lines in rho >= 0 and their mirror images.
 Curve mirrored(const std::string& legend, const std::string& style, std::vector<Polyline> lines) {
   mirror(lines);
   Curve curve{legend, style, {}};
@@ -118,7 +125,7 @@ Curve mirrored(const std::string& legend, const std::string& style, std::vector<
   return curve;
 }
 
-/// The quadratic curve through the ends and the middle of a side, if it comes near the window.
+/// Adds the quadratic curve through the ends and the middle of a side, if it is near the window.
 void add_side(std::vector<Polyline>& lines, const CurvedMesh& mesh, const Window& window,
               const std::array<std::size_t, 3>& side, int pieces) {
   const auto& start = mesh.nodes[side[0]];
@@ -138,7 +145,8 @@ void add_side(std::vector<Polyline>& lines, const CurvedMesh& mesh, const Window
 }
 
 std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pieces) {
-  std::map<std::size_t, std::array<std::size_t, 3>> by_middle;  // each once
+  // Two triangles share a side; the key, the number of its middle, keeps each side once.
+  std::map<std::size_t, std::array<std::size_t, 3>> by_middle;
   for (const auto& [v0, v1, v2, m0, m1, m2] : mesh.triangles) {
     by_middle[m0] = {v1, v2, m0};
     by_middle[m1] = {v2, v0, m1};
@@ -149,11 +157,12 @@ std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pi
   return lines;
 }
 
-/// The sphere as a surface, the walls and the neighbour as lines.
+/// The sphere as a filled surface, and the walls and the neighbour as lines.
 std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double radius,
                             double gap) {
   const auto& window = view.window;
   namespace label = boundary_label;
+  // Straight pieces of a side of a triangle, and of the visible part of the sphere.
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : mesh.boundary) {
@@ -163,7 +172,7 @@ std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double
     add_side(edge.label == label::kShearFree ? shear_free : walls, mesh, window, edge.nodes,
              kPieces);
   }
-  // What of the sphere is in the window, closed far above it.
+  // The part of the sphere that is in the window, as a curve that is closed far above the window.
   Curve sphere{
       "", "filledcurves closed fillcolor rgb '#8c8c8c' fillstyle solid border rgb '#000000'", {}};
   const double half = window.right < radius ? std::asin(window.right / radius) : std::numbers::pi;
@@ -206,9 +215,9 @@ std::pair<double, double> extremes(const LinearField& field, const Window& windo
   return result;
 }
 
-/// On the sphere, or on what is seen of it.
+/// An arrow on the visible part of the sphere, in the direction of its velocity.
 std::string velocity_arrow(const ForceTableRow& row, double radius, const Window& window) {
-  constexpr double kLength = 0.4;  // of the sphere's height
+  constexpr double kLength = 0.4;  // in heights of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
   const double half = std::copysign(kLength / 2 * (top - row.gap), row.reference_velocity);
@@ -229,7 +238,7 @@ Curve streamlines(const Flow& flow, const PlotView& view) {
   const double step = rounded((high - low) / kLines);
   std::vector<Polyline> lines;
   for (double n = std::ceil(low / step); n <= high / step; ++n) {
-    if (n == 0) continue;  // the axis and what rests on it
+    if (n == 0) continue;  // the axis and the surfaces at rest that it meets
     auto more = level_lines(field, n * step);
     std::ranges::move(more, std::back_inserter(lines));
   }
@@ -250,7 +259,7 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
           fmt::format("set yrange [{:.9g}:{:.9g}]", view.window.bottom, view.window.top),
           "set key at screen 0.5, screen 0.005 bottom center horizontal Left reverse samplen 3",
           "set xlabel offset 0,0.3",
-          // What is no fluid.
+          // The grey ground shows where there is no fluid.
           "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#dedede' "
           "fillstyle solid noborder"};
 }
@@ -285,10 +294,11 @@ std::string draw(Panel panel, const PlotView& view, double right) {
                   static_cast<int>(std::lround(height)));
 }
 
-/// A value for each place of the plot that an eye tells apart.
+/// The values at the cells of the plot, which are about as small as an eye can see.
 ColourField colour_field(const LinearField& values, const PlotView& view) {
   const auto& window = view.window;
-  constexpr double kCell = 1.5;  // pixels: gnuplot's time goes with their number
+  // Size of a cell [pixels]. The time of gnuplot is proportional to the number of cells.
+  constexpr double kCell = 1.5;
   ColourField field{static_cast<std::size_t>(view.plot_width / kCell),
                     static_cast<std::size_t>(view.plot_height / kCell),
                     window.left,
@@ -318,8 +328,10 @@ std::string plot_pressure_and_streamlines(const std::string& what, const RowPict
 }  // namespace
 
 std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation) {
-  constexpr int kPieces = 8;  // of a side of the coarsest mesh; its children have fewer
-  constexpr std::size_t kMostSides = 3500;
+  // Straight pieces of a side of the coarsest mesh; a side of the finest mesh has a quarter of
+  // them.
+  constexpr int kPieces = 8;
+  constexpr std::size_t kMostSides = 3500;  // with more sides, the view is made narrower
   double reach = kGapReach;
   auto view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap);
   auto fine = sides(picture.flow.mesh, view.window, kPieces / 4);
@@ -327,11 +339,11 @@ std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation) {
     reach /= 2;
     const double right = view.window.right;
     view = gap_view(picture.flow.mesh, tabulation.radius, picture.row.gap, reach);
-    if (!(view.window.right < right)) break;  // a wide gap is seen whole
+    if (!(view.window.right < right)) break;  // the height of a wide gap limits the view
     fine = sides(picture.flow.mesh, view.window, kPieces / 4);
   }
   Panel panel = empty_panel("Mesh in the gap", picture, tabulation, view);
-  // Only to tell fluid from solid.
+  // A white field shows where the fluid is.
   const std::vector<double> white(picture.flow.mesh.nodes.size(), 0.0);
   panel.field = colour_field(straightened(picture.flow.mesh, white, view.window), view);
   panel.settings = {"set palette defined (0 'white', 1 'white')", "set cbrange [0:1]",
@@ -353,7 +365,7 @@ std::string plot_flow(const RowPicture& picture, const Tabulation& tabulation) {
   const double usual =
       tabulation.viscosity * std::abs(picture.row.reference_velocity) / tabulation.radius;
   auto colours = robust_colours(pressure.values, usual);
-  // A thin film has no pixels.
+  // A thin film may have no pixels, so the extremes are those of the triangles.
   std::tie(colours.smallest, colours.largest) = extremes(field, view.window);
   return plot_pressure_and_streamlines("Flow at gap", picture, tabulation, view, pressure, colours);
 }

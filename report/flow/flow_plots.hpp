@@ -1,4 +1,5 @@
-// Pictures of one row of a tabulation: its mesh in the gap, the flow around the sphere, the flow in the gap.
+// Pictures of one row of a tabulation: the mesh in the gap, the flow around the sphere and the flow
+// in the gap.
 #pragma once
 
 #include <string>
@@ -7,17 +8,20 @@
 
 namespace viscontact {
 
-/// Each as one SVG, mirrored about the axis so that the sphere is whole, in the case's units. Where the gap is thin, its heights are
-/// stretched, and the title says so. Throw Error(kExternalProgram) if gnuplot is missing or fails.
+/// Each function returns one SVG in the units of the case. The half-plane is mirrored about the
+/// axis, so that the whole sphere is seen. If the gap is thin, heights are drawn larger than
+/// widths, and the title says so. The functions throw Error(kExternalProgram) if gnuplot is missing
+/// or fails.
 
-/// The finest mesh in the gap, and upon it the coarsest, of which each triangle became 16 or more.
+/// The finest mesh in the gap, and on it the coarsest mesh, each triangle of which was divided into
+/// 16 or more triangles of the finest mesh.
 std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation);
 
-/// Pressure as colours, and streamlines at equal steps of the stream function, within about three radii of the sphere's centre; all
-/// of the fluid if that is little more.
+/// Pressure as colours, and streamlines at equal steps of the stream function, within about three
+/// radii of the sphere's centre. A container that is not much larger is shown whole.
 std::string plot_flow(const RowPicture& picture, const Tabulation& tabulation);
 
-/// The same in the gap.
+/// Pressure and streamlines in the gap.
 std::string plot_gap_flow(const RowPicture& picture, const Tabulation& tabulation);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Ends, numbers and words of the colour bar for pressures.
 #include "viscontact/report/flow/pressure_colours.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,8 @@
 namespace viscontact {
 namespace {
 
-/// Red, green, blue of a place from -1 to 1 (ColorBrewer's RdBu, which colour-blind readers tell apart), linear in between.
+/// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, which colour-blind readers tell
+/// apart; linear between its nodes.
 std::string colour(double place) {
   static const std::vector<ColourNode> kRedBlue = {
       {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
@@ -21,7 +23,7 @@ std::string colour(double place) {
   return colour_between(kRedBlue, place);
 }
 
-/// Shorter than the library's: 1e6, not 1e+06.
+/// A number with three digits and a short exponent: 1e6 in place of 1e+06.
 std::string short_number(double value) {
   std::string text = fmt::format("{:.3g}", value);
   if (const auto e = text.find("e+"); e != std::string::npos)
@@ -29,7 +31,7 @@ std::string short_number(double value) {
   return text;
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// The next number above that is 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double mantissa : {1.0, 2.0, 5.0})
@@ -46,7 +48,7 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// A bar needs two ends.
+/// The colours with two different ends of the bar, as gnuplot needs them.
 PressureColours widened(PressureColours colours) {
   if (colours.high > colours.low) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);
@@ -62,7 +64,7 @@ double PressureColours::at(double pressure) const {
 }
 
 std::vector<std::string> PressureColours::settings() const {
-  constexpr int kSteps = 40;
+  constexpr int kSteps = 40;  // intervals of gnuplot's palette, which is linear in each
   const double from = at(low), to = at(high), full = std::max(std::abs(from), std::abs(to));
   std::string palette;
   for (int i = 0; i <= kSteps; ++i) {
@@ -72,7 +74,7 @@ std::vector<std::string> PressureColours::settings() const {
   std::string words = "pressure (unit: viscosity x velocity / length)";
   std::string ticks = "set cbtics autofreq format '%.3g'";
   if (linear_below > 0) {
-    constexpr int kMost = 4;  // of either sign
+    constexpr int kMost = 4;  // numbers of each sign at the bar, about
     const int decades = static_cast<int>(
         std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
     const int every = decades / (kMost + 1) + 1;
@@ -85,7 +87,8 @@ std::vector<std::string> PressureColours::settings() const {
     ticks = "set cbtics (" + ticks + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
-  constexpr double kWorthAWord = 1.2;  // times the end of the bar
+  // Pressures beyond 1.2 times the end of the bar are mentioned in words.
+  constexpr double kWorthAWord = 1.2;
   if (largest > kWorthAWord * high && largest > 0)
     words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",
                          short_number(high), short_number(largest));
@@ -103,9 +106,9 @@ PressureColours proportional_colours(const std::vector<double>& pressures) {
 }
 
 PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
-  constexpr double kBeyond = 0.005;    // of the pixels
-  constexpr double kMuchFarther = 3;   // times
-  constexpr double kLogarithmic = 10;  // times the usual pressure
+  constexpr double kBeyond = 0.005;    // share of the pixels that may be beyond each end
+  constexpr double kMuchFarther = 3;   // ratio of extreme to rest, above which the bar is cut
+  constexpr double kLogarithmic = 10;  // ratio of end to `usual`, above which it is logarithmic
   const auto sorted = sorted_finite(pixels);
   const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
   auto colours = proportional_colours(sorted);

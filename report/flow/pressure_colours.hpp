@@ -1,4 +1,5 @@
-// Colours for pressures, of which the film has a few that are a million times the others.
+// Colours for pressures [M/(L T^2)]. In a thin film, a few pressures are a million times larger
+// than all others, so the scale may be logarithmic.
 #pragma once
 
 #include <string>
@@ -6,25 +7,28 @@
 
 namespace viscontact {
 
-/// Blue below 0, white at 0, red above. Proportional to the pressure, or from +-linear_below on to its logarithm (asinh, so without a
-/// kink). Pressures beyond an end of the bar have its colour.
+/// A scale that is blue below 0, white at 0 and red above 0. It is proportional to the pressure, or
+/// to asinh(pressure / linear_below), which is linear for small and logarithmic for large
+/// pressures. Pressures beyond an end of the bar have the colour of that end.
 struct PressureColours {
   double low = 0, high = 0;          ///< the ends of the bar [M/(L T^2)], low < high
-  double smallest = 0, largest = 0;  ///< pressures that there are
-  double linear_below = 0;           ///< 0: proportional throughout
+  double smallest = 0, largest = 0;  ///< extremes of the pressures [M/(L T^2)]
+  double linear_below = 0;           ///< [M/(L T^2)]; 0: proportional to the pressure
 
-  /// What gnuplot is given in a pressure's place.
+  /// The position of a pressure on the scale, which gnuplot gets as the value.
   double at(double pressure) const;
 
-  /// gnuplot's palette, range, numbers and words for the bar.
+  /// Commands of gnuplot for palette, range, numbers and words of the bar.
   std::vector<std::string> settings() const;
 };
 
-/// For pressures that are all worth a colour of their own: proportional.
+/// A proportional scale from the smallest to the largest of the pressures.
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
-/// For pixels of which few may outshine all others: the bar ends where 0.5 % of them are beyond, if those reach much farther; then, or where
-/// it still spans more than `usual` (> 0) by far, it is logarithmic beyond about that.
+/// A scale for pixels of which a few may have a much larger pressure than all others. If the
+/// largest 0.5 % are more than three times the rest, the bar ends at the rest. In this case, and
+/// also if the bar reaches more than ten times the pressure `usual` (> 0), the scale is logarithmic
+/// above about `usual`.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact

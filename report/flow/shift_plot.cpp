@@ -1,3 +1,4 @@
+// Two panels over the gap: shifts and residuals.
 #include "viscontact/report/flow/shift_plot.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
   for (const auto& row : shift.rows) {
     own.points.emplace_back(row.gap, row.shift);
     common.points.emplace_back(row.gap, shift.shift);
-    // A logarithmic scale has no zero: of an exact shift, and of a table without estimates.
+    // A logarithmic scale has no zero, so a residual or an error estimate of 0 is not drawn.
     if (row.relative_residual != 0)
       residual.points.emplace_back(row.gap, std::abs(row.relative_residual));
     if (row.relative_error_estimate > 0)
@@ -46,7 +47,7 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall) {
                         "set format x '1e%T'", "set format y '1e%T'"};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
-  constexpr int kWidth = 860, kPanelHeight = 360;
+  constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
   if (residuals.curves.empty()) return draw_svg({shifts}, kWidth, kPanelHeight);
   return draw_svg({shifts, residuals}, kWidth, 2 * kPanelHeight);
 }

@@ -1,4 +1,5 @@
-// The shift of a rough wall against the gap, and how well one shift serves all.
+// The picture of `viscontact shift`: how far below its crests a rough wall acts like a smooth one
+// (fitting/wall_shift.hpp).
 #pragma once
 
 #include <string>
@@ -7,8 +8,9 @@
 
 namespace viscontact {
 
-/// An SVG element of two panels: each row's own shift beside the common one, and the relative residuals of the common one. `wall` says
-/// which wall, for the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
+/// An SVG element with two panels over the gap: the shift of each row beside the common shift [L],
+/// and the relative residuals with the common shift. `wall` names the wall in the title. Throws
+/// Error(kExternalProgram) if gnuplot is missing or fails.
 std::string plot_wall_shift(const WallShift& shift, const std::string& wall);
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Reads a sweep's file row by row, because it may be larger than the memory, and draws it.
 #include "viscontact/report/flow/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// The asked columns of a sweep's file, its rows one by one.
+/// Reads the chosen columns of a sweep's file, row by row.
 class SweepRows {
  public:
   explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
@@ -39,7 +40,7 @@ class SweepRows {
     names_ = fields_of(line);
   }
 
-  /// The places of a column: its own, and of the key that divides it.
+  /// The indices of a column and of the key by which it is divided, if any.
   struct Place {
     std::size_t column;
     std::optional<std::size_t> divisor;
@@ -50,7 +51,7 @@ class SweepRows {
     return {index_of(name.substr(0, slash)), index_of(name.substr(slash + 1))};
   }
 
-  /// The next row; false at the end. Blank lines are no rows.
+  /// Reads the next row; returns false at the end. Blank lines are skipped.
   bool next() {
     std::string line;
     do
@@ -80,7 +81,8 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True where a logarithmic axis shows more: positive values over a decade or more.
+/// True if all finite values are positive and span a decade or more, so that a logarithmic axis
+/// shows more.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const double value : values) {
@@ -91,7 +93,8 @@ bool is_logarithmic(const std::vector<double>& values) {
   return low > 0 && high >= 10 * low;
 }
 
-constexpr int kSweepWidth = 860;
+constexpr int kSweepWidth = 860;  // [pixels]
+// Colours that colour-blind readers tell apart (Okabe & Ito 2008).
 constexpr std::array kCurveColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                       "#E69F00", "#56B4E9", "#000000"};
 
@@ -118,7 +121,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot)
     }
   if (std::ranges::none_of(ys, [](double y) { return std::isfinite(y); }))
     throw_bad_input({path.string()}, "has no value to draw in the columns that were asked for");
-  // Random samples come in no order.
+  // The rows of random samples are not in the order of x.
   for (auto& curve : panel.curves)
     std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
   panel.x_log = is_logarithmic(xs);
@@ -149,12 +152,14 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   const bool log_y = is_logarithmic({ys.begin(), ys.end()});
   const bool log_value = is_logarithmic(values);
   const auto scaled = [](double v, bool logarithmic) { return logarithmic ? std::log10(v) : v; };
-  // A picture of few cells is smoothed by those who show it; of many, it keeps the cells' edges.
+  // Programs that show a picture with few pixels smooth it. With eight pixels for each value, the
+  // edges of the values stay sharp.
   constexpr std::size_t kDotsPerCell = 8;
   ColourField field;
   field.columns = kDotsPerCell * xs.size();
   field.rows = kDotsPerCell * ys.size();
-  // Of a grid of centres on the axis' own scale, cells reach half way to the next and as far at the ends.
+  // The values are at the centres of cells, on the scale of the axis; so the picture extends half a
+  // mean cell beyond the first and the last value.
   const auto margin = [&](const std::set<double>& all, bool logarithmic) {
     return (scaled(*all.rbegin(), logarithmic) - scaled(*all.begin(), logarithmic)) /
            static_cast<double>(all.size() - 1) / 2;
@@ -163,7 +168,8 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
   field.right = scaled(*xs.rbegin(), log_x) + margin(xs, log_x);
   field.bottom = scaled(*ys.begin(), log_y) - margin(ys, log_y);
   field.top = scaled(*ys.rbegin(), log_y) + margin(ys, log_y);
-  // A dot shows the nearest value, so that a grid of any spacing stands at its place.
+  // Each pixel shows the nearest value, so that grids of unequal spacing are drawn at the right
+  // place.
   const auto nearest = [&](const std::set<double>& all, bool logarithmic, double from, double to,
                            std::size_t dots) {
     std::vector<double> found;
@@ -198,11 +204,12 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot) {
               {}};
   const double reach = std::max(-low, high);
   if (low < -reach / 10 && high > reach / 10) {
-    // About 0 in two colours, blue and red (Moreland 2009: both fade to grey alike).
+    // For values of both signs, a scale from blue over grey to red (Moreland 2009).
     panel.settings.emplace_back("set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')");
     panel.settings.push_back(fmt::format("set cbrange [{}:{}]", -reach, reach));
   } else {
-    // Dark to bright in lightness too (cividis, Nunez et al. 2018): also for colour-blind readers and in print.
+    // The lightness of this scale (cividis, Nunez et al. 2018) increases throughout, so that
+    // colour-blind readers and readers of prints can read it.
     panel.settings.emplace_back(
         "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78', 0.75 '#bcae6c', 1 "
         "'#fee838')");

@@ -1,4 +1,4 @@
-// The picture of a sweep.
+// The picture of a sweep, from its CSV file.
 #pragma once
 
 #include <filesystem>
@@ -7,15 +7,18 @@
 
 namespace viscontact {
 
-/// What to draw of a sweep's file. A column is one of its own, or "COLUMN/KEY", its quotient with a varied key.
+/// What to draw. A column is a column of the file, or "COLUMN/KEY" for its quotient by a key that
+/// the sweep varies.
 struct SweepPlot {
-  std::string x;                     ///< key
-  std::string y;                     ///< key: a map of columns[0] over x and y; empty: lines over x
+  std::string x;                     ///< key of the horizontal axis
+  std::string y;                     ///< key for a map of columns[0]; empty: lines over x
   std::vector<std::string> columns;  ///< at least one
 };
 
-/// Draws it (SVG): lines, or a heat map over the grid. Axes and colours are logarithmic where all values are positive and span a decade or more. Throws
-/// Error(kBadInput) that lists the columns there are for one that is not, or if there is nothing to draw.
+/// An SVG with lines, or with a heat map over the grid of two keys. Axes and colours are
+/// logarithmic if all values are positive and span a decade or more. Throws Error(kBadInput) that
+/// lists the columns of the file if a column does not exist, Error(kBadInput) if there is nothing
+/// to draw, and Error(kExternalProgram) if gnuplot is missing or fails.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot);
 
 }  // namespace viscontact

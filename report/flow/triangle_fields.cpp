@@ -1,3 +1,5 @@
+// Division of quadratic triangles, values at pixels, and level lines by following the crossed
+// sides.
 #include "viscontact/report/flow/triangle_fields.hpp"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace {
 using Index = std::uint32_t;
 constexpr double kOutside = std::numeric_limits<double>::quiet_NaN();
 
-/// A pair of points in either order, as one key.
+/// A key for a pair of points, which does not depend on their order.
 std::uint64_t pair_key(Index a, Index b) {
   constexpr int kHalf = 32;
   return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
@@ -28,8 +30,9 @@ bool touches(const Window& window, const CurvedMesh& mesh, const CurvedMesh::Tri
          box.top > window.bottom;
 }
 
-/// The new points of one curved triangle that is cut into 16: the middles between two of its nodes, and the values there of the six quadratic
-/// shape functions (vertices, then middles of the opposite sides).
+/// A new point of a curved triangle that is divided into 16: the middle between two of its nodes.
+/// `weights` are the values there of the six quadratic shape functions, first those of the
+/// vertices, then those of the middles of the opposite sides.
 struct NewPoint {
   int first, second;
   std::array<double, 6> weights;
@@ -45,7 +48,8 @@ constexpr std::array<NewPoint, 9> kNewPoints = {{
     {5, 3, {-0.125, 0, -0.125, 0.5, 0.25, 0.5}},
     {3, 4, {-0.125, -0.125, 0, 0.5, 0.5, 0.25}},
 }};
-// Nodes 0 to 5 and, from 6 on, the new points in their order above.
+// The 16 triangles. Points 0 to 5 are the nodes; from 6 on they are the new points in the order
+// above.
 constexpr std::array<std::array<int, 3>, 16> kSixteen = {{
     {0, 6, 11},
     {6, 5, 12},
@@ -70,14 +74,15 @@ constexpr std::array<std::array<int, 3>, 16> kSixteen = {{
 LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
                          const Window& window, const std::vector<std::array<double, 2>>& gradient) {
   LinearField field;
-  std::unordered_map<std::size_t, Index> numbers;        // of nodes
-  std::unordered_map<std::uint64_t, Index> new_numbers;  // of middles between two points
+  std::unordered_map<std::size_t, Index> numbers;        // point of each node
+  std::unordered_map<std::uint64_t, Index> new_numbers;  // point between each pair of points
   const auto add = [&](double rho, double z, double value) {
     field.points.push_back({rho, z});
     field.values.push_back(value);
     return static_cast<Index>(field.points.size() - 1);
   };
-  // Hermite's cubic between two nodes at its middle, and from there on to a point near by.
+  // The value of Hermite's cubic at the middle between two nodes, continued linearly to the point
+  // (rho, z) nearby.
   const auto between = [&](std::size_t a, std::size_t b, double rho, double z) {
     double value = (values[a] + values[b]) / 2;
     const std::array<double, 2> to = {rho, z};
@@ -128,7 +133,7 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
   std::vector<double> picture(columns * rows, kOutside);
   const double width = window.width() / static_cast<double>(columns);
   const double height = window.height() / static_cast<double>(rows);
-  // The pixels whose centres are between two coordinates, as a range of one direction.
+  // The range of pixels in one direction whose centres are between two coordinates.
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
@@ -136,8 +141,9 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
     return std::pair(clamp(std::ceil((low - start) / step - 0.5)),
                      clamp(std::floor((high - start) / step - 0.5) + 1));
   };
-  constexpr double kSlack =
-      -1e-9;  // of a pixel centre on a side, so that neither triangle misses it
+  // A barycentric coordinate may be this far below 0, so that a pixel centre on a side belongs to
+  // at least one of the two triangles in spite of round-off.
+  constexpr double kSlack = -1e-9;
   for (const auto& triangle : field.triangles)
     for (const double side : {1.0, -1.0}) {
       std::array<double, 3> x{}, z{}, v{};
@@ -162,7 +168,8 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
           picture[row * columns + column] = v[0] + w1 * (v[1] - v[0]) + w2 * (v[2] - v[0]);
         }
     }
-  // A pixel that the boundary cuts may have its centre outside.
+  // The centre of a pixel that the boundary crosses may be outside the triangles; such a pixel
+  // takes the mean value of its neighbours.
   const auto inner = picture;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {
@@ -182,7 +189,8 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
 }
 
 std::vector<Polyline> level_lines(const LinearField& field, double level) {
-  // A point of a line is where it crosses a side; a side has at most two neighbours along the line.
+  // The points of a level line are its crossings with sides of triangles. Each crossing has at most
+  // two neighbours along the line, one in each triangle at the side.
   struct Crossing {
     std::pair<double, double> point;
     std::array<std::uint64_t, 2> next{};
@@ -230,7 +238,7 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   };
   for (auto& [key, crossing] : crossings)
     if (!crossing.drawn && crossing.neighbours == 1) lines.push_back(follow(key));
-  for (auto& [key, crossing] : crossings)  // what is left is closed
+  for (auto& [key, crossing] : crossings)  // the lines that are left are closed
     if (!crossing.drawn) {
       lines.push_back(follow(key));
       lines.back().push_back(lines.back().front());

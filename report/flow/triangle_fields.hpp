@@ -1,4 +1,5 @@
-// Fields on triangles, made ready to be drawn: as pixels, and as the lines along which one is constant.
+// Fields on triangular meshes for drawing: values at pixels, and level lines. Points are (rho, z)
+// [L] of the half-plane.
 #pragma once
 
 #include <array>
@@ -17,28 +18,31 @@ struct Window {
   double height() const { return top - bottom; }
 };
 
-/// Straight triangles with a field that is linear on each.
+/// A field that is linear on each of a set of straight triangles.
 struct LinearField {
   std::vector<std::array<double, 2>> points;
   std::vector<double> values;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The curved triangles that touch the window, each as 16 straight ones, with the quadratic field that `values` are the nodes of. If its
-/// `gradient` at the nodes is known better than that (not empty), the field is cubic along the lines between neighbouring nodes, and
-/// its level lines have no corners where its gradient is small.
+/// Divides each curved triangle that touches the window into 16 straight triangles, and
+/// interpolates the field. `values` are the values at the nodes of the quadratic elements. If
+/// `gradient` is not empty, it is the gradient at the nodes; then the field is the cubic Hermite
+/// interpolant along the lines between neighbouring nodes, and its level lines have no corners
+/// where the gradient is small.
 LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
                          const Window& window,
                          const std::vector<std::array<double, 2>>& gradient = {});
 
-/// The field at the pixels of a picture of the window, row by row from the bottom, each row from the left. The field is symmetric about
-/// the axis: a window may reach to negative rho. A pixel outside the triangles is NaN, unless it is next to one inside.
+/// The values of the field at the centres of the pixels of a window, row by row from the bottom,
+/// each row from the left. The window may extend to negative rho, because the field is symmetric
+/// about the axis. A pixel outside the triangles is NaN, unless it is next to a pixel inside.
 std::vector<double> pixels(const LinearField& field, const Window& window, std::size_t columns,
                            std::size_t rows);
 
 using Polyline = std::vector<std::pair<double, double>>;
 
-/// The lines on which the field has that level, joined across triangles.
+/// The lines on which the field equals `level`, joined across triangles.
 std::vector<Polyline> level_lines(const LinearField& field, double level);
 
 }  // namespace viscontact

@@ -1,11 +1,13 @@
-// Makes the plots of the page zoomable and readable by pointer. Each figure holds its plot as JSON (report/report_plot.hpp); without this script,
-// and in print, it shows the still picture instead.
+// Draws the plots of the page with uPlot, so that they can be zoomed and values can be read by
+// pointer. Each figure contains its plot as JSON (report/report_plot.hpp). Without this script, and
+// in print, the figure shows the still picture.
 'use strict';
 (() => {
   const kBlank = '\u2013';
 
-  // ---- Axes. uPlot refuses ranges below 1e-16 and draws only positive decades: it is given the logarithm, or the value in a unit of the
-  // axis' own size, and its ticks are put where they belong.
+  // ---- Axes. uPlot refuses ranges below 1e-16, and its logarithmic axes have whole decades only.
+  // Therefore it gets the logarithm of a value, or the value in a unit of the axis' size, and this
+  // script places and labels the ticks.
 
   function axisOf(described, values) {
     const finite = values.filter(v => Number.isFinite(v) && (!described.logarithmic || v > 0));
@@ -23,7 +25,7 @@
 
   const plain = v => (v === null || v === undefined ? null : v);
 
-  /** Steps of 1, 2 or 5 times a power of ten, about `count` of them. */
+  /** Ticks with a step of 1, 2 or 5 times a power of ten; about `count` of them. */
   function evenTicks(low, high, count) {
     const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
     const step = power * [1, 2, 5, 10].find(m => m * power >= rough);
@@ -41,7 +43,7 @@
   const kSuperscripts = '\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079';
   const raised = n => String(n).replace('-', '\u207b').replace(/\d/g, d => kSuperscripts[d]);
 
-  /** A number in few characters: 0.002, 150, 3·10⁻⁷. */
+  /** A number as a short text: 0.002, 150, 3·10⁻⁷. */
   function short(value, digits) {
     if (value === 0 || !Number.isFinite(value)) return value === 0 ? '0' : kBlank;
     const size = Math.abs(value);
@@ -51,7 +53,7 @@
     return (factor === '1' ? '' : factor === '\u22121' ? '\u2212' : factor + '\u00b7') + '10' + raised(Number(exponent));
   }
 
-  /** As many digits as tell a tick from its neighbours. */
+  /** Labels with enough digits to distinguish each tick from its neighbours. */
   function tickLabels(axis, ticks) {
     const values = ticks.map(axis.outer);
     let digits = 3;
@@ -65,7 +67,7 @@
 
   // ---- Curves.
 
-  /** x strictly increasing: a jump has two points at one x. */
+  /** The values of x, made strictly increasing for uPlot: at a jump, two points have the same x. */
   function separated(x, span) {
     const result = x.slice();
     for (let i = 1; i < result.length; ++i)
@@ -73,7 +75,10 @@
     return result;
   }
 
-  /** The curve's value at x (both in the axes' own measure): between two points on their line, of lone points the nearest within `reach`. */
+  /**
+   * The value of a curve at x, both in the units that uPlot gets. Between two points it is interpolated
+   * linearly; for a curve of separate points it is that of the nearest point within `reach`.
+   */
   function valueAt(curve, x, reach) {
     const xs = curve.inner.x, ys = curve.inner.y;
     if (!xs.length) return null;
@@ -101,7 +106,7 @@
     return path;
   }
 
-  /** Draws a curve's points, each in its own shape: uPlot knows circles only. */
+  /** Draws the points of a curve in the curve's shape, because uPlot draws circles only. */
   function drawPoints(u, curve, series) {
     if (!curve.point || !u.series[series].show) return;
     const ratio = devicePixelRatio, box = u.bbox, context = u.ctx;
@@ -117,7 +122,7 @@
     context.restore();
   }
 
-  // ---- The legend, in which values are read off.
+  // ---- The legend, which shows the values at the pointer.
 
   function element(tag, className, parent, text) {
     const made = document.createElement(tag);
@@ -135,7 +140,7 @@
     return `<svg width="48" height="14" aria-hidden="true">${line}${point}</svg>`;
   }
 
-  /** A row for x, and one for each curve that has words; a curve without goes with the one before it. */
+  /** A row for x and one for each curve that has words; other curves belong to the row before. */
   function makeLegend(parent, panel, toggle) {
     const table = element('table', 'legend', parent);
     const row = className => element('tr', className, table);
@@ -168,7 +173,8 @@
     for (const curve of panel.curves)
       curve.inner = {x: separated(curve.x.map(x.inner), span), y: curve.y.map(v => (v === null ? null : y.inner(v)))};
 
-    // All curves on one list of abscissae: undefined where a curve has no point, null where it is interrupted.
+    // uPlot needs all curves on one list of abscissae. A value is undefined where a curve has no
+    // point, and null where the curve is interrupted.
     const abscissae = [...new Set(panel.curves.flatMap(c => c.inner.x))].sort((a, b) => a - b);
     const index = new Map(abscissae.map((value, i) => [value, i]));
     const data = [abscissae, ...panel.curves.map(curve => {
@@ -250,12 +256,15 @@
     reset();
     addTouch(u, reset);
     const fit = () => { if (chart.clientWidth && chart.clientWidth !== u.width) u.setSize(size()); };
-    new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);  // later: resizing within is a loop
-    place.uplot = u;  // for who looks in from outside
+    // Resizing within the observer itself would be an endless loop, so it is done in the next
+    // frame.
+    new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);
+    place.uplot = u;  // for tests
     place.full = {x: x.full, y: y.full};
   }
 
-  // ---- Fingers: one reads off, two pinch, two taps reset. Up and down still scrolls the page.
+  // ---- Touch: one finger reads values, two fingers zoom, a double tap resets the axes. Moving one
+  // finger up or down still scrolls the page.
 
   function addTouch(u, reset) {
     const over = u.over;
@@ -272,7 +281,7 @@
         u.setCursor({left: x, top: y});
       } else if (event.touches.length === 2) {
         const spots = [spot(event.touches[0]), spot(event.touches[1])];
-        // What was under each finger stays under it.
+        // The point under each finger stays under it.
         pinch = {spots, x: spots.map(s => u.posToVal(s.x, 'x')), y: spots.map(s => u.posToVal(s.y, 'y'))};
         event.preventDefault();
       }
@@ -286,7 +295,8 @@
         const now = [spot(event.touches[0]), spot(event.touches[1])];
         const along = (name, values, positions, length, upward) => {
           const apart = positions[1] - positions[0];
-          if (Math.abs(apart) < 40) return;  // fingers side by side say nothing of this direction
+          // Fingers that are close in this direction (pixels) do not zoom in it.
+          if (Math.abs(apart) < 40) return;
           const slope = (values[1] - values[0]) / apart, start = values[0] - slope * positions[0];
           const ends = [start, start + slope * length];
           u.setScale(name, upward ? {min: ends[1], max: ends[0]} : {min: ends[0], max: ends[1]});
@@ -304,7 +314,7 @@
     const plot = JSON.parse(figure.querySelector('script').textContent);
     const zoomable = element('div', 'zoomable', figure);
     figure.querySelector('.still').after(zoomable);
-    document.documentElement.classList.add('live');  // shown now, so that it has a width
+    document.documentElement.classList.add('live');  // shows the plot, so that it has a width
     for (const panel of plot.panels)
       makePanel(zoomable, panel, panel.rows.length ? 90 + 34 * panel.rows.length : plot.panels.length > 1 ? 320 : 380);
   }

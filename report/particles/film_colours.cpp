@@ -1,3 +1,4 @@
+// The colour scale viridis and the ticks of gamma.
 #include "viscontact/report/particles/film_colours.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,8 @@ double lowest_gamma(const particles::Playback& playback) {
 }
 
 std::string film_colour(double share) {
-  // Viridis, which colour-blind readers tell apart, and prints in grey.
+  // The scale viridis: colour-blind readers tell its colours apart, also when it is printed in
+  // grey.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
@@ -27,7 +29,7 @@ std::string film_colour(double share) {
 }
 
 std::vector<double> film_ticks(double lowest) {
-  constexpr double kAbout = 4;
+  constexpr double kAbout = 4;  // approximate number of intervals between ticks
   const double rough = -lowest / kAbout, decade = std::pow(10, std::floor(std::log10(rough)));
   double step = 10 * decade;
   if (rough < 1.5 * decade)

@@ -1,4 +1,5 @@
-// What a film remembers, as a colour, with the scale beside it: for the picture of a motion and for the page that plays it.
+// Colours for gamma, and the numbers of the scale beside them, for the picture and the page of a
+// motion of particles. gamma [M L/T] is minus the impulse that a film has absorbed.
 #pragma once
 
 #include <string>
@@ -8,17 +9,17 @@
 
 namespace viscontact {
 
-/// The most negative gamma of all frames; 0 if no film holds.
+/// The most negative gamma of all frames; 0 if no contact has gamma < 0.
 double lowest_gamma(const particles::Playback& playback);
 
-/// "#rrggbb" for gamma/lowest, from 0 (light) to 1 (dark).
+/// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
 std::string film_colour(double share);
 
-/// Round numbers from `lowest` < 0 to 0, in falling order.
+/// Round numbers from `lowest` < 0 to 0 for the scale, in decreasing order.
 std::vector<double> film_ticks(double lowest);
 std::string film_tick_text(double tick);
 
 inline constexpr const char* kFilmWords = "gamma: what the film remembers [mass × length/time]";
-inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< of contacts without film
+inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 
 }  // namespace viscontact

@@ -1,3 +1,4 @@
+// Encodes positions, planes and contacts of the frames as binary numbers in base64.
 #include "viscontact/report/particles/particles_page.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ using particles::Frame;
 using particles::Playback;
 using Bytes = std::vector<unsigned char>;
 
-// The script reads the numbers as they lie in memory.
+// The numbers are written as they are in memory, and the script reads them as little-endian.
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kMostBytes = 24'000'000;  // of the page
@@ -42,7 +43,7 @@ void append(Bytes& bytes, Number value) {
 
 constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
-/// RFC 4648.
+/// The bytes in base64 (RFC 4648).
 std::string base64(const Bytes& bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -58,20 +59,23 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-/// Seven bits a byte, the last one without the eighth.
+/// Appends a number with seven bits in each byte, the lowest first. The eighth bit is set in all
+/// bytes but the last.
 void append_short(Bytes& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
   bytes.push_back(static_cast<unsigned char>(value));
 }
 
-/// How positions are written: two bytes if a step of those is small beside every particle, else as floats.
+/// How positions are written: as 16-bit multiples of `step` from `low` (bytes = 2) if `step` is
+/// small compared with every particle, otherwise as 32-bit floats (bytes = 4). `low` and `step` are
+/// in [L].
 struct Grid {
   int bytes = 2;
   particles::Vector low{}, step{1, 1, 1};
 };
 
 Grid grid_of(const Playback& playback) {
-  constexpr double kSteps = 65535, kSmall = 0.02;  // of a radius
+  constexpr double kSteps = 65535, kSmall = 0.02;  // largest 16-bit number; step over radius
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   Grid grid;
   for (std::size_t d = 0; d < dimension; ++d) {
@@ -87,13 +91,13 @@ Grid grid_of(const Playback& playback) {
   }
   const auto smallest = std::ranges::min_element(playback.radii);
   const double largest_step = *std::ranges::max_element(std::span(grid.step).first(dimension));
-  // The negation takes in what is not finite.
+  // The comparison is negated so that a step that is not finite also leads to floats.
   if (smallest != playback.radii.end() && !(largest_step <= kSmall * *smallest))
     grid = {4, {0, 0, 0}, {1, 1, 1}};
   return grid;
 }
 
-/// Which frames and particles the page holds.
+/// The frames and particles that the page shows.
 struct PageContent {
   std::vector<std::size_t> frames;
   std::size_t every_frame = 1, every_particle = 1;
@@ -110,11 +114,12 @@ PageContent choice_of(const Playback& playback, std::size_t every_frame) {
   return choice;
 }
 
-/// The contacts of all frames: the pairs that there ever are, and for each frame which of them (as steps in that list) with what gamma (0: none,
-/// 255: the lowest).
+/// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
+/// contacts in it. A contact is written as its distance in the list from the contact before it, and
+/// a byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma).
 struct Contacts {
-  Bytes pairs;    ///< int32, int32: as CurrentContact's, by number of the particle drawn
-  Bytes offsets;  ///< uint32: where a frame begins in `frames`, and the end
+  Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
+  Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
   Bytes frames;
 };
 
@@ -163,7 +168,7 @@ std::size_t shown_particles(const Playback& playback, const PageContent& choice)
   return (playback.radii.size() + choice.every_particle - 1) / choice.every_particle;
 }
 
-/// Of what a frame always has, in the page.
+/// The bytes in the page of the data that each frame has: positions, planes and time.
 std::size_t frame_bytes(const Playback& playback, const PageContent& choice, const Grid& grid) {
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   return base64_size(shown_particles(playback, choice) *
@@ -171,10 +176,10 @@ std::size_t frame_bytes(const Playback& playback, const PageContent& choice, con
                      planes * 6 * sizeof(float) + sizeof(double));
 }
 
-/// As many frames as there is room for.
+/// Chooses as many frames as fit into kMostBytes, and encodes their contacts.
 std::pair<PageContent, Contacts> fitting(const Playback& playback, const Grid& grid,
                                          double lowest) {
-  constexpr std::size_t kRest = 200'000;  // script, style and words
+  constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
   for (std::size_t every = 1;; every *= 2) {
     auto choice = choice_of(playback, every);
     const auto others = kRest + choice.frames.size() * frame_bytes(playback, choice, grid) +
@@ -310,7 +315,7 @@ std::string particles_page(const Playback& playback, const std::string& title) {
   });
   const bool flat = playback.dimension == 2;
   const auto words = words_for(playback, choice);
-  // Nothing is fetched: the browser is told so.
+  // The Content-Security-Policy forbids the browser to load anything from elsewhere.
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"

@@ -1,4 +1,5 @@
-// The files of app/particles_page, as they are built into the executable (cmake/embed_texts.cmake).
+// The files of report/particles/page, as they are built into the executable
+// (cmake/embed_texts.cmake).
 #pragma once
 
 #include <string_view>

@@ -1,3 +1,4 @@
+// Draws particles, planes, contacts and the scale of gamma as SVG.
 #include "viscontact/report/particles/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +27,13 @@ using particles::cross;
 using particles::dot;
 using particles::norm;
 
-/// Page coordinates (y down) of a panel whose corner is the origin.
+/// Projects points to page coordinates (y downwards) of a panel whose upper left corner is the
+/// origin.
 struct Projection {
-  Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};  ///< unit; `toward`: the reader
-  double scale = 1;                                     ///< page over length
-  double left = 0, top = 0;                             ///< of the panel along `right`, `up` [L]
+  /// Unit vectors; `toward` points to the reader.
+  Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
+  double scale = 1;          ///< page units per length
+  double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]
 
   double x(const Vector& p) const { return scale * (dot(right, p) - left); }
   double y(const Vector& p) const { return scale * (top - dot(up, p)); }
@@ -52,13 +55,14 @@ struct Drawing {
   const Playback& playback;
   ViewBox room;
   Projection view;
-  double width = 0, height = 0;  ///< of a panel on the page
-  double lowest = 0;             ///< gamma
-  std::size_t every = 1;         ///< particles drawn
+  double width = 0, height = 0;  ///< size of a panel in page units
+  double lowest = 0;             ///< lowest gamma of the motion [M L/T]
+  std::size_t every = 1;         ///< every such particle is drawn
 };
 
-constexpr int kContactColours = 20;
-constexpr std::size_t kMostInPanel = 20000;  // of a panel: more are a grey field
+constexpr int kContactColours = 20;  // for gamma < 0
+// More than 20000 particles in a panel could not be told apart.
+constexpr std::size_t kMostInPanel = 20000;
 
 std::string path_of(const Polygon& polygon, const Projection& view) {
   std::string path;
@@ -93,7 +97,8 @@ std::string plane_2d_lines(const Drawing& d, const Frame& frame) {
   return text;
 }
 
-/// Patches: those that we look at from the free side, or the edges of the others, through which we look.
+/// The planes as patches. A plane that is seen from its free side is filled; of a plane that is
+/// seen from behind, only the edges are drawn, because the particles are behind it.
 std::string plane_3d_patches(const Drawing& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -120,7 +125,8 @@ std::string plane_3d_patches(const Drawing& d, const Frame& frame, bool from_fre
   return text;
 }
 
-/// 0: touching without film; 1 to kContactColours: the darker, the more the film remembers.
+/// The class of a contact's colour: 0 for gamma = 0; 1 to kColours, from light to dark, for gamma <
+/// 0 down to `lowest`.
 std::size_t colour_class(double gamma, double lowest) {
   if (!(gamma < 0) || !(lowest < 0)) return 0;
   return 1 + static_cast<std::size_t>(
@@ -132,7 +138,8 @@ std::string class_colour(std::size_t colour) {
                      : film_colour(static_cast<double>(colour - 1) / (kContactColours - 1));
 }
 
-/// A particle's contacts are drawn with it: over it and what is behind, under what is in front.
+/// The contacts of a particle in one colour. They are drawn together with the particle: over it and
+/// over what is behind it, and under what is in front of it.
 struct ContactLine {
   std::size_t colour = 0;
   double width = 0;
@@ -178,7 +185,8 @@ std::string discs(const Drawing& d, const Frame& frame) {
   text += "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
   for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every) text += circle(d, frame, k);
   text += "</g>\n" + plane_2d_lines(d, frame);
-  // One path for each colour; the width is that of the contacts' mean radius.
+  // There is one path for each colour; its width is proportional to the mean radius of the
+  // contacts.
   std::array<ContactLine, kContactColours + 1> lines;
   std::array<int, kContactColours + 1> counts{};
   for (const auto& contact : frame.contacts) {
@@ -220,7 +228,7 @@ std::string spheres(const Drawing& d, const Frame& frame) {
   return text + "</g>\n" + plane_3d_patches(d, frame, false);
 }
 
-/// Frames at evenly spaced times.
+/// The indices of frames at evenly spaced times.
 std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   const auto& frames = playback.frames;
   if (frames.empty()) return {};
@@ -240,9 +248,10 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   return chosen;
 }
 
-/// Of the panels' sides for a picture of a slide's proportions with few empty places.
+/// The number of columns of panels, for a picture of about the proportions of a slide with few
+/// empty places.
 int columns_for(int panels, double width_over_height) {
-  constexpr double kSlide = 2.2;
+  constexpr double kSlide = 2.2;  // width over height of the picture
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int columns = 1; columns <= panels; ++columns) {
@@ -258,7 +267,7 @@ int columns_for(int panels, double width_over_height) {
 }
 
 std::string colour_bar(double lowest, bool touching, double left, double top, double width) {
-  constexpr int kHeight = 12;
+  constexpr int kHeight = 12;  // [page units]
   std::string text;
   const double step = width / kContactColours;
   for (int c = 0; c < kContactColours; ++c)
@@ -282,6 +291,7 @@ std::string colour_bar(double lowest, bool touching, double left, double top, do
 }  // namespace
 
 std::string particles_picture(const Playback& playback, const std::string& title, int panels) {
+  // Sizes of the picture and of its margins, title and captions [page units].
   constexpr double kWidth = 1000, kMostHeight = 900, kEdge = 16, kTitle = 44, kCaption = 30;
   const auto chosen = chosen_frames(playback, panels);
   const int count = static_cast<int>(chosen.size());
@@ -332,9 +342,9 @@ std::string particles_picture(const Playback& playback, const std::string& title
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kWidth, height, escaped(title), kWidth / 2,
-      // The mean character is about half as wide as high.
+      // A character is on average about half as wide as high.
       std::min(20.0, 2 * (kWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)));
-  // Spread over the width, if the height is what limits the scale.
+  // If the height limits the scale, the panels are spread over the width.
   const double place = kWidth / columns;
   for (int i = 0; i < count; ++i) {
     const auto& frame = playback.frames[chosen[static_cast<std::size_t>(i)]];

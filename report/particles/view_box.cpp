@@ -1,3 +1,4 @@
+// Extent of the particles, extension to planes nearby, and clipping of polygons by half-spaces.
 #include "viscontact/report/particles/view_box.hpp"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ using particles::operator+;
 using particles::operator-;
 using particles::operator*;
 
-/// Of the particles of a frame, without the `cut` outermost to either side.
+/// The extent of the particles of a frame along an axis, without the `cut` outermost particles at
+/// either end.
 Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis, std::size_t cut) {
   std::vector<double> lows, highs;
   for (std::size_t k = 0; k < playback.radii.size(); ++k) {
@@ -40,9 +42,9 @@ double size_of(const ViewBox& room, int dimension) {
   return size;
 }
 
-/// Reaches for the plane if it is next to the room, so that particles are seen to lie on it.
+/// Extends the box to a plane that is near it, so that particles are seen to lie on the plane.
 void extend_to_plane(ViewBox& room, const PlanePosition& plane, int dimension) {
-  constexpr double kNear = 0.5;  // of the room's size
+  constexpr double kNear = 0.5;  // largest distance, in sizes of the box
   double distance = 0;
   for (std::size_t d = 0; d < 3; ++d)
     distance +=
@@ -57,9 +59,11 @@ void extend_to_plane(ViewBox& room, const PlanePosition& plane, int dimension) {
 }  // namespace
 
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames) {
-  constexpr double kFlownAway = 1.5;  // times the room of the others
+  // If all particles need more than 1.5 times the size of the central ones, some have flown away.
+  constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
-  const auto cut = playback.radii.size() / (100 * dimension);  // 2 % in all, for all sides
+  // At both ends of all axes together, 2 % of the particles are left out.
+  const auto cut = playback.radii.size() / (100 * dimension);
   ViewBox room;
   double size = 0;
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -80,6 +84,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(room, plane, playback.dimension);
+  // Margin, and smallest size in any direction, both in sizes of the box.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(room, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -104,7 +109,7 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
 
 Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Planes may meet or coincide: nothing vanishes by round-off.
+  // Planes may meet or coincide; the slack keeps round-off from removing such polygons.
   const double slack = 1e-4 * size_of(room, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{};

@@ -1,4 +1,5 @@
-// How much of space a view of particles holds, and what of planes is seen in it.
+// The part of space that a view of particles shows, and the visible parts of planes in it. Lengths
+// are in the units of the case.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace viscontact {
 
-/// From where to where along an axis [L]; of nothing, low > high.
+/// An interval along an axis [L]; empty if low > high.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -25,17 +26,19 @@ struct ViewBox {
   particles::Vector low{}, high{};
 };
 
-/// What a view of these frames should hold: all particles, or the central 98 % of each frame if the others have flown far away, and the planes
-/// next to them. Never flat in a direction of the playback's.
+/// The box that a view of these frames should show: all particles, or the central 98 % of each
+/// frame if the others have flown far away, and the planes next to them. The box has a positive
+/// size in each direction of the playback's dimension.
 ViewBox view_box_of(const particles::Playback& playback, const std::vector<std::size_t>& frames);
 
 using Polygon = std::vector<particles::Vector>;  ///< convex, its corners in order [L]
 
-/// What of a polygon has normal.(x - point) >= 0.
+/// The part of a polygon with normal.(x - point) >= 0.
 Polygon clipped(const Polygon& polygon, const particles::Vector& point,
                 const particles::Vector& normal);
 
-/// What of a polygon in plane `own` is in the room and on the free side of the other planes.
+/// The part of a polygon in the plane number `own` that is in the box `room` and on the free side
+/// of all other planes.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
                         const std::vector<particles::PlanePosition>& planes, std::size_t own,
                         int dimension);

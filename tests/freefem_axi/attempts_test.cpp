@@ -61,7 +61,7 @@ Answer answer_of(const ProcessResult& result) {
 TEST(Attempts, GoOnUntilTheAccuracyIsMetAndAnswerWithTheirOwnEstimateWhereItIsNot) {
   const auto one = answer_of(solve(default_freefem(), "1e-15", "2", "1"));
   const auto three = answer_of(solve(default_freefem(), "3e-7", "2", "3"));
-  const double exact = 6 * std::numbers::pi * plane_drag_factor(kGap);
+  const double exact = 6 * std::numbers::pi * bispherical_plane_factor(kGap);
   for (const auto& answer : {one, three}) {
     EXPECT_LE(std::abs(answer.force / exact - 1), answer.estimate);
   }
@@ -96,7 +96,7 @@ TEST(Attempts, OutOfMemoryInALaterAttemptLeavesTheAnswerOfTheOneBefore) {
   // The memory was too small for the second attempt: a level without a force.
   EXPECT_THAT(result.output, HasSubstr("\nviscontact-level 1 0 "));
   const auto answer = answer_of(result);
-  const double exact = 6 * std::numbers::pi * plane_drag_factor(kGap);
+  const double exact = 6 * std::numbers::pi * bispherical_plane_factor(kGap);
   EXPECT_LE(std::abs(answer.force / exact - 1), answer.estimate);
   EXPECT_GT(answer.estimate, 1e-15);
 }

@@ -43,7 +43,7 @@ ExactRow exact_row(const std::string& geometry, double gap, std::vector<double> 
 
 ExactRow draw_plane(Random& random, double accuracy) {
   const double gap = draw_gap(random);
-  return exact_row("plane", gap, {}, accuracy, plane_drag_factor(gap));
+  return exact_row("plane", gap, {}, accuracy, bispherical_plane_factor(gap));
 }
 
 ExactRow draw_free_surface(Random& random, double accuracy) {

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(ExactDrag{"UnboundedPlane",
                                 "plane.edp",
                                 {"-gap", "0.1", "-containerRadius", "0", "-containerHeight", "0"},
-                                plane_drag_factor(0.1)},
+                                bispherical_plane_factor(0.1)},
                       ExactDrag{"UnboundedFreeSurface",
                                 "free_surface.edp",
                                 {"-gap", "0.01", "-containerRadius", "0", "-containerHeight", "0"},

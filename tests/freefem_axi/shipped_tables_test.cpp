@@ -56,7 +56,7 @@ TEST_P(ShippedTable, RowsMadeAgainAreThoseOfTheTable) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, ShippedTable,
-    testing::Values(Shipped{"plane", "plane", {}, plane_drag_factor},
+    testing::Values(Shipped{"plane", "plane", {}, bispherical_plane_factor},
                     Shipped{"free_surface", "free_surface", {}, free_surface_drag_factor},
                     Shipped{"equal_spheres",
                             "sphere",

@@ -114,7 +114,9 @@ Real xi_from_excess(Real excess) { return 2 * std::asinh(std::sqrt(excess / 2));
 
 }  // namespace
 
-double plane_drag_factor(double epsilon) { return drag_factor(xi_from_excess(epsilon), {.xi = 0}); }
+double bispherical_plane_factor(double epsilon) {
+  return drag_factor(xi_from_excess(epsilon), {.xi = 0});
+}
 
 double free_surface_drag_factor(double epsilon) {
   return drag_factor(xi_from_excess(epsilon), {.xi = 0, .condition = Condition::kShearFree});

@@ -11,7 +11,7 @@
 namespace viscontact {
 
 /// Fixed no-slip plane. Brenner 1961, first problem; Maude 1961.
-double plane_drag_factor(double epsilon);
+double bispherical_plane_factor(double epsilon);
 
 /// Flat surface without shear stress that stays flat. Brenner 1961, second problem.
 double free_surface_drag_factor(double epsilon);

@@ -28,7 +28,8 @@ TEST(Bispherical, AgreesWithTheReferenceValuesNearAPlane) {
   ASSERT_GE(rigid.rows.size(), 8U);
   for (const auto& row : rigid.rows) {
     const double epsilon = row.fields[0].value(), exact = row.fields[1].value();
-    EXPECT_NEAR(plane_drag_factor(epsilon), exact, kRounding * exact) << "no slip, at " << epsilon;
+    EXPECT_NEAR(bispherical_plane_factor(epsilon), exact, kRounding * exact)
+        << "no slip, at " << epsilon;
   }
   const auto free = read_csv(kReference / "sphere_free_surface.csv", columns, 2);
   ASSERT_GE(free.rows.size(), 4U);
@@ -84,17 +85,18 @@ TEST(Bispherical, AgreesWithBrennersSeries) {
   // Another sum of the same problem, which promises 1e-13.
   for (const double epsilon : kGaps) {
     const double exact = brenner_drag_factor(epsilon);
-    EXPECT_NEAR(plane_drag_factor(epsilon), exact, 1e-13 * exact) << "at " << epsilon;
+    EXPECT_NEAR(bispherical_plane_factor(epsilon), exact, 1e-13 * exact) << "at " << epsilon;
   }
 }
 
 TEST(Bispherical, DiffersFromACutExpansionByTheNextTerms) {
-  expect_next_terms_of_cut_expansion(near_contact_expansion("rigid"), plane_drag_factor);
+  expect_next_terms_of_cut_expansion(near_contact_expansion("rigid"), bispherical_plane_factor);
   expect_next_terms_of_cut_expansion(near_contact_expansion("free"), free_surface_drag_factor);
 }
 
 TEST(Bispherical, HoldsItsDigitsAtTheSmallestGapsItPromises) {
-  expect_expansion_at_small_gaps(near_contact_expansion("rigid"), plane_drag_factor, kRounding);
+  expect_expansion_at_small_gaps(near_contact_expansion("rigid"), bispherical_plane_factor,
+                                 kRounding);
   expect_expansion_at_small_gaps(near_contact_expansion("free"), free_surface_drag_factor,
                                  kRounding);
 }
@@ -165,7 +167,7 @@ TEST(Bispherical, UnequalSpheresAndCavitiesFollowTheLubricationExpansion) {
 
 TEST(Bispherical, LargeSpheresAndLargeCavitiesTendToAPlane) {
   for (const double epsilon : {1e-3, 0.1, 1.0}) {
-    const double plane = plane_drag_factor(epsilon);
+    const double plane = bispherical_plane_factor(epsilon);
     const auto outside = [&](double ratio) {
       return (1 - two_sphere_drag_factor(epsilon, ratio, 0) / plane) * ratio;
     };

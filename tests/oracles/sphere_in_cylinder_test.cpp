@@ -50,14 +50,14 @@ TEST(SphereInCylinder, TendsToThePlaneAsTheCylinderGrows) {
   for (const double epsilon : {0.1, 1.0}) {
     const auto excess = [epsilon](double radius) {
       return sphere_in_cylinder_drag_factor(epsilon, radius, 2 * radius) -
-             plane_drag_factor(epsilon);
+             bispherical_plane_factor(epsilon);
     };
     EXPECT_GT(excess(80), 0);
     EXPECT_NEAR(excess(40) / excess(80), 32, 32 * 0.06) << "at gap/radius " << epsilon;
   }
   // Small gap, largest cylinder: nothing is left of it but the method's error.
-  EXPECT_NEAR(sphere_in_cylinder_drag_factor(1e-3, 80, 160), plane_drag_factor(1e-3),
-              1e-8 * plane_drag_factor(1e-3));
+  EXPECT_NEAR(sphere_in_cylinder_drag_factor(1e-3, 80, 160), bispherical_plane_factor(1e-3),
+              1e-8 * bispherical_plane_factor(1e-3));
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
-// Plays the motion of particles that the page holds (report/particles/particles_page.cpp).
+// Plays the motion of particles that the page contains. report/particles/particles_page.cpp writes
+// the data; the layout of the data must be changed there and here together.
 'use strict';
 (() => {
-  const kSeconds = 10;        // for the whole motion at speed 1
-  const kLargestSprite = 512; // device pixels
+  const kSeconds = 10;        // duration of the whole motion at speed 1
+  const kLargestSprite = 512; // [device pixels]
   const kThemes = {
     light: {paper: '#fbfbf9', solid: '#d8d8d4', edge: '#333', patch: 'rgba(120,120,105,.16)', grid: 'rgba(90,90,80,.35)', mark: '#d55e00'},
     dark: {paper: '#1f2326', solid: '#3b4044', edge: '#c8c8c4', patch: 'rgba(200,200,190,.10)', grid: 'rgba(200,200,190,.25)', mark: '#ffb000'},
   };
   const kDisc = {fill: '#a9c3da', edge: '#4f728f'};
-  const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];  // from where the light falls to the rim
+  const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];  // from the brightest point to the rim
 
   // ---- The motion
 
@@ -21,7 +22,7 @@
   const motion = JSON.parse(text('motion'));
   const dim = motion.dimension, flat = dim === 2;
   const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
-  // The names of the particles in the files; without this block, particle k of the simulation is named k.
+  // The ids of the particles in the files. Without this block, the id of particle k is k.
   const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
   const written = motion.bytes === 2 ? new Uint16Array(bytes('positions')) : new Float32Array(bytes('positions'));
   const planeNumbers = new Float32Array(bytes('planes'));
@@ -32,11 +33,11 @@
   const diagonal = Math.hypot(...low.map((l, d) => high[d] - l));
   const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
-  const positions = new Float32Array(count * dim);  // of now
-  let planes = [];                                  // of now: {point, normal}
+  const positions = new Float32Array(count * dim);  // at the present time
+  let planes = [];                                  // at the present time: {point, normal}
   const lines = {frame: -1, count: 0, pair: new Int32Array(pairs.length / 2), level: new Uint8Array(pairs.length / 2)};
 
-  /** The frame at or before a time, and how far it is to the next: 0 to 1. */
+  /** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
   function placeOf(time) {
     let a = 0, b = frames - 1;
     while (b - a > 1) {
@@ -47,7 +48,7 @@
     return {frame: a, share: length > 0 ? Math.min(1, Math.max(0, (time - times[a]) / length)) : 0};
   }
 
-  /** Positions and planes lie between those of two frames; contacts are those of the nearer one. */
+  /** Interpolates positions and planes between two frames; contacts are those of the nearer frame. */
   function setTime(time) {
     const {frame, share} = placeOf(time), n = count * dim;
     const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
@@ -64,7 +65,7 @@
     readContacts(Math.min(frames - 1, frame + Math.round(share)));
   }
 
-  /** Each: steps in the list of pairs, seven bits a byte, and the level of gamma. */
+  /** Decodes a frame's contacts: distance in the list of pairs (seven bits a byte), level of gamma. */
   function readContacts(frame) {
     if (lines.frame === frame) return;
     lines.frame = frame;
@@ -83,12 +84,12 @@
     }
   }
 
-  // ---- The view: device pixels, y down
+  // ---- The view, in device pixels with y downwards
 
   const canvas = document.getElementById('stage'), pen = canvas.getContext('2d');
   const view = {scale: 1, x: 0, y: 0, turn: Math.PI / 6, above: Math.PI / 9, moved: false};
-  let axes;  // right, up, towards the reader
-  let dots = 1;  // device pixels of a CSS pixel
+  let axes;  // unit vectors to the right, upwards and towards the reader
+  let dots = 1;  // device pixels in a CSS pixel
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 
@@ -97,14 +98,14 @@
     axes = flat ? [[1, 0, 0], [0, 1, 0], [0, 0, 1]] : [[c, s, 0], [-s * sa, c * sa, ca], [s * ca, -c * ca, sa]];
   }
 
-  /** Mild perspective: the reader is a few rooms away. 0: behind him. */
+  /** The magnification by perspective, seen from four diagonals away; 0 behind the reader. */
   function nearness(depth) {
     if (flat) return 1;
     const distance = 4 * diagonal;
     return depth < 0.8 * distance ? distance / (distance - depth) : 0;
   }
 
-  const onPage = {x: 0, y: 0, near: 0};  // filled by each call of project: none is kept
+  const onPage = {x: 0, y: 0, near: 0};  // result of project(); each call overwrites it
   function project(px, py, pz) {
     const x = px - middle[0], y = py - middle[1], z = pz - middle[2], [r, u, t] = axes;
     onPage.near = nearness(t[0] * x + t[1] * y + t[2] * z);
@@ -114,7 +115,7 @@
     return onPage;
   }
 
-  /** The room fills the canvas. */
+  /** Sets the view in which the box of the motion fills the canvas. */
   function showAll() {
     setAxes();
     Object.assign(view, {scale: 1, x: 0, y: 0, moved: false});
@@ -175,7 +176,8 @@
     p.stroke();
   }
 
-  // Thousands of like pictures are copied faster than drawn. One for each power of two: none is shrunk to less than half.
+  // Copying a picture is faster than drawing thousands of spheres. There is one picture for each
+  // power of two in size, so that none is reduced to less than half its size.
   const sprites = new Map();
   function spriteFor(size) {
     const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
@@ -194,7 +196,7 @@
     else pen.drawImage(spriteFor(2 * r), x - r, y - r, 2 * r, 2 * r);
   }
 
-  /** What of a polygon (or of a line: two corners) has normal.(x - point) >= -slack. */
+  /** The part of a polygon, or of a line with two ends, with normal.(x - point) >= -slack. */
   function clip(polygon, point, normal, slack = 0) {
     const kept = [];
     polygon.forEach((a, i) => {
@@ -226,7 +228,7 @@
     });
   }
 
-  /** What of the plane the canvas shows, as a polygon. */
+  /** In two dimensions: the part of space that the canvas shows, as a polygon. */
   function seen() {
     const at = (x, y) => [middle[0] + (x - canvas.width / 2 - view.x) / view.scale, middle[1] - (y - canvas.height / 2 - view.y) / view.scale, 0];
     return [at(0, 0), at(canvas.width, 0), at(canvas.width, canvas.height), at(0, canvas.height)];
@@ -254,7 +256,10 @@
     });
   }
 
-  /** In space: patches with a grid where we look at the free side, edges alone where we look through from behind. */
+  /**
+   * In three dimensions: a plane seen from its free side is a patch with a grid; of a plane seen from
+   * behind, only the edges are drawn.
+   */
   function drawPatches(fromFreeSide) {
     const step = 10 ** Math.round(Math.log10(diagonal / 8));
     planes.forEach(({point, normal}, i) => {
@@ -298,7 +303,10 @@
     if (!flat) sortByDepth();
   }
 
-  /** Into a few thousand layers, each in the order of the particles: what overlaps is farther apart than a layer, but for dust. */
+  /**
+   * Sorts the particles into 4096 layers of depth; within a layer they keep their order. Particles that
+   * overlap on the page are in different layers, unless they are very small.
+   */
   function sortByDepth() {
     const layers = 4096, start = new Uint32Array(layers + 1), half = diagonal / 2, centre = dot(axes[2], middle);
     const layerOf = k => Math.min(layers - 1, Math.max(0, Math.floor(layers * ((depths[k] - centre) / half + 1) / 2))) || 0;
@@ -312,11 +320,11 @@
     return r > 0 && pageX[k] > -r && pageX[k] < canvas.width + r && pageY[k] > -r && pageY[k] < canvas.height + r;
   };
 
-  // A contact's colour: 0 is touching without film, then the film's from light to dark.
+  // The colours of contacts: index 0 is for gamma = 0, the others for gamma < 0 from light to dark.
   const colours = [motion.touching, ...motion.colours];
   const colourOf = level => (level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1)));
 
-  /** The line of a contact, from centre to centre or foot. */
+  /** The line of a contact, from a centre to the other centre or to the foot on the plane. */
   function traceContact(i) {
     const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
     if (first < 0) {
@@ -341,7 +349,7 @@
     return isSeen(second) || (first >= 0 && isSeen(first));
   };
 
-  /** Of one colour at a time; the width is that of a particle of usual size. */
+  /** Draws the contacts, one colour after the other; the width is that for a particle of mean size. */
   function drawContacts() {
     for (let c = 0; c < colours.length; ++c) {
       let width = 0, drawn = 0;
@@ -361,7 +369,10 @@
 
   const rank = new Uint32Array(flat ? 0 : count), chain = new Int32Array(flat ? 0 : count), chained = new Int32Array(flat ? 0 : lines.pair.length);
 
-  /** From far to near; a contact with the nearer of its particles: over both, under what is in front. */
+  /**
+   * Draws the spheres from far to near. A contact is drawn with the nearer of its particles: over both
+   * particles, and under everything in front of them.
+   */
   function drawSpheres() {
     chain.fill(-1);
     if (withContacts) {
@@ -431,7 +442,7 @@
     requestAnimationFrame(() => { asked = false; readPointer(); draw(); });
   }
 
-  // ---- What the pointer reads off
+  // ---- The particle at the pointer
 
   const readout = document.getElementById('readout');
   const pointer = {x: 0, y: 0, inside: false};
@@ -441,7 +452,7 @@
     hovered = -1;
     if (pointer.inside && frames) {
       placeParticles();
-      const reach = 3 * dots;  // small ones can be hit, too
+      const reach = 3 * dots;  // so that very small particles can be hit
       for (let j = count - 1; j >= 0 && hovered < 0; --j) {
         const k = flat ? j : order[j], r = Math.max(reach, pageRadius[k]);
         if (pageRadius[k] > 0 && (pageX[k] - pointer.x) ** 2 + (pageY[k] - pointer.y) ** 2 <= r * r) hovered = k;
@@ -493,7 +504,7 @@
 
   function tick(now) {
     if (!player.playing) return;
-    // A page that was hidden goes on where it was.
+    // A page that was hidden continues at the time at which it was hidden.
     const seconds = Math.min(0.25, Math.max(0, (now - lastTick) / 1000));
     lastTick = now;
     player.seek(player.time + seconds * Number(speed.value) * (lastTime - firstTime) / kSeconds);
@@ -529,14 +540,14 @@
     '-': () => zoom(0.8),
   };
   document.addEventListener('keydown', event => {
-    // Buttons, boxes and lists have keys of their own.
+    // Buttons, boxes and lists use keys themselves.
     const own = event.target.closest('button, select, input:not([type=range])');
     if (own || event.ctrlKey || event.metaKey || event.altKey || !frames || !kKeys[event.key]) return;
     event.preventDefault();
     kKeys[event.key]();
   });
 
-  // ---- Pointer: one drags or turns, two zoom
+  // ---- Pointers: one pointer moves or turns the view, two pointers zoom
 
   const held = new Map();
   const onCanvas = event => {
@@ -545,7 +556,7 @@
   };
 
   canvas.addEventListener('pointerdown', event => {
-    // A pointer that a script made cannot be captured.
+    // Pointers of events that a script made cannot be captured.
     if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
     held.set(event.pointerId, onCanvas(event));
     Object.assign(pointer, onCanvas(event), {inside: true});
@@ -579,7 +590,7 @@
 
   const letGo = event => {
     held.delete(event.pointerId);
-    // A finger that is lifted leaves what it has read off.
+    // After a finger is lifted, the values that it read stay.
     if (event.type === 'pointerleave' && event.pointerType === 'mouse') pointer.inside = false;
     redraw();
   };
@@ -591,7 +602,7 @@
   }, {passive: false});
   canvas.addEventListener('dblclick', () => { showAll(); redraw(); });
 
-  // ---- Light and dark; paper is light
+  // ---- Light and dark colours; printed pages are light
 
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const setTheme = isDark => { theme = isDark ? kThemes.dark : kThemes.light; draw(); };

@@ -1,4 +1,7 @@
-#include "viscontact/pipeline/rerun.hpp"
+// Repeats a recorded command. The record comes from a file that anybody may have written, so
+// check_command decides which commands and options are run; a change must keep this check before
+// execv.
+#include "viscontact/app/commands/rerun.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -28,7 +31,9 @@ struct RerunOptions {
   bool changed_inputs = false, dry_run = false;
 };
 
-/// Only what writes files: not a rerun of itself, and nothing that another file may make us do.
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. `rerun`
+/// itself is refused, and so are the options by which a file could make this program run other
+/// programs (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr std::string_view kWriting[] = {"run",    "tabulate", "fit",   "export",
                                            "shift",  "simulate", "sweep", "compare",
@@ -43,12 +48,14 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
     throw_bad_input({file}, "its line 'provenance' holds a command that 'rerun' does not run");
 }
 
-/// Where an option of the command has its value: the word, and where in it the value begins.
+/// Where the value of an option stands in a command: index of the word, and position in this word
+/// at which the value begins.
 struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
 
-/// The value of "-o VALUE", "-oVALUE", "--output VALUE", "--output=VALUE"; `letter` is 0 for an option without a short name.
+/// The place of an option's value, which is written as "-o VALUE", "-oVALUE", "--output VALUE" or
+/// "--output=VALUE". `letter` is '\0' for an option without a short name.
 std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
                                    const std::string& name) {
   const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
@@ -67,7 +74,9 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
   return command[place.word].substr(place.begin);
 }
 
-/// The command that writes `output` in place of the file of this provenance. Throws Error(kWrongUsage) if it cannot be told to.
+/// The command of the provenance, changed so that it writes to `o.output`. Throws
+/// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder and
+/// is not.
 std::vector<std::string> with_output(const RerunOptions& o, const Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
@@ -75,12 +84,13 @@ std::vector<std::string> with_output(const RerunOptions& o, const Provenance& pr
     word = word.substr(0, place.begin) + fs::absolute(o.output).string();
     return command;
   };
-  // A picture beside the output: that stays where it is, and as it is if nothing has changed.
+  // The file is the picture that --plot names: only its path is changed. The command's main output
+  // stays at its place, and is not written again if nothing has changed.
   if (const auto plot = value_of(command, '\0', "--plot");
       plot && value_at(command, *plot) == provenance.output)
     return put(*plot);
   const auto output = value_of(command, 'o', "--output");
-  // A picture that --compare-bases named itself.
+  // The file is the picture of --compare-bases, whose name the command chose by itself.
   if (command[1] == "fit" && (!output || value_at(command, *output) != provenance.output)) {
     command.insert(command.end(), {"--plot", fs::absolute(o.output).string()});
     return command;
@@ -110,7 +120,7 @@ std::vector<std::string> with_output(const RerunOptions& o, const Provenance& pr
                     "a folder for all of them, but it is '{}'",
                     o.file, command[1], value_at(command, *output), o.output));
   put(*output);
-  // Its picture would be drawn over the first one.
+  // The picture of --plot would replace the earlier picture, so the option is left out.
   if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
     const auto begin = command.begin() + static_cast<std::ptrdiff_t>(plot->word);
     command.erase(plot->begin == 0 ? begin - 1 : begin, begin + 1);
@@ -118,11 +128,12 @@ std::vector<std::string> with_output(const RerunOptions& o, const Provenance& pr
   return command;
 }
 
-/// The command for files that are now in `to`: absolute paths into the folder in which it ran go there, too, so that nothing is read or written in the
-/// old place.
+/// Changes the provenance for files that have moved to the folder `to`. Absolute paths below the
+/// folder in which the command ran become paths below `to`, so that nothing is read or written in
+/// the old folder.
 void move_to(Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
-  // A file that does not tell its folder has no absolute paths either.
+  // A provenance without a folder has no absolute paths either (without_folders).
   const bool tells_folder = !provenance.folder.empty();
   const auto move = [&](std::string& word, std::size_t begin) {
     if (tells_folder && word.compare(begin, from.size(), from) == 0)
@@ -135,8 +146,9 @@ void move_to(Provenance& provenance, const fs::path& to) {
   provenance.folder = to.string();
 }
 
-/// The folder of the command that made `file`, for a file that does not tell it: the one in which
-/// the command would write to this very place, or else the one in which the file lies.
+/// The folder in which the command ran that made `file`, for a provenance without a folder. It is
+/// the folder from which the relative path `output` leads to `file`; if there is none, it is the
+/// folder of `file`.
 fs::path folder_around(const fs::path& file, const std::string& output) {
   const auto path = fs::weakly_canonical(file);
   auto folder = path;
@@ -179,7 +191,8 @@ void rerun(const RerunOptions& o) {
                                 list));
   check_command(o.file, provenance->command);
   auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
-  // The rows that were gathered may be gone: what is missing is computed here.
+  // Rows that were computed elsewhere may have been deleted since: without --gather, the command
+  // computes the rows that are missing.
   std::erase(command, "--gather");
   if (const auto ours = provenance->versions.find("Viscontact");
       ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
@@ -197,7 +210,7 @@ void rerun(const RerunOptions& o) {
     throw_bad_input({folder.string()}, fmt::format("the folder in which it was made cannot be "
                                                    "entered ({})",
                                                    std::strerror(errno)));
-  // This very program, whatever the command called it then.
+  // The program that runs is started again, whatever name the recorded command has for it.
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
