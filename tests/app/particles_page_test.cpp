@@ -294,9 +294,9 @@ TEST(ParticlesPicture, StaysSmall) {
 
 TEST(ParticlesPicture, OneThatHasFlownAwayDoesNotShrinkTheOthers) {
   auto playback = falling_row(2, 300, 3);
-  const auto room = room_of(playback, {0, 1, 2});
+  const auto room = view_box_of(playback, {0, 1, 2});
   playback.frames[2].positions[1] = 1e6F;
-  const auto with_flown = room_of(playback, {0, 1, 2});
+  const auto with_flown = view_box_of(playback, {0, 1, 2});
   EXPECT_DOUBLE_EQ(with_flown.high[1], room.high[1]);
   // The floor is next to the row, and seen.
   EXPECT_LT(room.low[1], 0);
