@@ -1,6 +1,7 @@
 // The output of --dry-run: how many rows a command would compute and about how long that takes [s].
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

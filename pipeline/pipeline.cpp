@@ -25,6 +25,7 @@
 #include "viscontact/report/flow/shift_plot.hpp"
 #include "viscontact/report/report.hpp"
 #include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/results/versions.hpp"

@@ -127,8 +127,8 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
 template <class Work>
 void for_each_table(const std::vector<CaseTable>& tables, const Work& work) {
   if (tables.size() == 1) return work(0);
-  // The largest kind is thrown. This start value is smaller than the two kinds that are gathered.
-  auto kind = ErrorKind::kBadInput;
+  // A FreeFEM that fails is the more serious of the two kinds, so it decides.
+  auto kind = ErrorKind::kNotConverged;
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     throw_if_interrupted();
@@ -138,7 +138,7 @@ void for_each_table(const std::vector<CaseTable>& tables, const Work& work) {
       if (error.kind() != ErrorKind::kExternalProgram && error.kind() != ErrorKind::kNotConverged)
         throw;
       clear_progress();
-      kind = std::max(kind, error.kind());
+      if (error.kind() == ErrorKind::kExternalProgram) kind = error.kind();
       failures.push_back(
           fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
     }

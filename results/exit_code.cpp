@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,7 +23,9 @@ constexpr std::array<std::pair<ErrorKind, int>, 5> kExitCodes = {{
 }  // namespace
 
 int exit_code_of(ErrorKind kind) {
-  return std::ranges::find(kExitCodes, kind, &std::pair<ErrorKind, int>::first)->second;
+  const auto* row = std::ranges::find(kExitCodes, kind, &std::pair<ErrorKind, int>::first);
+  assert(row != kExitCodes.end());  // the table has a row for every kind
+  return row->second;
 }
 
 ErrorKind kind_of_exit_code(int exit_code) {

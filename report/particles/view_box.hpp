@@ -2,6 +2,7 @@
 // are in the units of the case.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>

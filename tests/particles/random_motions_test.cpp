@@ -91,7 +91,8 @@ TEST(RandomMotions, ObeyTheContactLaw) {
       if (report.converged) {
         EXPECT_LE(tolerated, s.solver.tolerance) << report.time;
       }
-      // No gap is below its linearised one; the rest is rounding of coordinates.
+      // No gap is below its linearised one; the rest is rounding. Nine times the rounding unit of a
+      // double is for the few operations on coordinates by which a position and a gap are computed.
       double farthest = 0;
       for (const double x : p.positions) farthest = std::max(farthest, std::abs(x));
       const double rounding = 2e-15 * (10 + farthest / radius);
