@@ -30,7 +30,7 @@ void check_outputs(const std::vector<std::string>& paths) {
   namespace fs = std::filesystem;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty())
-      throw Error(ErrorKind::kWrongUsage, "an output has an empty name; give it one");
+      throw Error(ErrorKind::kWrongUsage, "the name of an output is empty; give it a name");
     for (std::size_t j = 0; j < i; ++j)
       if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
         throw Error(

@@ -18,12 +18,11 @@ inline constexpr const char* kFolder = "DIR";
 inline constexpr const char* kModel = "MODEL";
 inline constexpr const char* kModels = "MODEL,...";
 
-/// The names in a registry as "word|word".
-template <class Table>
-std::string words_of(const Table& table) {
-  std::string words;
-  for (const auto& row : table) words += (words.empty() ? "" : "|") + std::string(row.name);
-  return words;
+/// Adds an option, or an argument without a name, whose value has this type name.
+template <class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value,
+                       const std::string& type, const std::string& help) {
+  return command.add_option(name, value, help)->type_name(type);
 }
 
 /// A check that refuses any value but these words. It has no description, because --help shows the

@@ -7,29 +7,19 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "viscontact/app/command_options.hpp"
-#include "viscontact/app/commands/doctor.hpp"
-#include "viscontact/app/commands/fit_command.hpp"
-#include "viscontact/app/commands/init_command.hpp"
-#include "viscontact/app/commands/particles_command.hpp"
-#include "viscontact/app/commands/rerun.hpp"
-#include "viscontact/app/commands/sweep_command.hpp"
-#include "viscontact/app/commands/tabulate_command.hpp"
+#include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/help/completion.hpp"
 #include "viscontact/app/help/manual.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/app/optional_values.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/files/locked_folder.hpp"
-#include "viscontact/common/named.hpp"
-#include "viscontact/common/system/interrupt.hpp"
-#include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/pipeline/simulate_stage.hpp"
-#include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/report/report.hpp"
 #include "viscontact/results/exit_code.hpp"
-#include "viscontact/results/run_folder.hpp"
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -41,185 +31,23 @@ std::string version_text() {
   for (const auto& [program, version] : library_versions())
     if (program != "Viscontact") text += fmt::format("{} {}\n", program, version);
   return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION,
-                     freefem_version_or_not_found(), text);
-}
-
-void add_shift(CLI::App& app) {
-  struct Options {
-    std::string table, fit, shift, plot;
-  };
-  auto* command = app.add_subcommand(
-      "shift", "the depth at which a smooth wall drags like a rough one, from its table");
-  auto o = std::make_shared<Options>();
-  command->add_option("TABLE", o->table, "the rough wall's table (CSV)")
-      ->required()
-      ->type_name(kFile);
-  command->add_option("--fit", o->fit, "fit of the smooth wall's force (JSON)")
-      ->required()
-      ->type_name(kFile);
-  command->add_option("-o,--output", o->shift, "shifts to write, row by row (CSV)")
-      ->required()
-      ->type_name(kFile);
-  command->add_option("--plot", o->plot, "picture to write (SVG)")->type_name(kFile);
-  command->callback([o] {
-    auto outputs = std::vector{o->shift};
-    if (!o->plot.empty()) outputs.push_back(o->plot);
-    check_outputs(outputs);
-    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
-    if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
-    shift_stage(o->table, o->fit, o->shift, o->plot);
-  });
-}
-
-void add_simulate(CLI::App& app) {
-  struct Options {
-    std::string case_file, fit, folder;
-    std::vector<std::string> models;
-    std::string lubrication_limit;
-    bool stokes_limit = false;
-  };
-  auto* command = app.add_subcommand("simulate", "one trajectory for each model of motion");
-  auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required()->type_name(kFile);
-  command
-      ->add_option("--fit", o->fit,
-                   "fit of the lubrication force (JSON); default: the case's [fit] file or exact "
-                   "drag, else DIR/fit.json")
-      ->type_name(kFile);
-  command
-      ->add_option("-o,--output", o->folder,
-                   "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
-      ->required()
-      ->type_name(kFolder);
-  command
-      ->add_option("--models", o->models,
-                   "comma-separated; default: those of the case, else " +
-                       names_of(default_models()) +
-                       "; on request: " + names_of(models_on_request()))
-      ->type_name(kModels)
-      ->delimiter(',');
-  auto* limit = command
-                    ->add_option("--lubrication-limit", o->lubrication_limit,
-                                 "below the fit's smallest gap let the drag grow as k/q instead of "
-                                 "stopping; k: fitted (default), or theory's; without this option "
-                                 "as the case's [fit] below says")
-                    ->check(one_of({"fitted", "theory"}))
-                    ->expected(0, 1)
-                    ->type_name("fitted|theory");
-  command->add_flag("--stokes-limit", o->stokes_limit,
-                    "above the fit's largest gap let the drag fall to Stokes' instead of stopping; "
-                    "without this option as the case's [fit] above says");
-  command->callback([o, limit] {
-    check_outputs({o->folder});
-    check_models("--models", o->models);
-    const Case c = read_case(o->case_file);
-    // Options that are not given are as in the case.
-    const FitRequest request = c.fit.value_or(FitRequest{});
-    OutsideFit outside{request.below, request.above};
-    if (limit->count() > 0)
-      outside.below = o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
-                                                       : BelowInterval::kLubricationLimit;
-    if (o->stokes_limit) outside.above = AboveInterval::kStokesLimit;
-    const LockedFolder ours(o->folder, kFolderIsHeld);
-    simulate_stage(c, {o->fit, o->folder, o->models, outside});
-  });
-}
-
-void add_compare(CLI::App& app) {
-  struct Options {
-    std::string folder, reference, output;
-    std::vector<std::string> others;
-    bool json = false;
-  };
-  auto* command = app.add_subcommand(
-      "compare", "distances between trajectories, smallest gaps, times of contact");
-  auto o = std::make_shared<Options>();
-  command->add_option("DIR", o->folder, "folder of a run, or with trajectory files in it")
-      ->required()
-      ->type_name(kFolder);
-  command
-      ->add_option("TRAJECTORY", o->others,
-                   "further trajectory files (CSV with columns time, gap, velocity)")
-      ->type_name(kFile);
-  command->add_option("--reference", o->reference, "model that the others are compared with")
-      ->type_name(kModel)
-      ->default_str("inertial");
-  command
-      ->add_option("-o,--output", o->output,
-                   "comparison to write (JSON); default: DIR/comparison.json")
-      ->type_name(kFile);
-  add_json(*command, o->json);
-  command->callback([o] {
-    const std::filesystem::path output =
-        o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
-    refuse_other_kind(output, "\"reference_model\"", "comparison");
-    std::optional<LockedFolder> ours;
-    if (o->output.empty() && std::filesystem::is_directory(o->folder))
-      ours.emplace(o->folder, kFolderIsHeld);
-    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output, {},
-                  o->json);
-  });
-}
-
-void add_report(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("report", "report.html: one self-contained page with the plots");
-  auto folder = std::make_shared<std::string>();
-  command->add_option("DIR", *folder, "folder of a run")->required()->type_name(kFolder);
-  command->callback([folder] {
-    std::optional<LockedFolder> ours;
-    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, kFolderIsHeld);
-    write_report(*folder);
-  });
-}
-
-void add_run(CLI::App& app) {
-  struct Options {
-    std::string case_file, folder;
-    int jobs = default_jobs();
-    bool json = false;
-  };
-  auto* command =
-      app.add_subcommand("run", "the main job: tabulate, fit, simulate, compare, report");
-  auto o = std::make_shared<Options>();
-  command->add_option("CASE", o->case_file, "case file (TOML)")->required()->type_name(kFile);
-  command
-      ->add_option("-o,--output", o->folder,
-                   "folder for the results; what is up to date there is not made again")
-      ->required()
-      ->type_name(kFolder);
-  add_jobs(*command, o->jobs, "FreeFEM processes at once");
-  add_json(*command, o->json);
-  command->callback([o] {
-    check_outputs({o->folder});
-    const Case c = read_case(o->case_file);
-    const LockedFolder ours(o->folder, kFolderIsHeld);
-    run_stages(c, o->folder, o->jobs, o->json);
-  });
+                     freefem_version_or_not_found(interrupt_token()), text);
 }
 
 /// Adds the commands `completion` and `man`, whose texts are made from the command line itself.
 void add_self_description(CLI::App& app) {
   auto* completion = app.add_subcommand(
-      "completion", "completion for a shell: source <(viscontact completion bash)");
+      "completion", "print the completion for a shell: source <(viscontact completion bash)");
   auto shell = std::make_shared<std::string>();
-  completion->add_option("SHELL", *shell, "for which shell")
+  add_value(*completion, "SHELL", *shell, "bash|zsh", "the shell")
       ->required()
-      ->type_name("bash|zsh")
       ->check(one_of({"bash", "zsh"}));
   completion->callback([&app, shell] {
     fmt::print("{}", *shell == "zsh" ? zsh_completion(app) : bash_completion(app));
   });
-  app.add_subcommand("man", "the manual page: viscontact man | man -l -")->callback([&app] {
+  app.add_subcommand("man", "print the manual page: viscontact man | man -l -")->callback([&app] {
     fmt::print("{}", manual(app, VISCONTACT_VERSION));
   });
-}
-
-void add_doctor(CLI::App& app, bool& healthy) {
-  auto* command = app.add_subcommand("doctor", "what is installed, and how to mend what is not");
-  auto json = std::make_shared<bool>(false);
-  add_json(*command, *json);
-  command->callback([&healthy, json] { healthy = examine(*json); });
 }
 
 int run(int argc, char** argv) {
@@ -245,15 +73,12 @@ int run(int argc, char** argv) {
   add_doctor(app, healthy);
   add_self_description(app);
   if (argc > 1 && argv[1][0] != '-') {
-    std::string names;
-    bool known = false;
-    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-      names += (names.empty() ? "" : ", ") + command->get_name();
-      known = known || command->get_name() == argv[1];
-    }
-    if (!known)
-      throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names));
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    if (std::ranges::find(names, argv[1]) == names.end())
+      throw Error(ErrorKind::kWrongUsage, fmt::format("there is no subcommand '{}'; there are: {}",
+                                                      argv[1], fmt::join(names, ", ")));
   }
   try {
     auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/reduced_model/integration/contact_step.hpp"
+#include "viscontact/reduced_model/models/contact/contact_step.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact {
@@ -20,8 +20,8 @@ const std::filesystem::path kData = std::filesystem::path(VISCONTACT_SOURCE_FOLD
 /// The motion of the lecture's case (data/cases/lecture.toml) with rows and time steps `step` [T].
 Motion lecture_motion(double step) {
   Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
-  motion.reference_time_step = step;
-  motion.contact_time_step = step;
+  motion.set(kReferenceTimeStep, step);
+  motion.set(kContactTimeStep, step);
   return motion;
 }
 
@@ -37,7 +37,7 @@ void single_sphere(benchmark::State& state) {
   const auto motion = lecture_motion(4 / steps);
   const LubricationForce force(read_fit(kData / "fits/lecture.json"));
   for (auto _ : state)
-    benchmark::DoNotOptimize(simulate_viscous_contact(motion, force).rows.data());
+    benchmark::DoNotOptimize(run_contact_model(viscous_contact, motion, force).rows.data());
   count_steps(state, steps);
 }
 BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
@@ -46,7 +46,7 @@ BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 void single_sphere_without_rows(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
   const auto motion = lecture_motion(4.0 / steps);
-  const double h = motion.contact_time_step;
+  const double h = motion.parameter(kContactTimeStep);
   const ContactSetting setting(motion.mass, -std::numeric_limits<double>::infinity(), h);
   for (auto _ : state) {
     ContactState sphere{motion.initial_gap, motion.initial_velocity, 0};

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/oracles/inertial_motion.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
@@ -27,8 +27,8 @@ const std::string kSource = VISCONTACT_SOURCE_FOLDER;
 /// CVODE.
 Motion lecture_motion(double tolerance) {
   Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
-  motion.reference_time_step = 1e-3;
-  motion.inertial_relative_tolerance = tolerance;
+  motion.set(kReferenceTimeStep, 1e-3);
+  motion.set(kRelativeTolerance, tolerance);
   return motion;
 }
 

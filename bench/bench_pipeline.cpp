@@ -79,7 +79,7 @@ void simulate_model(benchmark::State& state, const Model& model) {
   const auto force = lecture_force();
   long steps = 0;
   for (auto _ : state) {
-    const auto trajectory = simulate(model, required_motion(c), force);
+    const auto trajectory = simulate(find_model(model.name), required_motion(c), force);
     steps = trajectory.steps;
     benchmark::DoNotOptimize(trajectory.rows.data());
   }
@@ -94,7 +94,7 @@ void compare_all(benchmark::State& state) {
   const auto force = lecture_force();
   std::vector<Trajectory> trajectories;
   for (const auto& model : all_models())
-    trajectories.push_back(simulate(model, required_motion(c), force));
+    trajectories.push_back(simulate(find_model(model.name), required_motion(c), force));
   for (auto _ : state) benchmark::DoNotOptimize(compare_trajectories(trajectories, "inertial"));
 }
 BENCHMARK(compare_all)->Unit(benchmark::kMicrosecond);

@@ -1,4 +1,4 @@
-// Reads the case file of many particles and checks the state at the start (particles_case.hpp).
+// Reads the case file of many particles (particles_case.hpp).
 #include "viscontact/case_file/particles_case.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/case_file/particles_start.hpp"
 #include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
-#include "viscontact/particles/neighbours/neighbours.hpp"
 
 namespace viscontact {
 namespace {
@@ -24,7 +24,6 @@ namespace {
 using particles::Particles;
 using particles::PiecewiseConstant;
 using particles::Vector;
-using particles::operator-;
 using particles::operator*;
 
 // Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
@@ -137,74 +136,6 @@ void add_id(Particles& p, const TomlSection& section) {
   p.ids.push_back(largest + 1);
 }
 
-/// Describes particles in messages.
-class ParticleNames {
- public:
-  ParticleNames(const ParticlesCase& c, std::vector<int> lines)
-      : case_(c), lines_(std::move(lines)) {}
-  std::string operator()(std::size_t k) const {
-    const auto x = case_.particles.position(k);
-    const auto place = case_.particles.dimension == 2 ? fmt::format("{}, {}", x[0], x[1])
-                                                      : fmt::format("{}, {}, {}", x[0], x[1], x[2]);
-    return fmt::format("particle {} ({}centre {}, radius {})", case_.particles.id(k),
-                       k < lines_.size() ? fmt::format("line {}, ", lines_[k]) : "", place,
-                       case_.particles.radii[k]);
-  }
-  FilePosition at(std::size_t k) const {
-    return k < lines_.size() ? FilePosition{case_.particles_file.string(), lines_[k]}
-                             : FilePosition{case_.path.string()};
-  }
-
- private:
-  const ParticlesCase& case_;
-  std::vector<int> lines_;
-};
-
-void check_start(const ParticlesCase& c, const ParticleNames& names) {
-  const auto& p = c.particles;
-  const double tolerance = c.setting.solver.tolerance;
-  const double allowed = tolerance * particles::mean_radius(p);
-  const auto smallest =
-      static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
-  if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
-    throw_bad_input(names.at(smallest),
-                    fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
-                                "the mean radius is {:.3g}; it must be at most a hundredth of each "
-                                "radius",
-                                names(smallest), tolerance, allowed));
-  const double farthest =
-      particles::largest_resolved_distance(tolerance, particles::mean_radius(p));
-  for (std::size_t k = 0; k < p.count(); ++k)
-    for (const double x : p.position(k))
-      if (std::abs(x) > farthest)
-        throw_bad_input(names.at(k),
-                        fmt::format("{} is too far from the origin for its gaps to be known to "
-                                    "solver.tolerance; each coordinate must be at most {:.3g} in "
-                                    "magnitude",
-                                    names(k), farthest));
-  ThreadPool pool(1);
-  for (const auto& [first, second] :
-       particles::close_pairs(p.dimension, p.positions, p.radii, pool)) {
-    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-    const double overlap = p.radii[i] + p.radii[j] - particles::norm(p.position(j) - p.position(i));
-    if (overlap > allowed)
-      throw_bad_input(
-          names.at(j),
-          fmt::format("{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
-                      names(i), names(j), overlap, allowed));
-  }
-  for (std::size_t w = 0; w < c.setting.planes.size(); ++w) {
-    const auto place = c.setting.planes[w].at(0);
-    for (std::size_t k = 0; k < p.count(); ++k)
-      if (const double gap = particles::gap(place, p.position(k), p.radii[k]); gap < -allowed)
-        throw_bad_input(
-            names.at(k),
-            fmt::format("{} is {:.3g} into plane {} at the start, or behind it; a plane's "
-                        "normal must point into the free side",
-                        names(k), -gap, w + 1));
-  }
-}
-
 /// The number of each particle, by its id.
 std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
   std::unordered_map<std::int32_t, std::int32_t> places;
@@ -239,8 +170,8 @@ void read_forces_by_id(const TomlSection& root, int dimension, double end_time, 
   }
 }
 
-/// Reads the key `method`. Earlier versions offered three methods; all solve the same problem, so that
-/// a case that names one of the two that are gone is still read.
+/// Reads the key `method`. Earlier versions offered three methods that solve the same problem, so a
+/// case that names one of the other two is still read.
 void read_method(const TomlSection& solver) {
   constexpr std::array kMethods = {"conjugate_gradients", "accelerated_gradient", "gauss_seidel"};
   const auto text = solver.text("method");
@@ -249,22 +180,7 @@ void read_method(const TomlSection& solver) {
                 fmt::format("is '{}'; it must be \"conjugate_gradients\", the only method", text));
 }
 
-}  // namespace
-
-ParticlesCase read_particles_case(const std::filesystem::path& path) {
-  ParticlesCase c;
-  c.path = path;
-  c.text = read_file(path);
-  const auto root = TomlSection::parse(c.text, path.string());
-  c.title = root.text("title");
-
-  const auto space = root.section("space");
-  const int dimension = space.count("dimension", 2, 3);
-  c.particles.dimension = dimension;
-  if (space.has("gravity")) c.setting.gravity = read_vector(space, "gravity", dimension);
-  space.finish();
-
-  const auto contact = root.section("viscous_contact");
+void read_contact(const TomlSection& contact, ParticlesCase& c) {
   c.end_time = contact.number("end_time", kModeratelyPositive);
   c.setting.time_step = contact.number("time_step", kModeratelyPositive);
   if (c.setting.time_step > c.end_time)
@@ -277,32 +193,26 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
   read_law(contact, c.setting.law);
   contact.finish();
+}
 
-  if (root.has("solver")) {
-    const auto solver = root.section("solver");
-    auto& settings = c.setting.solver;
-    if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
-    if (solver.has("impulse_tolerance"))
-      settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
-    if (solver.has("max_iterations"))
-      settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
-    if (solver.has("method")) read_method(solver);
-    solver.finish();
-  }
-  c.frame_interval = c.end_time / 100;
-  if (root.has("output")) {
-    const auto output = root.section("output");
-    if (output.has("every")) c.frame_interval = output.number("every", kModeratelyPositive);
-    output.finish();
-  }
-  if (root.has("plane"))
-    for (const auto& section : root.sections("plane"))
-      c.setting.planes.push_back(read_plane(section, dimension, c.end_time));
+void read_solver(const TomlSection& solver, particles::SolverSettings& settings) {
+  if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
+  if (solver.has("impulse_tolerance"))
+    settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
+  if (solver.has("max_iterations"))
+    settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
+  if (solver.has("method")) read_method(solver);
+  solver.finish();
+}
 
+/// Reads the particles of the CSV file and of the tables [[particle]]. Returns the lines of the
+/// former in their file.
+std::vector<int> read_particles(const TomlSection& root, ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
   std::vector<int> lines;
   if (root.has("particles")) {
     const auto section = root.section("particles");
-    c.particles_file = path.parent_path() / section.text("file");
+    c.particles_file = c.path.parent_path() / section.text("file");
     section.finish();
     auto file = particles::read_particles(c.particles_file, dimension);
     c.particles = std::move(file.particles);
@@ -324,11 +234,42 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");
   if (c.particles.count() == 0)
-    throw_bad_input({path.string()},
+    throw_bad_input({c.path.string()},
                     "has no particle; name a file in [particles] or add a [[particle]]");
+  return lines;
+}
+
+}  // namespace
+
+ParticlesCase read_particles_case(const std::filesystem::path& path) {
+  ParticlesCase c;
+  c.path = path;
+  c.text = read_file(path);
+  const auto root = TomlSection::parse(c.text, path.string());
+  c.title = root.text("title");
+
+  const auto space = root.section("space");
+  const int dimension = space.count("dimension", 2, 3);
+  c.particles.dimension = dimension;
+  if (space.has("gravity")) c.setting.gravity = read_vector(space, "gravity", dimension);
+  space.finish();
+
+  read_contact(root.section("viscous_contact"), c);
+  if (root.has("solver")) read_solver(root.section("solver"), c.setting.solver);
+  c.frame_interval = c.end_time / 100;
+  if (root.has("output")) {
+    const auto output = root.section("output");
+    if (output.has("every")) c.frame_interval = output.number("every", kModeratelyPositive);
+    output.finish();
+  }
+  if (root.has("plane"))
+    for (const auto& section : root.sections("plane"))
+      c.setting.planes.push_back(read_plane(section, dimension, c.end_time));
+
+  const auto lines = read_particles(root, c);
   if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
   root.finish();
-  check_start(c, ParticleNames(c, std::move(lines)));
+  check_start(c, lines);
   return c;
 }
 

@@ -33,6 +33,12 @@ std::string show(const toml::node& node) {
   return text.str();
 }
 
+/// The number of a node; nothing if it is not a finite number that is allowed.
+std::optional<double> allowed_number(const toml::node& node, const Allowed& allowed) {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;
+}
+
 }  // namespace
 
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
@@ -123,9 +129,8 @@ bool TomlSection::is_array_of_tables(std::string_view key) const {
 double TomlSection::number(std::string_view key, const Allowed& allowed) const {
   if (!has(key)) fail(key, fmt::format("is missing; it must be a number {}", allowed.words));
   const auto* node = node_->table->get(key);
-  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value) || !allowed.test(*value))
-    fail(key, fmt::format("is {}; it must be a number {}", show(*node), allowed.words));
+  const auto value = allowed_number(*node, allowed);
+  if (!value) fail(key, fmt::format("is {}; it must be a number {}", show(*node), allowed.words));
   return *value;
 }
 
@@ -159,8 +164,8 @@ std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& al
                           show(*node_->table->get(key)), allowed.words));
   std::vector<double> values;
   for (const auto& element : *array) {
-    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value) || !allowed.test(*value))
+    const auto value = allowed_number(element, allowed);
+    if (!value)
       fail(key, fmt::format("contains {}; it must be a list of numbers {}", show(element),
                             allowed.words));
     values.push_back(*value);

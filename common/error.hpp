@@ -32,6 +32,17 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
+/// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: " before
+/// its message.
+template <class Call>
+auto with_place(const std::string& place, const Call& call) {
+  try {
+    return call();
+  } catch (const Error& error) {
+    throw Error(error.kind(), place + ": " + error.what());
+  }
+}
+
 /// A position in an input file. `line` is 0 if the file as a whole is meant.
 struct FilePosition {
   std::string file;

@@ -10,11 +10,11 @@
 
 namespace viscontact {
 
-/// All names in a table, separated by commas.
+/// All names in a table, separated by commas or by another text.
 template <class Table>
-std::string names_of(const Table& table) {
+std::string names_of(const Table& table, const char* separator = ", ") {
   std::string names;
-  for (const auto& row : table) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  for (const auto& row : table) names += (names.empty() ? "" : separator) + std::string(row.name);
   return names;
 }
 

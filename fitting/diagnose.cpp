@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 
@@ -20,13 +20,12 @@ double gap_of_row(const ForceTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
-/// The 99 % quantile of the chi-squared distribution (Wilson & Hilferty 1931). Its error is within
-/// 1 % for two or more degrees of freedom.
-double chi_squared_quantile(double freedom) {
-  // The 99 % quantile of the normal distribution.
-  constexpr double kGaussianQuantile = 2.3263;
-  const double part = 2 / (9 * freedom);
-  return freedom * std::pow(1 - part + kGaussianQuantile * std::sqrt(part), 3);
+/// The 99 % quantile of the chi-squared distribution. It is computed in double precision, because
+/// Boost's default, long double, takes longer to compile.
+double chi_squared_quantile(double degrees_of_freedom) {
+  using DoublePolicy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  const boost::math::chi_squared_distribution<double, DoublePolicy> chi_squared(degrees_of_freedom);
+  return boost::math::quantile(chi_squared, 0.99);
 }
 
 /// True beyond 5 times the scale: one Gaussian residual in two million is as large.
@@ -170,7 +169,8 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
     warnings.emplace_back(
         "as many coefficients as rows: the residuals and the standard errors say nothing");
   for (const auto& term : fit.terms) {
-    if (!term.held && term.standard_error >= std::abs(term.coefficient) && term.standard_error > 0)
+    if (!term.is_fixed && term.standard_error >= std::abs(term.coefficient) &&
+        term.standard_error > 0)
       warnings.push_back(
           fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
                       term.name, term.coefficient, term.standard_error));

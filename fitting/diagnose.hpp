@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
 namespace viscontact {

@@ -37,26 +37,25 @@ void check_linearity(const ForceTable& table) {
 
 /// The value of the fixed coefficient of 1/q [M L^2/T^2]. Throws Error(kBadInput) if the basis has
 /// no such term, or if neither settings nor table give a value.
-double held_leading(const ForceTable& table, const FitSettings& settings) {
+double fixed_leading(const ForceTable& table, const FitSettings& settings) {
   if (find_named(settings.basis.terms, kLeadingTerm) == nullptr)
-    throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be held");
+    throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be fixed");
   if (settings.leading_value) return *settings.leading_value;
   if (!table.leading_coefficient)
-    throw Error(
-        ErrorKind::kBadInput,
-        "the table does not say what theory's coefficient of 1/q is; give the value to hold, "
-        "or write the k of R = k/q into the table's header (# leading_coefficient: k)");
+    throw Error(ErrorKind::kBadInput,
+                "the table does not say what theory's coefficient of 1/q is; give a value for it, "
+                "or write the k of R = k/q into the table's header (# leading_coefficient: k)");
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
 void check_gaps(const ForceTable& table, const FitSettings& settings) {
-  if (settings.hold_leading && settings.basis.terms.size() == 1)
+  if (settings.fix_leading && settings.basis.terms.size() == 1)
     throw Error(ErrorKind::kBadInput,
-                "the only coefficient is held, so that there is nothing to fit; give more terms");
+                "the only coefficient is fixed, so that there is nothing to fit; give more terms");
   std::set<double> gaps;
   for (const auto& row : table.rows) gaps.insert(row.gap);
   const std::size_t needed =
-      std::max<std::size_t>(2, settings.basis.terms.size() - (settings.hold_leading ? 1 : 0));
+      std::max<std::size_t>(2, settings.basis.terms.size() - (settings.fix_leading ? 1 : 0));
   if (gaps.size() < needed)
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the table has {} different gap(s); the basis {} needs at least {}",
@@ -75,14 +74,14 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
-bool is_held(const Term& term, const FitSettings& settings) {
-  return settings.hold_leading && term.name == kLeadingTerm;
+bool is_fixed(const Term& term, const FitSettings& settings) {
+  return settings.fix_leading && term.name == kLeadingTerm;
 }
 
-Equations assemble(const ForceTable& table, const FitSettings& settings, double held) {
+Equations assemble(const ForceTable& table, const FitSettings& settings, double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
   const auto columns =
-      static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.hold_leading ? 1 : 0);
+      static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.fix_leading ? 1 : 0);
   const double u0 = table.rows.front().reference_velocity;
   Equations equations = {Eigen::VectorXd(rows), Eigen::VectorXd(rows),
                          Eigen::MatrixXd(rows, columns), Eigen::VectorXd::Ones(rows)};
@@ -93,8 +92,8 @@ Equations assemble(const ForceTable& table, const FitSettings& settings, double 
     Eigen::Index column = 0;
     for (const auto& term : settings.basis.terms) {
       const double value = term.value.at(row.gap, log_gap);
-      if (is_held(term, settings))
-        equations.left(i) -= held * value;
+      if (is_fixed(term, settings))
+        equations.left(i) -= fixed * value;
       else
         equations.terms(i, column++) = value;
     }
@@ -106,14 +105,14 @@ Equations assemble(const ForceTable& table, const FitSettings& settings, double 
 
 /// Sets coefficients and covariance. A fixed coefficient has a row and a column of zeros.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
-                      double held, Fit& fit) {
+                      double fixed, Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed
   Eigen::Index free = 0;
   for (const auto& term : settings.basis.terms) {
     const std::string name(term.name);
-    if (is_held(term, settings)) {
+    if (is_fixed(term, settings)) {
       columns.push_back(-1);
-      fit.terms.push_back({name, held, 0, true});
+      fit.terms.push_back({name, fixed, 0, true});
     } else {
       fit.terms.push_back(
           {name, solution.coefficients(free), std::sqrt(solution.covariance(free, free)), false});
@@ -145,8 +144,8 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   check_linearity(table);
   check_gaps(table, settings);
-  const double held = settings.hold_leading ? held_leading(table, settings) : 0;
-  const auto equations = assemble(table, settings, held);
+  const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
+  const auto equations = assemble(table, settings, fixed);
   const auto solution =
       solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
                                  equations.weight.cwiseProduct(equations.left), settings.loss);
@@ -162,7 +161,7 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   fit.loss = settings.loss;
   fit.geometry = table.geometry;
   fit.leading_coefficient = table.leading_coefficient;
-  set_coefficients(solution.least_squares, settings, held, fit);
+  set_coefficients(solution.least_squares, settings, fixed, fit);
   fit.condition_number = solution.least_squares.condition_number;
   const auto system = residuals_of(equations, solution);
   fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
@@ -18,7 +18,7 @@ struct FitSettings {
   Loss loss = Loss::kSquared;
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
   /// (ForceTable::leading_coefficient).
-  bool hold_leading = false;
+  bool fix_leading = false;
   /// Fixed coefficient of 1/q in the force at the table's first velocity, as in the fit file
   /// [M L^2/T^2].
   std::optional<double> leading_value{};

@@ -3,7 +3,6 @@
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
-#include <fmt/format.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -17,6 +16,8 @@
 
 namespace viscontact {
 namespace {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The residuals A x - b as one block with the Jacobian A.
 class LinearResiduals : public ceres::CostFunction {
@@ -32,8 +33,7 @@ class LinearResiduals : public ceres::CostFunction {
     const Eigen::Map<const Eigen::VectorXd> x(parameters[0], matrix_.cols());
     Eigen::Map<Eigen::VectorXd>(residuals, matrix_.rows()) = matrix_ * x - right_hand_side_;
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-      Eigen::Map<RowMajor>(jacobians[0], matrix_.rows(), matrix_.cols()) = matrix_;
+      Eigen::Map<RowMajorMatrix>(jacobians[0], matrix_.rows(), matrix_.cols()) = matrix_;
     }
     return true;
   }
@@ -78,6 +78,38 @@ void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_sid
   if (refined.allFinite()) solution = refined;
 }
 
+/// Condition number of the matrix with its columns scaled to length 1. Throws Error(kNotConverged) if
+/// the columns are linearly dependent to working precision.
+double condition_number_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd length =
+      matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+  const Eigen::VectorXd singular =
+      Eigen::JacobiSVD<Eigen::MatrixXd>(matrix * length.cwiseInverse().asDiagonal())
+          .singularValues();
+  const double smallest = singular(singular.size() - 1);
+  if (!(smallest >
+        singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
+    throw Error(ErrorKind::kNotConverged,
+                "the fit's terms cannot be told apart on this table; give more or wider spread "
+                "gaps, or fewer terms");
+  return singular(0) / smallest;
+}
+
+/// The covariance of `x`, the parameters of `problem`, for residuals of variance 1.
+RowMajorMatrix unit_covariance(ceres::Problem& problem, const Eigen::VectorXd& x) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  // condition_number_of() has already decided on the rank.
+  options.min_reciprocal_condition_number = 1e-32;
+  ceres::Covariance covariance(options);
+  RowMajorMatrix unit(x.size(), x.size());
+  const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
+  if (!covariance.Compute(blocks, &problem) ||
+      !covariance.GetCovarianceBlock(x.data(), x.data(), unit.data()))
+    throw Error(ErrorKind::kNotConverged, "the covariance of the fit cannot be computed");
+  return unit;
+}
+
 }  // namespace
 
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
@@ -96,19 +128,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
 
   LeastSquaresSolution solution;
-  const Eigen::VectorXd length =
-      scaled.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
-  const Eigen::VectorXd singular =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(scaled * length.cwiseInverse().asDiagonal())
-          .singularValues();
-  const double smallest = singular(singular.size() - 1);
-  if (!(smallest >
-        singular(0) * static_cast<double>(matrix.rows()) * std::numeric_limits<double>::epsilon()))
-    throw Error(ErrorKind::kNotConverged,
-                "the fit's terms cannot be told apart on this table; give more or wider spread "
-                "gaps, or fewer terms");
-  solution.condition_number = singular(0) / smallest;
-
+  solution.condition_number = condition_number_of(scaled);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(matrix.cols());
   ceres::Problem problem;
   problem.AddResidualBlock(new LinearResiduals(scaled, right_hand_side), nullptr, x.data());
@@ -134,24 +154,13 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   refine(scaled, right_hand_side, x);
   solution.coefficients = x.cwiseQuotient(scale);
 
-  const Eigen::Index freedom = matrix.rows() - matrix.cols();
+  const Eigen::Index degrees_of_freedom = matrix.rows() - matrix.cols();
   solution.covariance = Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols());
-  if (freedom > 0) {
-    ceres::Covariance::Options covariance_options;
-    covariance_options.algorithm_type = ceres::DENSE_SVD;
-    // The singular values above have already decided on the rank.
-    covariance_options.min_reciprocal_condition_number = 1e-32;
-    ceres::Covariance covariance(covariance_options);
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unit(matrix.cols(),
-                                                                                matrix.cols());
-    const std::vector<std::pair<const double*, const double*>> blocks = {{x.data(), x.data()}};
-    if (!covariance.Compute(blocks, &problem) ||
-        !covariance.GetCovarianceBlock(x.data(), x.data(), unit.data()))
-      throw Error(ErrorKind::kNotConverged, "the covariance of the fit cannot be computed");
+  if (degrees_of_freedom > 0) {
     const double variance =
-        (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(freedom);
-    solution.covariance =
-        variance * scale.cwiseInverse().asDiagonal() * unit * scale.cwiseInverse().asDiagonal();
+        (scaled * x - right_hand_side).squaredNorm() / static_cast<double>(degrees_of_freedom);
+    solution.covariance = variance * scale.cwiseInverse().asDiagonal() *
+                          unit_covariance(problem, x) * scale.cwiseInverse().asDiagonal();
   }
   return solution;
 }

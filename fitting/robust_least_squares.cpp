@@ -2,7 +2,6 @@
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,6 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/named.hpp"
 
 namespace viscontact {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "viscontact/fitting/least_squares.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 
 namespace viscontact {
 

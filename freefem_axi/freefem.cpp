@@ -30,15 +30,16 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
   if (error != std::errc() || end != word.data() + word.size() || seconds < 1 || seconds > kLongest)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} is '{}'; must be a whole number of seconds from 1 to {}",
+                fmt::format("{} is '{}'; it must be a whole number of seconds from 1 to {}",
                             kTimeLimit, word, kLongest));
   return std::chrono::seconds(seconds);
 }
 
 }  // namespace
 
-FreeFem default_freefem() {
+FreeFem default_freefem(const StopToken& stop) {
   FreeFem freefem;
+  freefem.stop = stop;
   const char* named = std::getenv("VISCONTACT_FREEFEM");
   freefem.executable = named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
   if (const auto limit = time_limit_of_user()) freefem.row_limit = freefem.version_limit = *limit;
@@ -74,7 +75,7 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                   {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),
                    fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
                    "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"},
-                  {}, scripts.string(), time_limit.value_or(freefem.row_limit));
+                  {}, scripts.string(), time_limit.value_or(freefem.row_limit), freefem.stop);
   if (!result.started || result.exit_status == 127)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} cannot be run ({}); install FreeFEM (apt-get install freefem++) or "

@@ -9,11 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/system/process.hpp"
 
 namespace viscontact {
 
-/// The FreeFEM program, the folder of the scripts, and the time limits.
+/// The FreeFEM program, the folder of the scripts, and what ends a process before it is done.
 struct FreeFem {
   std::string executable;  ///< a name to look for on PATH, or a path
   /// Folder share/viscontact/freefem_axi with the scripts.
@@ -22,6 +23,8 @@ struct FreeFem {
   std::chrono::seconds row_limit = std::chrono::minutes(30);
   /// Time limit for the question of its version, which FreeFEM answers within a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
+  /// If it requests a stop, FreeFEM is killed and Error(kInterrupted) is thrown.
+  StopToken stop{};
 };
 
 /// The executable is that of the environment variable VISCONTACT_FREEFEM if it is set, else
@@ -29,7 +32,7 @@ struct FreeFem {
 /// VISCONTACT_FREEFEM_TIME_LIMIT, if set, is the number of seconds of both time limits. Throws
 /// Error(kExternalProgram) if there is no script folder, and Error(kWrongUsage) if the limit is not
 /// a whole number from 1 to 10 million.
-FreeFem default_freefem();
+FreeFem default_freefem(const StopToken& stop = {});
 
 /// Runs a script with arguments "-name value" on one thread. After `time_limit`, which is row_limit
 /// unless given, FreeFEM is killed and `timed_out` is set in the result. If the script fails, the

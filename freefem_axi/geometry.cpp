@@ -28,12 +28,12 @@ RequiredSpace space_above_floor(double radius, double gap, Parameters) {
 }
 
 /// The space above a rippled floor, which must have two radii of ripples around the axis.
-RequiredSpace room_above_ripples(double radius, double gap, Parameters) {
+RequiredSpace space_above_ripples(double radius, double gap, Parameters) {
   return {2 * radius, gap + 2 * radius};
 }
 
 /// The space for two spheres whose gap has its middle at half the height of the container.
-RequiredSpace room_of_pair(double radius, double gap, Parameters parameters) {
+RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   const double larger = std::max(radius, parameters[0]);
   return {larger, gap + 4 * larger};
 }
@@ -41,7 +41,7 @@ RequiredSpace room_of_pair(double radius, double gap, Parameters parameters) {
 bool has_velocity(Parameters parameters) { return parameters[1] != 0; }
 
 /// The gap is that to the nearest wall, so it is largest if sphere and cavity are concentric.
-RequiredSpace room_in_cavity(double radius, double, Parameters parameters) {
+RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
   return {0, 0, parameters[0] - radius};
 }
 
@@ -69,12 +69,12 @@ constexpr std::array kGeometries = {
              leading_of_free_surface,
              space_above_floor},
     Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
-             room_of_pair},
+             space_of_pair},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
-             room_in_cavity},
+             space_in_cavity},
     // Ripples under the film's middle change it as the gap goes to 0.
     Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
-             room_above_ripples},
+             space_above_ripples},
 };
 
 }  // namespace

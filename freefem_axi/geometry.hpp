@@ -45,7 +45,7 @@ struct Geometry {
   /// depends on curvature and velocity of the neighbour. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);
   /// The space for a sphere of radius r [L] at a gap [L].
-  RequiredSpace (*room)(double radius, double gap, std::span<const double> parameters);
+  RequiredSpace (*required_space)(double radius, double gap, std::span<const double> parameters);
   /// True if the exact drag near a plane (lubrication/plane_drag.hpp) is the drag of this geometry.
   bool has_exact_drag = false;
 };

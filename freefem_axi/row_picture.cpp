@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 namespace {
@@ -40,7 +41,7 @@ class PictureReader {
     for (auto& triangle : mesh.triangles)
       for (auto& node : triangle) node = node_of(mesh);
     for (auto& edge : mesh.boundary) {
-      if (!(stream_ >> edge.label)) fail();
+      edge.kind = boundary_kind();
       for (auto& node : edge.nodes) node = node_of(mesh);
     }
     return mesh;
@@ -62,6 +63,15 @@ class PictureReader {
     double value = 0;
     if (!(stream_ >> value) || !std::isfinite(value)) fail();
     return value;
+  }
+  BoundaryKind boundary_kind() {
+    // In the order of BoundaryKind.
+    constexpr std::array kWords = {"wall", "sphere", "axis", "shear_free", "interface"};
+    std::string word;
+    stream_ >> word;
+    const auto found = std::ranges::find(kWords, word);
+    if (found == kWords.end()) fail();
+    return static_cast<BoundaryKind>(found - kWords.begin());
   }
   std::size_t node_of(const CurvedMesh& mesh) {
     std::size_t node = 0;

@@ -10,17 +10,9 @@
 
 namespace viscontact {
 
-/// Labels of boundary edges that a picture distinguishes, as in axisymmetric_stokes.idp. All other
-/// labels are those of no-slip walls or neighbours.
-namespace boundary_label {
-inline constexpr int kSphere = 2;
-inline constexpr int kAxis = 3;
-inline constexpr int kShearFree = 5;
-/// Inside the fluid, or where unbounded fluid is cut off.
-inline constexpr int kInterface = 8;
-/// The same, on the circle where the far block begins.
-inline constexpr int kFarInterface = 9;
-}  // namespace boundary_label
+/// What an edge of a boundary is. A wall is a no-slip wall or the neighbour; an interface is inside
+/// the fluid, or where unbounded fluid is cut off.
+enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 
 /// Triangles with quadratic sides in the half-plane (rho, z) [L]. The origin is the point of the
 /// neighbour that is nearest to the sphere.
@@ -28,7 +20,7 @@ struct CurvedMesh {
   /// Three vertices, then the mid-side nodes opposite to them.
   using Triangle = std::array<std::size_t, 6>;
   struct Edge {
-    int label = 0;
+    BoundaryKind kind = BoundaryKind::kWall;
     std::array<std::size_t, 3> nodes{};  ///< both ends, then the mid-side node
   };
 

@@ -9,8 +9,7 @@
 #include <thread>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/system/interrupt.hpp"
-#include "viscontact/freefem_axi/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 namespace viscontact {
 namespace {
@@ -62,7 +61,8 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
   std::size_t finished = 0;
   const auto start = std::chrono::steady_clock::now();
   const auto work = [&] {
-    for (std::size_t i = 0; !interrupted() && (i = next++) < missing.size();) {
+    for (std::size_t i = 0;
+         !worker.freefem.stop.stop_requested() && (i = next++) < missing.size();) {
       try {
         if (!read_row_record(table_path, hash).finished.contains(missing[i])) {
           const auto entry = solve(worker.freefem, version, tabulation, missing[i]);
@@ -93,7 +93,7 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
     for (int i = 0; i < worker.jobs; ++i) workers.emplace_back(work);
   }
   if (fatal) std::rethrow_exception(fatal);
-  throw_if_interrupted();
+  worker.freefem.stop.throw_if_stop_requested();
   if (!failures.empty())
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/freefem_axi/row_record.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact {
 
@@ -30,7 +30,7 @@ struct RowWorker {
 /// checked again before each row. Each finished row, and the reason of each failed one, is written
 /// at once to the worker's journal beside `table_path`. `report` is called after each row, never
 /// twice at once. A row that fails does not stop the others. At the end Error(kExternalProgram)
-/// names all failed rows. Throws Error(kInterrupted) after Ctrl-C.
+/// names all failed rows. Throws Error(kInterrupted) if worker.freefem.stop requests a stop.
 void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
                   const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
 namespace viscontact {

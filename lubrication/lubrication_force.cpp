@@ -8,8 +8,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/root_finding.hpp"
 #include "viscontact/lubrication/plane_drag.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
@@ -242,30 +244,24 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
 }
 
 double LubricationForce::gap_of_impulse(double impulse_wanted) const {
-  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method converges fast in s. A
-  // bracket that shrinks makes it safe. The radius in s makes the rounding of q independent of the
-  // unit of length.
-  auto [low, high] = bracket_of_impulse(impulse_wanted);
-  double s = high - (high - low) / 2;
-  constexpr int kMaxSteps = 200;  // a safety limit: bisection alone needs about 60
+  // Near contact Gamma is almost linear in s = ln(q/r), so Newton's method converges fast in s. The
+  // radius in s makes the rounding of q independent of the unit of length.
+  const auto [low, high] = bracket_of_impulse(impulse_wanted);
   // At an end of the interval, rounding of ln and exp may give a gap just outside it.
   const auto gap_at = [this](double log_gap) {
     return std::clamp(radius_ * std::exp(log_gap), interval()[0], interval()[1]);
   };
-  for (int step = 0; step < kMaxSteps; ++step) {
+  const auto excess_and_slope = [&](double s) {
     const double gap = gap_at(s);
-    const double excess = impulse(gap) - impulse_wanted;
-    if (excess == 0) return gap;
-    (excess > 0 ? high : low) = s;
-    const double newton = s - excess / (resistance(gap) * gap);
-    const double next = newton > low && newton < high ? newton : low + (high - low) / 2;
-    // A step below the rounding of s does not change the result.
-    if (std::abs(next - s) <=
-        2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s)))
-      return gap_at(next);
-    s = next;
-  }
-  return gap_at(s);
+    return std::pair(impulse(gap) - impulse_wanted, resistance(gap) * gap);
+  };
+  // A step below the rounding of s does not change the result.
+  const auto settled = [](double s, double next) {
+    return std::abs(next - s) <=
+           2 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(s));
+  };
+  return gap_at(bracketed_newton(high - (high - low) / 2, low, high, Bracket::kOpen,
+                                 excess_and_slope, settled));
 }
 
 }  // namespace viscontact

@@ -4,23 +4,23 @@
 #include <algorithm>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact_geometry.hpp"
-#include "viscontact/particles/neighbours/neighbours.hpp"
+#include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-double gap_of(const Particles& p, const Film& film, std::span<const PlanePosition> places) {
-  return p.dimension == 2 ? contact_of<2>(p, film, places).gap : contact_of<3>(p, film, places).gap;
+double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
 }
 
 }  // namespace
 
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact) {
-  const auto second = particles.id(static_cast<std::size_t>(contact.second));
+  const auto second = particles.id(index_of(contact.second));
   if (contact.first < 0) return {second, contact.first};
-  return {particles.id(static_cast<std::size_t>(contact.first)), second};
+  return {particles.id(index_of(contact.first)), second};
 }
 
 double largest_overlap(const Setting& setting, const State& state) {
@@ -37,8 +37,8 @@ double largest_overlap(const Setting& setting, const State& state) {
 
 double largest_gamma_error(const State& state) {
   double largest = 0;
-  for (const auto* films : {&state.pairs, &state.walls})
-    for (const auto& film : *films) largest = std::max(largest, film.gamma_error);
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs) largest = std::max(largest, pair.gamma_error);
   return largest;
 }
 
@@ -47,10 +47,10 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   const auto& p = state.particles;
   const auto places = positions_of(setting.planes, state.time);
   const double touching = setting.solver.tolerance * mean_radius(p);
-  for (const auto* films : {&state.pairs, &state.walls})
-    for (const auto& film : *films)
-      if (const double gap = gap_of(p, film, places); film.gamma < 0 || gap <= touching)
-        contacts.push_back({film.first, film.second, gap, film.gamma, film.gamma_error});
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs)
+      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
+        contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error});
   return contacts;
 }
 

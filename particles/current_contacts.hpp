@@ -15,12 +15,11 @@ struct CurrentContact {
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
   double gamma;            ///< [M L/T]
-  double gamma_error = 0;  ///< Film::gamma_error [M L/T]
+  double gamma_error = 0;  ///< Pair::gamma_error [M L/T]
 };
 
-/// Names of both bodies of a contact in files. For two particles these are their ids. For a
-/// particle and a plane they are the id of the particle and -1, -2, ... for the first, second
-/// plane.
+/// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
+/// and -1, -2, ... for the first, second plane.
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
@@ -28,7 +27,7 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 /// pairs of particles, then particles at planes, each in the order of the state.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Film::gamma_error of all pairs [M L/T].
+/// Largest Pair::gamma_error of all pairs [M L/T].
 double largest_gamma_error(const State& state);
 
 /// Largest overlap of two particles, or of a particle and a plane, divided by the mean radius; 0 if

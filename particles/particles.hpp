@@ -10,6 +10,9 @@
 
 namespace viscontact::particles {
 
+/// The place in an array of the particle with number `number` >= 0.
+constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::size_t>(number); }
+
 /// Flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and so do `dimension`
 /// entries from dimension * k on of `positions` and `velocities`.
 struct Particles {

@@ -10,78 +10,33 @@
 #include <optional>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/system/block_results.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/neighbours/candidates.hpp"
+#include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 
 namespace viscontact::particles {
 
-/// Arrays that a step reuses from the step before, so that their memory is not allocated again.
-struct Simulation::StepBuffers {
-  explicit StepBuffers(int threads) : pool(threads) {}
-  ThreadPool pool;
-  std::vector<double> displacements;  // h u*, later h v [L]
-  std::vector<double> mobilities;     // h/m [T/M]
-  // If a step is divided: the sum of the impulses of its parts [M L/T], by the numbers of both
-  // bodies.
-  std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts;
-  // State before a step that is divided; it is restored if one of the parts fails.
-  std::optional<State> before_division;
-};
-
 namespace {
-
-/// Lists the particles that are closer than `margin` [L] to a plane, and those that are glued to
-/// it. The planes are at their positions at the end of the step.
-void find_walls(State& state, std::span<const PlanePosition> planes, double margin,
-                ThreadPool& pool) {
-  const auto& p = state.particles;
-  ConcatenatedBlocks<Film> walls;
-  for (std::size_t w = 0; w < planes.size(); ++w) {
-    const auto plane = -1 - static_cast<std::int32_t>(w);
-    const auto& place = planes[w];
-    walls += pool.sum_of_blocks<ConcatenatedBlocks<Film>>(
-        p.count(), [&](std::size_t begin, std::size_t end) {
-          ConcatenatedBlocks<Film> films;
-          // state.walls is in falling order of first = -1 - k, which is the order of the planes.
-          auto old = std::ranges::partition_point(state.walls, [&](const Film& film) {
-            return film.first > plane ||
-                   (film.first == plane && film.second < static_cast<std::int32_t>(begin));
-          });
-          for (std::size_t k = begin; k < end; ++k) {
-            const auto particle = static_cast<std::int32_t>(k);
-            const bool known =
-                old != state.walls.end() && old->first == plane && old->second == particle;
-            if ((known && old->gamma < 0) || gap(place, p.position(k), p.radii[k]) < margin)
-              films.values.push_back(known ? *old : Film{plane, particle});
-            if (known) ++old;
-          }
-          return films;
-        });
-  }
-  state.walls = std::move(walls.values);
-}
 
 /// Sets gamma^{n+1} = gamma^n - h lambda of each pair in the projection, within [gamma_min, 0]. A
 /// gamma that is 0 within the rounding error of this difference is set to 0: its film has given
 /// back all that it had absorbed. Returns the number of glued pairs.
 std::size_t remember(const Particles& p, const ProjectionResult& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
-    return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[static_cast<std::size_t>(k)];
+    return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
   };
   std::size_t glued = 0;
-  for (std::size_t f = 0; f < projected.films.size(); ++f) {
-    auto& film = *projected.films[f];
-    const double gamma = film.gamma - film.impulse;
+  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
+    auto& pair = *projected.pairs[f];
+    const double gamma = pair.gamma - pair.impulse;
     const double rounding =
-        std::numeric_limits<double>::epsilon() * (std::abs(film.gamma) + std::abs(film.impulse));
-    const double error = film.gamma_error + projected.film_errors[f] + rounding;
+        std::numeric_limits<double>::epsilon() * (std::abs(pair.gamma) + std::abs(pair.impulse));
+    const double error = pair.gamma_error + projected.impulse_errors[f] + rounding;
     const bool spent = gamma >= -rounding;
-    const double bound = spent ? 0 : law.lower_bound(radius(film.second), radius(film.first));
-    film.gamma = spent ? 0.0 : std::max(gamma, bound);
-    film.gamma_error = spent || film.gamma == bound ? 0 : error;
-    if (film.gamma < 0) ++glued;
+    const double bound = spent ? 0 : law.lower_bound(radius(pair.second), radius(pair.first));
+    pair.gamma = spent ? 0.0 : std::max(gamma, bound);
+    pair.gamma_error = spent || pair.gamma == bound ? 0 : error;
+    if (pair.gamma < 0) ++glued;
   }
   return glued;
 }
@@ -106,51 +61,43 @@ Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
       mean_radius_(mean_radius(state_.particles)),
-      work_(std::make_unique<StepBuffers>(threads)) {}
-Simulation::~Simulation() = default;
-Simulation::Simulation(Simulation&&) noexcept = default;
+      pool_(std::make_unique<ThreadPool>(threads)) {}
 
 template <int D>
 void Simulation::move_freely(double h, double next) {
   const auto& p = state_.particles;
-  auto& displacements = work_->displacements;
-  auto& mobilities = work_->mobilities;
-  displacements.resize(p.count() * D);
-  mobilities.resize(p.count());
-  work_->pool.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
+  displacements_.resize(p.count() * D);
+  mobilities_.resize(p.count());
+  pool_->for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      mobilities[k] = h / p.masses[k];
+      mobilities_[k] = h / p.masses[k];
       for (std::size_t d = 0; d < D; ++d)
-        displacements[k * D + d] = h * (p.velocities[k * D + d] + h * setting_.gravity[d]);
+        displacements_[k * D + d] = h * (p.velocities[k * D + d] + h * setting_.gravity[d]);
     }
   });
   for (const auto& [particle, force] : setting_.forces) {
-    const auto k = static_cast<std::size_t>(particle);
+    const auto k = index_of(particle);
     const Vector mean = force.mean(state_.time, next);
-    for (std::size_t d = 0; d < D; ++d) displacements[k * D + d] += h * mobilities[k] * mean[d];
+    for (std::size_t d = 0; d < D; ++d) displacements_[k * D + d] += h * mobilities_[k] * mean[d];
   }
 }
 
-template <int D>
 void Simulation::move(double h) {
   auto& p = state_.particles;
-  const auto& displacements = work_->displacements;
-  work_->pool.for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin * D; k < end * D; ++k) {
-      p.positions[k] += displacements[k];
-      p.velocities[k] = displacements[k] / h;
+  pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      p.positions[k] += displacements_[k];
+      p.velocities[k] = displacements_[k] / h;
     }
   });
 }
 
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
-  auto& displacements = work_->displacements;
-  auto& pool = work_->pool;
   const auto planes = positions_of(setting_.planes, next);
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const auto length_of = [&](std::size_t k) {
-    return checked_length(state_.particles, displacements, k, largest, next);
+    return checked_length(state_.particles, displacements_, k, largest, next);
   };
   const auto longest_of = [&](std::size_t begin, std::size_t end) {
     MaximumOfBlocks longest;
@@ -160,36 +107,34 @@ ProjectionResult Simulation::project(double h, double next) {
   // A particle further from a plane than twice the longest displacement cannot meet the plane. A
   // quarter of the mean radius is the least margin.
   const double longest =
-      pool.sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
+      pool_->sum_of_blocks<MaximumOfBlocks>(state_.particles.count(), longest_of).value;
   double margin = std::max(2 * longest, mean_radius_ / 4);
-  if (!neighbour_list_is_valid(state_, displacements, pool)) {
-    state_.reaches.clear();
-    rebuild_neighbour_list(state_, displacements, pool);
+  if (!neighbour_list_is_valid(state_, displacements_, *pool_)) {
+    state_.skins.clear();
+    rebuild_neighbour_list(state_, displacements_, *pool_);
   }
   for (;;) {
-    find_walls(state_, planes, margin, pool);
-    auto projected = StepProjection<D>(state_, h, planes, displacements, work_->mobilities, pool)
+    rebuild_wall_list(state_, planes, margin, *pool_);
+    auto projected = StepProjection<D>(state_, h, planes, displacements_, mobilities_, *pool_)
                          .solve(setting_.solver, mean_radius_);
     double gone = 0;
-    for (const auto body : projected.bodies)
-      gone = std::max(gone, length_of(static_cast<std::size_t>(body)));
-    if (gone <= margin && neighbour_list_is_valid(state_, displacements, pool)) return projected;
+    for (const auto body : projected.bodies) gone = std::max(gone, length_of(index_of(body)));
+    if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists cover, so the step is repeated with
     // longer lists. The loop ends because skins and margin only grow.
     margin = std::max(margin, 2 * gone);
-    rebuild_neighbour_list(state_, displacements, pool);
+    rebuild_neighbour_list(state_, displacements_, *pool_);
     move_freely<D>(h, next);
   }
 }
 
-template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
   report.glued = remember(state_.particles, projected, setting_.law);
-  move<D>(h);
+  move(h);
   state_.time = next;
   ++report.parts;
-  report.contacts = projected.films.size();
+  report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;
   report.iterations += projected.iterations;
   report.residual = std::max(report.residual, projected.residual / mean_radius_);
@@ -206,21 +151,21 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   if (!projected.converged && -projected.smallest_gap > mean_radius_)
     throw_step_without_solution(projected, next);
   if (projected.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
-    if (halvings == 0) work_->before_division = state_;
+    if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
-    for_films([](Film& film) { film.impulse /= 2; });
+    for_pairs([](Pair& pair) { pair.impulse /= 2; });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
     // The caller may go on with a part of twice the length, for which the impulses are the first
     // guess.
-    if (halvings > 0) for_films([](Film& film) { film.impulse *= 2; });
+    if (halvings > 0) for_pairs([](Pair& pair) { pair.impulse *= 2; });
     return;
   }
-  accept<D>(projected, h, next, report);
+  accept(projected, h, next, report);
   if (halvings > 0)
-    for_films([&](const Film& film) {
-      if (film.impulse != 0) work_->impulses_of_parts[{film.first, film.second}] += film.impulse;
+    for_pairs([&](const Pair& pair) {
+      if (pair.impulse != 0) impulses_of_parts_[{pair.first, pair.second}] += pair.impulse;
     });
 }
 
@@ -231,12 +176,12 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
   try {
     advance<D>(h, next, 0, report);
   } catch (...) {
-    work_->impulses_of_parts.clear();
-    if (work_->before_division) state_ = std::move(*work_->before_division);
-    work_->before_division.reset();
+    impulses_of_parts_.clear();
+    if (before_division_) state_ = std::move(*before_division_);
+    before_division_.reset();
     throw;
   }
-  work_->before_division.reset();
+  before_division_.reset();
 }
 
 StepReport Simulation::step(double end) {
@@ -254,12 +199,12 @@ StepReport Simulation::step(double end) {
     advance_whole<2>(h, next, report);
   else
     advance_whole<3>(h, next, report);
-  if (auto& parts = work_->impulses_of_parts; !parts.empty()) {
-    for_films([&](Film& film) {
-      const auto sum = parts.find({film.first, film.second});
-      film.impulse = sum == parts.end() ? 0 : sum->second;
+  if (!impulses_of_parts_.empty()) {
+    for_pairs([&](Pair& pair) {
+      const auto sum = impulses_of_parts_.find({pair.first, pair.second});
+      pair.impulse = sum == impulses_of_parts_.end() ? 0 : sum->second;
     });
-    parts.clear();
+    impulses_of_parts_.clear();
   }
   ++state_.steps;
   if (cut) {
@@ -270,23 +215,23 @@ StepReport Simulation::step(double end) {
 }
 
 void Simulation::throw_step_without_solution(const ProjectionResult& projected, double next) const {
-  const auto& film = projected.narrowest;
+  const auto& overlapping = projected.deepest_overlap;
   std::string moving;
   // Whether each plane pushes on a particle in this step.
   std::vector<char> presses(setting_.planes.size(), 0);
-  for (const auto* wall : projected.films)
-    if (wall->first < 0 && wall->impulse > 0)
-      presses[static_cast<std::size_t>(-1 - wall->first)] = 1;
+  for (const auto* wall : projected.pairs)
+    if (wall->first < 0 && wall->impulse > 0) presses[wall->plane()] = 1;
   const auto before = positions_of(setting_.planes, state_.time);
   const auto after = positions_of(setting_.planes, next);
   for (std::size_t w = 0; w < before.size(); ++w)
     if (presses[w] != 0 &&
         (before[w].point != after[w].point || before[w].normal != after[w].normal))
       moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
-  const auto id = [&](std::int32_t k) { return state_.particles.id(static_cast<std::size_t>(k)); };
-  const auto pair = film.first < 0
-                        ? fmt::format("particle {} and plane {}", id(film.second), -film.first)
-                        : fmt::format("particles {} and {}", id(film.first), id(film.second));
+  const auto id = [&](std::int32_t k) { return state_.particles.id(index_of(k)); };
+  const auto pair =
+      overlapping.first < 0
+          ? fmt::format("particle {} and plane {}", id(overlapping.second), -overlapping.first)
+          : fmt::format("particles {} and {}", id(overlapping.first), id(overlapping.second));
   throw Error(
       ErrorKind::kNotConverged,
       fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "

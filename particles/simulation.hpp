@@ -7,22 +7,24 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact_law.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/plane.hpp"
-#include "viscontact/particles/solver_settings.hpp"
+#include "viscontact/particles/projection/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
 struct ProjectionResult;
 
-/// What moves the particles, and how their motion is computed. case_file/particles_case.hpp checks
-/// these values when it reads a case file. The keys of `forces` must be numbers of existing
-/// particles.
+/// What moves the particles, and how their motion is computed. A case file's values are checked
+/// when it is read. The keys of `forces` must be numbers of existing particles.
 struct Setting {
   std::vector<Plane> planes;
   Vector gravity{};  ///< acceleration, on all particles [L/T^2]
@@ -47,10 +49,8 @@ struct StepReport {
   /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
   /// linearised gaps; no gap is smaller than its linearised gap.
   double largest_overlap = 0;
-  /// Number of parts that the step was divided into, 1 to 2^kMostHalvings.
-  int parts = 0;
-  /// Number of contacts that turn further than kLargestTurn (contact_geometry.hpp) although the
-  /// step has been divided into its smallest parts.
+  int parts = 0;  ///< number of parts that the step was divided into, 1 to 2^kMostHalvings
+  /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
   std::size_t unresolved = 0;
 };
 
@@ -61,20 +61,15 @@ struct StepReport {
 ///     M d^2x/dt^2 = M f + sum lambda_ij G_ij^T,   dgamma_ij/dt = -lambda_ij,
 ///
 /// where velocities are projected, in the norm of M, on G_ij v = 0 where gamma_ij < 0, and on
-/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0.
-///
-/// Each step solves one convex projection, (5.3), by its dual (5.4) (contact_graph.hpp). The pull
-/// of a film is bounded by the impulse that the film has absorbed. A pair therefore separates
+/// G_ij v >= 0 where gamma_ij = 0 and D_ij = 0. Each step solves one convex projection, (5.3). The
+/// pull of a film is bounded by the impulse that the film has absorbed. A pair therefore separates
 /// within the step in which its gamma reaches 0, with the momentum that is left of the pull. At
-/// gamma_min the solids carry the rest of the load. The linearised gap of two spheres is never
-/// above their gap, so a converged step leaves no overlap beyond the tolerance.
+/// gamma_min the solids carry the rest of the load.
 class Simulation {
  public:
   /// `state` is what read_restart returned, or a state of which only the particles are set.
   /// `threads` >= 1 is the number of threads.
   Simulation(Setting setting, State state, int threads);
-  ~Simulation();
-  Simulation(Simulation&&) noexcept;
 
   /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
   /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`,
@@ -98,33 +93,36 @@ class Simulation {
   const Setting& setting() const { return setting_; }
 
  private:
-  struct StepBuffers;
   template <int D>
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
-  template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
   template <class Visit>
-  void for_films(const Visit& visit) {
-    for (auto* films : {&state_.pairs, &state_.walls})
-      for (auto& film : *films) visit(film);
+  void for_pairs(const Visit& visit) {
+    for (auto* pairs : {&state_.pairs, &state_.walls})
+      for (auto& pair : *pairs) visit(pair);
   }
   [[noreturn]] void throw_step_without_solution(const ProjectionResult& projected,
                                                 double next) const;
-  template <int D>
   // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
+  template <int D>
   void move_freely(double h, double next);
-  template <int D>
   // Solves the projection. The displacements h u* become h v.
-  ProjectionResult project(double h, double next);
   template <int D>
+  ProjectionResult project(double h, double next);
   void move(double h);
 
   Setting setting_;
   State state_;
   double mean_radius_;
-  std::unique_ptr<StepBuffers> work_;
+  std::unique_ptr<ThreadPool> pool_;
+  std::vector<double> displacements_;  // h u*, later h v [L]
+  std::vector<double> mobilities_;     // h/m [T/M]
+  // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
+  // bodies, and the state before the step.
+  std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts_;
+  std::optional<State> before_division_;
 };
 
 /// Largest distance from the origin, and largest displacement in a step, that a particle may have

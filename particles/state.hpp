@@ -1,8 +1,9 @@
 // State of a simulation: everything, besides the case, that its future depends on. Lengths, masses
 // and times are in one consistent system of units. The restart file (io/restart.cpp) stores these
-// fields bit for bit; a change of Film or State must keep old restart files readable.
+// fields bit for bit; a change of Pair or State must keep old restart files readable.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace viscontact::particles {
 
-/// Memory of one pair: of two particles, or of a particle and a plane.
-struct Film {
+/// A pair of the neighbour list: two particles, or a particle and a plane, and their memory.
+struct Pair {
   std::int32_t first = 0;   ///< number of a particle, or -1 - k for plane k
   std::int32_t second = 0;  ///< number of a particle, > first
   double gamma = 0;         ///< gamma_min <= gamma <= 0 [M L/T]
@@ -21,7 +22,9 @@ struct Film {
   /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
   /// these values are known.
   double gamma_error = 0;
-  bool operator==(const Film&) const = default;
+  /// Place of the plane in the list of planes; only if `first` is negative.
+  std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
+  bool operator==(const Pair&) const = default;
 };
 
 /// A new simulation needs only `particles`; all other members then keep their defaults.
@@ -33,13 +36,13 @@ struct State {
   /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;
   std::int64_t grid_step = 0;
-  std::vector<Film> pairs;  ///< pairs of particles that may touch soon, in order of first, second
-  std::vector<Film> walls;  ///< particles at planes, in order of plane, particle
-  // Made together with `pairs`. Pairs outside the list cannot touch as long as no particle has
-  // moved further than its skin, `reaches`, from its position at that time.
+  std::vector<Pair> pairs;  ///< pairs of particles that may touch soon, in order of first, second
+  std::vector<Pair> walls;  ///< particles at planes, in order of plane, particle
+  // Pairs outside the list cannot touch as long as no particle has moved further than its skin
+  // since the list was made.
   /// Flat array of positions when `pairs` was made [L]; empty if there is no list yet.
   std::vector<double> positions_at_listing;
-  std::vector<double> reaches;  ///< skin of each particle [L]
+  std::vector<double> skins;  ///< skin of each particle [L]
 };
 
 }  // namespace viscontact::particles

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "viscontact/freefem_axi/row_record.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/sweep/sweep_file.hpp"
 
 namespace viscontact {
@@ -57,12 +57,12 @@ DryRun dry_run(const CaseTable& one) {
   return run;
 }
 
-DryRun dry_run(const Sweep& sweep, const std::string& output) {
+DryRun dry_run(const Sweep& sweep, const std::string& output, const StopToken& stop) {
   const std::uint64_t size = sweep_size(sweep.plan());
   std::vector<std::uint64_t> sample = {0, size / 2, size - 1};
   sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
   const auto start = std::chrono::steady_clock::now();
-  for (const auto index : sample) (void)sweep.row(index);
+  for (const auto index : sample) (void)sweep.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   return {output, size, finished_rows(sweep, output, VISCONTACT_VERSION),
           spent.count() / static_cast<double>(sample.size()),

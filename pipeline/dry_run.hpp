@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/pipeline/tabulate_stage.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/sweep/sweep.hpp"
 
 namespace viscontact {
@@ -26,7 +26,7 @@ DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`; computes up to three of its rows to measure
 /// them.
-DryRun dry_run(const Sweep& sweep, const std::string& output);
+DryRun dry_run(const Sweep& sweep, const std::string& output, const StopToken& stop);
 
 /// A line for each output, then the time for all of them if `jobs` rows are computed at once; the
 /// same as JSON if `json` is true.

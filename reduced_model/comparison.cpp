@@ -10,7 +10,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/json.hpp"
+#include "viscontact/common/text/json.hpp"
 
 namespace viscontact {
 namespace {
@@ -123,7 +123,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.minimal_gap_time = lowest->time;
     result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
     result.contact_interval = contact_interval(trajectory);
-    result.books = trajectory.books;
+    result.budget = trajectory.budget;
     result.steps = trajectory.steps;
     result.seconds = trajectory.seconds;
     measure_distances(trajectory, *reference, result);
@@ -147,9 +147,9 @@ std::string write_comparison(const Comparison& comparison) {
     entry["l1_gap_distance"] = model.l1_gap_distance;
     entry["l1_velocity_distance"] = model.l1_velocity_distance;
     entry["books"] = Json();
-    if (model.books)
-      for (const auto& book : kBudgetEntries)
-        entry["books"][std::string(book.name)] = (*model.books).*book.value;
+    if (model.budget)
+      for (const auto& amount : kBudgetEntries)
+        entry["books"][std::string(amount.name)] = (*model.budget).*amount.value;
     entry["steps"] = model.steps;
     entry["seconds"] = model.seconds;
   }
@@ -178,9 +178,10 @@ Comparison read_comparison(const std::filesystem::path& path) {
       model.l1_gap_distance = entry.at("l1_gap_distance").get<double>();
       model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();
       if (entry.contains("books") && !entry.at("books").is_null()) {
-        model.books.emplace();
-        for (const auto& book : kBudgetEntries)
-          (*model.books).*book.value = entry.at("books").at(std::string(book.name)).get<double>();
+        model.budget.emplace();
+        for (const auto& amount : kBudgetEntries)
+          (*model.budget).*amount.value =
+              entry.at("books").at(std::string(amount.name)).get<double>();
       }
       model.steps = entry.at("steps").get<long>();
       model.seconds = entry.at("seconds").get<double>();

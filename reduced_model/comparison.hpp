@@ -25,7 +25,7 @@ struct ModelComparison {
   /// and the last row with gamma < 0.
   std::optional<std::array<double, 2>> contact_interval;
   /// Impulses and works; nothing in a trajectory that Viscontact did not write.
-  std::optional<MomentumEnergyBudget> books;
+  std::optional<MomentumEnergyBudget> budget;
   double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]
   double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T]
   double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L]

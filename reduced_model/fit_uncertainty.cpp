@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/json.hpp"
+#include "viscontact/common/text/json.hpp"
 
 namespace viscontact {
 namespace {

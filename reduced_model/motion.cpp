@@ -1,4 +1,4 @@
-// Progress reports, the number of steps, and the times of rows.
+// Values of parameters, progress reports, the number of steps, and the times of rows.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -8,12 +8,18 @@
 #include <iterator>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 
 namespace viscontact {
 
+double Motion::parameter(const ModelParameter& which) const {
+  const auto found = parameters.find(which.key);
+  if (found == parameters.end())
+    throw Error(ErrorKind::kBadInput, fmt::format("the motion has no {}", which.key));
+  return found->second;
+}
+
 void report_progress(const Motion& motion, double time) {
-  throw_if_interrupted();
+  motion.stop.throw_if_stop_requested();
   if (motion.progress) motion.progress(time);
 }
 
@@ -28,7 +34,8 @@ int step_count(double end, double step) {
   return std::max(1, static_cast<int>(steps));
 }
 
-std::vector<double> row_times(const Motion& motion, double spacing) {
+std::vector<double> row_times(const Motion& motion, const ModelParameter& parameter) {
+  const double spacing = motion.parameter(parameter);
   const int steps = step_count(motion.end_time, spacing);
   auto jumps = motion.external_force.jumps();
   std::erase_if(jumps, [&](double t) { return t >= motion.end_time; });
@@ -47,10 +54,6 @@ std::vector<double> row_times(const Motion& motion, double spacing) {
   std::vector<double> times;
   std::ranges::merge(grid, jumps, std::back_inserter(times));
   return times;
-}
-
-std::vector<double> row_times(const Motion& motion) {
-  return row_times(motion, motion.reference_time_step);
 }
 
 }  // namespace viscontact

@@ -1,12 +1,16 @@
-// What every model of motion is given: the sphere, its start, the external force, and the numerical
-// settings of each model. Lengths, masses and times are in any one consistent system of units.
+// What every model of motion is given: the sphere, its start, the external force, and the values of
+// the models' parameters. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <array>
 #include <functional>
+#include <map>
+#include <string_view>
 #include <vector>
 
-#include "viscontact/reduced_model/external_force.hpp"
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/reduced_model/external_force/external_force.hpp"
+#include "viscontact/reduced_model/model_parameter.hpp"
 
 namespace viscontact {
 
@@ -19,29 +23,44 @@ struct Motion {
   double end_time = 0;          ///< [T], > 0
   ExternalForce external_force;
 
-  /// Step h of `reference` [T], > 0, and spacing of the rows of `reference_exact` and `inertial`.
-  double reference_time_step = 0;
-  /// Relative tolerance of the gap in `inertial` [1], in [1e-13, 1e-2].
-  double inertial_relative_tolerance = 0;
-  /// Step h of the contact models and of `explicit_euler` [T], > 0.
-  double contact_time_step = 0;
   /// Heights r1, r2 of the roughness of sphere and wall [L], >= 0; smooth surfaces if both are 0.
   std::array<double, 2> roughness = {};
-  double threshold_gap = 0;  ///< q_c of `viscous_contact_threshold` [L], > 0
+  /// Values of the models' parameters by ModelParameter::key; parameter() reads them.
+  std::map<std::string_view, double> parameters{};
 
   /// Approximate number of rows of a trajectory file (fewer_rows.hpp), >= 2; 0 writes all rows.
   int output_rows = 0;
   /// report_progress() calls this function with the time [T] that a model has reached; may be
   /// empty.
   std::function<void(double time)> progress{};
+  /// If it requests a stop, report_progress() throws Error(kInterrupted).
+  StopToken stop{};
+
+  /// The value of a parameter. Throws Error(kBadInput) if the motion has none.
+  double parameter(const ModelParameter& which) const;
+  void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 
-/// Models call this function at intervals with the time [T] that they have reached. It calls
-/// motion.progress and throws Error(kInterrupted) after Ctrl-C.
+/// As many time steps as in the lecture's case.
+inline double default_time_step(const Motion& motion, double) { return motion.end_time / 4000; }
+
+/// Step h of `reference` [T], and spacing of the rows of models that choose their steps themselves.
+inline constexpr ModelParameter kReferenceTimeStep = {
+    "reference.time_step", "time step of the reference", "T", kPositive, default_time_step, true};
+/// Step h of the contact models and of `explicit_euler` [T].
+inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
+                                                    "time step of the contact models",
+                                                    "T",
+                                                    kPositive,
+                                                    default_time_step,
+                                                    true};
+
+/// Models call this function at intervals with the time [T] that they have reached. It throws
+/// Error(kInterrupted) if motion.stop requests a stop, and then calls motion.progress.
 void report_progress(const Motion& motion, double time);
 
 /// Number of cheap steps between two calls of report_progress(). They take about 0.1 ms, so the
-/// calls cost little and Ctrl-C acts at once.
+/// calls cost little and a stop acts at once.
 inline constexpr int kStepsBetweenProgressReports = 4096;
 
 /// Number of steps of size `step` > 0 that cover [0, end]. The last step may be shorter. A last
@@ -54,11 +73,9 @@ inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }
 
-/// The times of the rows of a model without a fixed step: 0, the multiples of `spacing` [T], the
-/// jumps of the force, and end_time.
-std::vector<double> row_times(const Motion& motion, double spacing);
-
-/// The same with the spacing reference_time_step.
-std::vector<double> row_times(const Motion& motion);
+/// The times of the rows of a model without a fixed step: 0, the multiples of `spacing`, the jumps
+/// of the force, and end_time.
+std::vector<double> row_times(const Motion& motion,
+                              const ModelParameter& spacing = kReferenceTimeStep);
 
 }  // namespace viscontact

@@ -5,8 +5,8 @@
 
 #include <iterator>
 
-#include "viscontact/common/csv.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 namespace {
@@ -40,25 +40,22 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     const auto found = trajectory.provenance.extract(key);
     return found.empty() ? std::nullopt : std::optional(found.mapped());
   };
+  const auto take_number = [&](const std::string& key) -> std::optional<double> {
+    if (!take(key)) return {};
+    return csv_comment_number(csv.comments, key, file);
+  };
   if (const auto model = take("model")) trajectory.model = *model;
-  if (csv.comments.contains("recovered_minimal_gap"))
-    trajectory.recovered_minimal_gap =
-        csv_comment_number(csv.comments, "recovered_minimal_gap", file);
-  if (csv.comments.contains("steps")) trajectory.steps = steps_of(csv.comments, file);
-  if (csv.comments.contains("seconds"))
-    trajectory.seconds = csv_comment_number(csv.comments, "seconds", file);
-  if (csv.comments.contains(kContactKeys[0]))
-    trajectory.contact_interval = {csv_comment_number(csv.comments, kContactKeys[0], file),
-                                   csv_comment_number(csv.comments, kContactKeys[1], file)};
-  for (const auto& key : kContactKeys) take(key);
-  for (const auto& entry : kBudgetEntries) {
-    const std::string key(entry.name);
-    if (!csv.comments.contains(key)) continue;
-    if (!trajectory.books) trajectory.books.emplace();
-    (*trajectory.books).*entry.value = csv_comment_number(csv.comments, key, file);
-    take(key);
-  }
-  for (const char* key : {"viscontact", "recovered_minimal_gap", "steps", "seconds", "rows"})
+  trajectory.recovered_minimal_gap = take_number("recovered_minimal_gap");
+  if (take("steps")) trajectory.steps = steps_of(csv.comments, file);
+  trajectory.seconds = take_number("seconds").value_or(0);
+  if (const auto from = take_number(kContactKeys[0]))
+    trajectory.contact_interval = {*from, csv_comment_number(csv.comments, kContactKeys[1], file)};
+  for (const auto& entry : kBudgetEntries)
+    if (const auto value = take_number(std::string(entry.name))) {
+      if (!trajectory.budget) trajectory.budget.emplace();
+      (*trajectory.budget).*entry.value = *value;
+    }
+  for (const auto& key : {std::string("viscontact"), std::string("rows"), kContactKeys[1]})
     take(key);
   trajectory.rows.reserve(csv.rows.size());
   for (const auto& fields : csv.rows) {
@@ -94,9 +91,9 @@ std::string write_trajectory(const Trajectory& trajectory) {
   if (trajectory.contact_interval)
     for (std::size_t i = 0; i < kContactKeys.size(); ++i)
       comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
-  if (trajectory.books)
+  if (trajectory.budget)
     for (const auto& entry : kBudgetEntries)
-      comments[std::string(entry.name)] = format_number((*trajectory.books).*entry.value);
+      comments[std::string(entry.name)] = format_number((*trajectory.budget).*entry.value);
   std::string text = write_csv_comments(comments);
   text += fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const auto& row : trajectory.rows)

@@ -42,7 +42,7 @@ struct Trajectory {
   /// First landing and last release (or end of the motion) [T]; contact models only.
   std::optional<std::array<double, 2>> contact_interval;
   /// Nothing in a trajectory that Viscontact did not write.
-  std::optional<MomentumEnergyBudget> books;
+  std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< of the integrator
   double seconds = 0;  ///< wall time [s]
   /// Further lines "# key: value" of the file, such as fit, case and time step.

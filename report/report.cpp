@@ -10,13 +10,12 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/on_one_line.hpp"
-#include "viscontact/report/gnuplot.hpp"
-#include "viscontact/report/html.hpp"
-#include "viscontact/report/report_origin.hpp"
-#include "viscontact/report/report_page_texts.hpp"
+#include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/html/report_tables.hpp"
+#include "viscontact/report/page_texts.hpp"
+#include "viscontact/report/pictures/gnuplot.hpp"
 #include "viscontact/report/report_plots.hpp"
-#include "viscontact/report/report_tables.hpp"
 #include "viscontact/report/report_warnings.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -58,10 +57,12 @@ std::vector<Plot> plots_of(const RunResults& run) {
 /// Draws all plots at the same time, because each is a process of gnuplot and most of its time is
 /// its start. If one plot cannot be drawn, no picture is returned with an SVG, and `failure` is the
 /// reason.
-std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure) {
+std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure,
+                          const StopToken& stop) {
   std::vector<std::future<std::string>> drawings;
   for (const auto& plot : plots)
-    drawings.push_back(std::async(std::launch::async, [&plot] { return svg_of(plot); }));
+    drawings.push_back(
+        std::async(std::launch::async, [&plot, &stop] { return svg_of(plot, stop); }));
   std::vector<std::string> drawn;
   try {
     for (auto& drawing : drawings) drawn.push_back(drawing.get());
@@ -212,13 +213,13 @@ bool report_is_current(const std::filesystem::path& folder) {
 }
 
 void write_report(const std::filesystem::path& folder,
-                  const std::vector<std::filesystem::path>& given) {
+                  const std::vector<std::filesystem::path>& given, const StopToken& stop) {
   check_report_files(folder);
   const auto run = read_run(folder);
   const auto files = files_of(run);
   const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
   std::exception_ptr failure;
-  auto pictures = draw(plots_of(run), failure);
+  auto pictures = draw(plots_of(run), failure, stop);
   const auto page = page_of(run, pictures);
   std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
   for (const auto& [plot, svg] : pictures)

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
+
 namespace viscontact {
 
 /// Writes report.html into a run's folder from its case, fit, trajectories, comparison and table
@@ -13,9 +15,10 @@ namespace viscontact {
 /// draws need no gnuplot. Throws Error(kBadInput) if an input is missing or wrong, or as
 /// check_report_files does. If gnuplot fails, throws Error(kExternalProgram) after the report is
 /// written without still pictures. `given` are the files of the user from which the same command
-/// made the files in the folder; it is empty if the user gave the files in the folder.
+/// made the files in the folder; it is empty if the user gave the files in the folder. Throws
+/// Error(kInterrupted) if `stop` requests a stop.
 void write_report(const std::filesystem::path& folder,
-                  const std::vector<std::filesystem::path>& given = {});
+                  const std::vector<std::filesystem::path>& given = {}, const StopToken& stop = {});
 
 /// Throws Error(kBadInput) if the report or one of its plots would replace or delete a file that
 /// Viscontact did not write.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "viscontact/report/gnuplot.hpp"
+#include "viscontact/report/pictures/gnuplot.hpp"
 
 namespace viscontact {
 namespace {
@@ -56,18 +56,11 @@ std::string bound(const std::optional<double>& value) {
 std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   std::vector<std::string> settings = {
       fmt::format("set xrange [{}:{}]", bound(panel.x.low), bound(panel.x.high)),
-      fmt::format("set yrange [{}:{}]", bound(panel.y.low), bound(panel.y.high))};
-  switch (panel.key) {
-    case KeyPlace::kBelow:
-      settings.emplace_back("set key below Left reverse noopaque\nset xlabel offset 0,0.9");
-      break;
-    case KeyPlace::kTopRight:
-      settings.emplace_back("set key top right");
-      break;
-    case KeyPlace::kBottomRight:
-      settings.emplace_back("set key bottom right");
-      break;
-  }
+      fmt::format("set yrange [{}:{}]", bound(panel.y.low), bound(panel.y.high)),
+      panel.key == KeyPlace::kTopRight      ? "set key top right"
+      : panel.key == KeyPlace::kBottomRight ? "set key bottom right"
+                                            : "set key below Left reverse noopaque\n"
+                                              "set xlabel offset 0,0.9"};
   if (panel.x.logarithmic) settings.emplace_back("set format x '1e%T'");
   if (panel.y.logarithmic) settings.emplace_back("set format y '1e%T'");
   if (!panel.rows.empty()) {
@@ -120,7 +113,7 @@ bool shows_something(const Plot& plot) {
   return std::ranges::any_of(plot.panels, [](const auto& panel) { return !panel.curves.empty(); });
 }
 
-std::string svg_of(const Plot& plot) {
+std::string svg_of(const Plot& plot, const StopToken& stop) {
   std::vector<Panel> panels;
   for (const auto& panel : plot.panels) {
     panels.push_back({panel.title,
@@ -133,7 +126,7 @@ std::string svg_of(const Plot& plot) {
     for (const auto& curve : panel.curves)
       panels.back().curves.push_back({curve.legend, gnuplot_style(curve.style), curve.points});
   }
-  return draw_svg(panels, kWidth, plot.height);
+  return draw_svg(panels, kWidth, plot.height, stop);
 }
 
 std::string json_of(const Plot& plot) {

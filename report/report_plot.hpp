@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
+
 namespace viscontact {
 
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
@@ -58,7 +60,7 @@ struct Plot {
 bool shows_something(const Plot& plot);
 
 /// The plot as an SVG element by gnuplot. Throws Error(kExternalProgram) as draw_svg does.
-std::string svg_of(const Plot& plot);
+std::string svg_of(const Plot& plot, const StopToken& stop = {});
 
 /// The plot as JSON for report/page/report.js; the text may stand in a script element.
 std::string json_of(const Plot& plot);

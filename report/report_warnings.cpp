@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
@@ -15,18 +15,18 @@
 namespace viscontact {
 namespace {
 
-using Warnings = std::vector<ReportWarning>;
+/// The warnings so far.
+struct Warnings {
+  std::vector<ReportWarning> all{};
+
+  /// Adds a warning with the file of its numbers; the other arguments are those of fmt::format.
+  template <class... Numbers>
+  void add(const std::string& file, fmt::format_string<Numbers...> text, Numbers&&... numbers) {
+    all.push_back({fmt::format(text, std::forward<Numbers>(numbers)...), file});
+  }
+};
 
 std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
-
-/// The model of a trajectory; nothing if the user wrote the trajectory and its name is no model's.
-std::optional<ModelChoice> model_of(const Trajectory& trajectory) {
-  try {
-    return find_model(trajectory.model);
-  } catch (const Error&) {
-    return {};
-  }
-}
 
 /// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
 void add_extrapolation(Warnings& warnings, const RunResults& run) {
@@ -34,7 +34,7 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
   const auto [low, high] = run.fit.gap_interval;
   const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = model_of(trajectory);
+    const auto choice = known_model(trajectory.model);
     if (!choice || choice->exact_drag) continue;
     const auto [first, last] =
         std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
@@ -44,27 +44,24 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
     // compared instead.
     const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
     if (thinnest > 0 && thinnest < low)
-      warnings.push_back(
-          {fmt::format(
-               "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
-               trajectory.model, contact ? "a film of" : "a gap of", thinnest, low),
-           trajectory_name(trajectory.model)});
+      warnings.add(
+          trajectory_name(trajectory.model),
+          "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
+          trajectory.model, contact ? "a film of" : "a gap of", thinnest, low);
     const bool drag_at_distance =
         !contact || choice->model->contact(run.c.motion.value(), force).drag.has_value();
     if (largest > high && drag_at_distance)
-      warnings.push_back(
-          {fmt::format(
-               "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
-               trajectory.model, largest, high),
-           trajectory_name(trajectory.model)});
+      warnings.add(
+          trajectory_name(trajectory.model),
+          "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
+          trajectory.model, largest, high);
   }
 }
 
 void add_failed_models(Warnings& warnings, const RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
-    warnings.push_back(
-        {fmt::format("{} failed and has no trajectory: {}", failed.model, failed.reason),
-         "failed_models.json"});
+    warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
+                 failed.reason);
 }
 
 /// Warns if the residuals are larger than the table's error estimates. Each residual is compared
@@ -73,33 +70,30 @@ void add_failed_models(Warnings& warnings, const RunResults& run) {
 void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
   if (d.misfit != Misfit::kBasis) return;
   if (const auto& worst = d.worst_to_estimate)
-    warnings.push_back(
-        {fmt::format("The fit is coarser than the table: {} of {} rows have a relative residual "
-                     "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
-                     "which is {:.2g} times its estimate); another basis can do better",
-                     d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
-                     worst->ratio),
-         "fit.json"});
+    warnings.add("fit.json",
+                 "The fit is coarser than the table: {} of {} rows have a relative residual "
+                 "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
+                 "which is {:.2g} times its estimate); another basis can do better",
+                 d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
+                 worst->ratio);
   else
-    warnings.push_back({fmt::format("The fit is coarser than the table: chi-squared is {:.2g} for "
-                                    "{} degrees of freedom; another basis can do better",
-                                    d.chi_squared.value_or(0), d.degrees_of_freedom),
-                        "fit.json"});
+    warnings.add("fit.json",
+                 "The fit is coarser than the table: chi-squared is {:.2g} for "
+                 "{} degrees of freedom; another basis can do better",
+                 d.chi_squared.value_or(0), d.degrees_of_freedom);
 }
 
 void add_poor_fit(Warnings& warnings, const Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
-    warnings.push_back(
-        {fmt::format("Poor fit: it misses the table by up to {:.2g} relative{}; "
-                     "called poor beyond {:g}",
-                     fit.largest_relative_residual,
-                     diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
-                     kPoorFit),
-         "fit.json"});
+    warnings.add("fit.json",
+                 "Poor fit: it misses the table by up to {:.2g} relative{}; "
+                 "called poor beyond {:g}",
+                 fit.largest_relative_residual,
+                 diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
+                 kPoorFit);
   if (!diagnostics) return;
-  for (const auto& warning : diagnostics->warnings)
-    warnings.push_back({"Fit: " + warning, "fit.json"});
+  for (const auto& warning : diagnostics->warnings) warnings.add("fit.json", "Fit: {}", warning);
   add_coarser_than_table(warnings, *diagnostics);
 }
 
@@ -111,23 +105,20 @@ void add_unmet_accuracy(Warnings& warnings, const RunResults& run) {
   if (unmet == 0) return;
   const auto worst =
       std::ranges::max_element(run.table->rows, {}, &ForceTableRow::relative_error_estimate);
-  warnings.push_back(
-      {fmt::format("Accuracy not met: {} of {} rows of the table have an error estimate above the "
-                   "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
-                   unmet, run.table->rows.size(), asked, worst->relative_error_estimate,
-                   worst->gap),
-       "table.csv"});
+  warnings.add("table.csv",
+               "Accuracy not met: {} of {} rows of the table have an error estimate above the "
+               "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
+               unmet, run.table->rows.size(), asked, worst->relative_error_estimate, worst->gap);
 }
 
 void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = model_of(trajectory);
+    const auto choice = known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
-    warnings.push_back(
-        {fmt::format("The sphere of {} goes through the plane at time {:.4g}, which no "
-                     "drag of a film allows: its time step is too long",
-                     trajectory.model, trajectory.rows.back().time),
-         trajectory_name(trajectory.model)});
+    warnings.add(trajectory_name(trajectory.model),
+                 "The sphere of {} goes through the plane at time {:.4g}, which no "
+                 "drag of a film allows: its time step is too long",
+                 trajectory.model, trajectory.rows.back().time);
   }
 }
 
@@ -137,15 +128,14 @@ void add_roughness(Warnings& warnings, const RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = model_of(trajectory);
+    const auto choice = known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr) continue;
     const double smallest = std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
     if (smallest < roughness)
-      warnings.push_back(
-          {fmt::format("{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
-                       "would touch at {:.4g}",
-                       trajectory.model, smallest, roughness),
-           trajectory_name(trajectory.model)});
+      warnings.add(trajectory_name(trajectory.model),
+                   "{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
+                   "would touch at {:.4g}",
+                   trajectory.model, smallest, roughness);
   }
 }
 
@@ -153,11 +143,10 @@ void add_refused_draws(Warnings& warnings, const RunResults& run) {
   if (!run.uncertainty) return;
   const auto& u = *run.uncertainty;
   if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
-    warnings.push_back(
-        {fmt::format("{} of {} draws of the fit's coefficients make no possible drag: "
-                     "the interval from them is too narrow",
-                     u.refused, u.draws),
-         "uncertainty.json"});
+    warnings.add("uncertainty.json",
+                 "{} of {} draws of the fit's coefficients make no possible drag: "
+                 "the interval from them is too narrow",
+                 u.refused, u.draws);
 }
 
 /// Warns of files that were made from other inputs: the hash that they record differs from that of
@@ -170,22 +159,20 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
     for (const auto& [key, hash] : inputs) {
       const auto found = trajectory.provenance.find(key);
       if (found == trajectory.provenance.end() || found->second == hash) continue;
-      warnings.push_back({fmt::format("{} was made from another {} than the one in this folder",
-                                      trajectory.model, key),
-                          trajectory_name(trajectory.model)});
+      warnings.add(trajectory_name(trajectory.model),
+                   "{} was made from another {} than the one in this folder", trajectory.model,
+                   key);
     }
   if (run.table && !run.fit.table_sha256.empty() &&
       run.fit.table_sha256 != content_sha256(read_file(run.folder.table())))
-    warnings.push_back(
-        {"The fit was made from another table than the one in this folder", "fit.json"});
+    warnings.add("fit.json", "The fit was made from another table than the one in this folder");
   for (const auto& model : run.comparison.models)
     if (std::ranges::find(run.trajectories, model.model, &Trajectory::model) ==
         run.trajectories.end())
-      warnings.push_back(
-          {fmt::format("The trajectory of {} is not in this folder and in no plot; copy it into "
-                       "trajectories/ and compare again",
-                       model.model),
-           "comparison.json"});
+      warnings.add("comparison.json",
+                   "The trajectory of {} is not in this folder and in no plot; copy it into "
+                   "trajectories/ and compare again",
+                   model.model);
 }
 
 }  // namespace
@@ -200,7 +187,7 @@ std::vector<ReportWarning> warnings_of(const RunResults& run) {
   add_roughness(warnings, run);
   add_refused_draws(warnings, run);
   add_other_origin(warnings, run);
-  return warnings;
+  return warnings.all;
 }
 
 }  // namespace viscontact

@@ -1,38 +1,42 @@
-// The table of exit codes, with a row for each kind of error.
+// The table of exit codes, with a row for success and for each kind of error.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace viscontact {
 namespace {
 
-constexpr std::array<std::pair<ErrorKind, int>, 5> kExitCodes = {{
-    {ErrorKind::kWrongUsage, 2},
-    {ErrorKind::kBadInput, 3},
-    {ErrorKind::kNotConverged, 4},
-    {ErrorKind::kExternalProgram, 5},
+constexpr ExitCode kExitCodes[] = {
+    {{}, 0, "done"},
+    {ErrorKind::kWrongUsage, 2, "wrong usage"},
+    {ErrorKind::kBadInput, 3, "bad input: a file, or a value in it"},
+    {ErrorKind::kNotConverged, 4,
+     "a computation did not converge, every point of a sweep failed, or memory ran out"},
+    {ErrorKind::kExternalProgram, 5,
+     "an external program (FreeFEM, gnuplot, Slurm) failed or is missing"},
     // Shells report a process that SIGINT (signal 2) ended by 128 + 2.
-    {ErrorKind::kInterrupted, 130},
-}};
+    {ErrorKind::kInterrupted, 130,
+     "interrupted; what was finished is kept, and the same command continues from there"},
+};
 
 }  // namespace
 
+std::span<const ExitCode> exit_codes() { return kExitCodes; }
+
 int exit_code_of(ErrorKind kind) {
-  const auto* row = std::ranges::find(kExitCodes, kind, &std::pair<ErrorKind, int>::first);
-  assert(row != kExitCodes.end());  // the table has a row for every kind
-  return row->second;
+  const auto* row = std::ranges::find(kExitCodes, kind, &ExitCode::kind);
+  assert(row != std::end(kExitCodes));  // the table has a row for every kind
+  return row->code;
 }
 
 ErrorKind kind_of_exit_code(int exit_code) {
-  const auto* row = std::ranges::find(kExitCodes, exit_code, &std::pair<ErrorKind, int>::second);
-  if (row == kExitCodes.end())
+  const auto* row = std::ranges::find(kExitCodes, exit_code, &ExitCode::code);
+  if (row == std::end(kExitCodes) || !row->kind)
     throw std::out_of_range("no error has the exit code " + std::to_string(exit_code));
-  return row->first;
+  return *row->kind;
 }
 
 }  // namespace viscontact

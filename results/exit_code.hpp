@@ -1,13 +1,25 @@
-// The exit code of the program for each kind of error. Scripts of users rely on these numbers,
-// which docs/command-line.md lists.
+// The exit code of the program for each kind of error. Scripts of users rely on these numbers;
+// --help and the manual print this table, and docs/command-line.md repeats it.
 #pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "viscontact/common/error.hpp"
 
 namespace viscontact {
 
-/// The exit code for an error: 2 wrong usage, 3 bad input, 4 not converged, 5 external program,
-/// 130 interrupted. The exit code of success is 0.
+struct ExitCode {
+  std::optional<ErrorKind> kind;  ///< nothing: success
+  int code;
+  std::string_view meaning;
+};
+
+/// All exit codes, in increasing order.
+std::span<const ExitCode> exit_codes();
+
+/// The exit code for an error.
 int exit_code_of(ErrorKind kind);
 
 /// The kind of error that has this exit code. Throws std::out_of_range if no kind has it.

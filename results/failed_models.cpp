@@ -97,7 +97,7 @@ std::string reference_among(const std::vector<Trajectory>& trajectories,
   if (asked.empty()) return trajectories.front().model;
   throw Error(ErrorKind::kBadInput,
               fmt::format("the reference model '{}' has no trajectory here, because it failed: "
-                          "{}; take another one by --reference",
+                          "{}; choose another reference",
                           reference, found->reason));
 }
 

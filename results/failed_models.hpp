@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/results/run_folder.hpp"
 

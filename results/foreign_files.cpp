@@ -52,10 +52,11 @@ void refuse_other_kind(const std::filesystem::path& path, std::string_view marke
   if (!std::filesystem::is_regular_file(path, none)) return;
   const std::string head = head_of(path);
   if (head.empty() || (head.find(marker) != std::string::npos && has_provenance(head))) return;
-  throw_bad_input({path.string()},
-                  fmt::format("is there and is no {} that Viscontact wrote; remove it first, or "
-                              "write elsewhere",
-                              kind));
+  throw_bad_input(
+      {path.string()},
+      fmt::format("is not a {} that Viscontact wrote and is not replaced; remove it first, or "
+                  "write elsewhere",
+                  kind));
 }
 
 }  // namespace viscontact

@@ -13,7 +13,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
-#include "viscontact/common/json.hpp"
+#include "viscontact/common/text/json.hpp"
 #include "viscontact/results/versions.hpp"
 
 namespace viscontact {
@@ -214,6 +214,14 @@ std::string without_provenance(const std::string& text) {
   return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
 }
 
+bool has_content(const std::filesystem::path& path, const std::string& text) {
+  try {
+    return std::filesystem::is_regular_file(path) && without_provenance(read_file(path)) == text;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::string content_sha256(const std::string& text) { return sha256(without_provenance(text)); }
 
 std::optional<Provenance> provenance_in(const std::string& text, const std::string& file) {
@@ -253,16 +261,10 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path) {
 
 std::string change_of(const InputFile& input, const std::filesystem::path& folder) {
   const auto path = folder / input.file;
-  if (!std::filesystem::exists(path)) return fmt::format("{} is not there any more", path.string());
-  if (input.sha256.empty()) return fmt::format("{} was no file, but a pipe", path.string());
+  if (!std::filesystem::exists(path)) return fmt::format("{} no longer exists", path.string());
+  if (input.sha256.empty()) return fmt::format("{} was a pipe and not a file", path.string());
   if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
   return "";
-}
-
-std::string provenance_line(Provenance provenance, const std::filesystem::path& path) {
-  provenance.output = path.string();
-  provenance.made = time_of_making();
-  return with_provenance(TextKind::kHashComment, "", provenance);
 }
 
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/text_kind.hpp"
+#include "viscontact/common/text/text_kind.hpp"
 
 namespace viscontact {
 
@@ -65,6 +65,10 @@ std::string with_provenance(TextKind kind, const std::string& text, const Proven
 /// times are equal without their provenance.
 std::string without_provenance(const std::string& text);
 
+/// True if there is a file at `path` whose text without its provenance is `text`. Such a file is
+/// not written again, so that it keeps its time of making. False if the file cannot be read.
+bool has_content(const std::filesystem::path& path, const std::string& text);
+
 /// SHA-256 of the text without its provenance. Files of Viscontact refer to each other by this
 /// hash.
 std::string content_sha256(const std::string& text);
@@ -81,10 +85,6 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 /// `folder` is the folder in which the command ran. Throws Error(kBadInput) if the input cannot be
 /// read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
-
-/// The line "# provenance: {...}\n" with the present time, for the CSV file `path`, which is
-/// written row by row. Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.
-std::string provenance_line(Provenance provenance, const std::filesystem::path& path);
 
 /// The text that write_output writes: `text` with the provenance and the present time. Throws
 /// Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.

@@ -20,9 +20,9 @@ std::map<std::string, std::string> library_versions() {
            fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 
-std::string freefem_version_or_not_found() {
+std::string freefem_version_or_not_found(const StopToken& stop) {
   try {
-    return freefem_version(default_freefem());
+    return freefem_version(default_freefem(stop));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kExternalProgram) throw;
     return "not found";

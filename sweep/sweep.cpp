@@ -8,16 +8,16 @@
 #include <array>
 #include <cmath>
 #include <condition_variable>
-#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <thread>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/number.hpp"
-#include "viscontact/common/system/interrupt.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -76,31 +76,22 @@ void refuse_doubles(const Names& names, std::string_view kind) {
 /// none of the models depends on it. Keys that do not exist pass; the reader of the case reports
 /// them.
 void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
-  const std::string section = key.substr(0, key.find('.'));
-  const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
-    return std::ranges::find(names, section) != names.end();
-  };
-  if (is_one_of({"tabulation", "fit", "published", "sweep"}))
+  constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
+  if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
+    std::vector<std::string_view> sections = {"fluid", "sphere", "motion"};
+    std::ranges::copy(model_sections(), std::back_inserter(sections));
+    const auto last = sections.back();
+    sections.pop_back();
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because a sweep tabulates and fits nothing: it "
-                            "varies keys of [fluid], [sphere], [motion], [reference], [inertial] "
-                            "and [viscous_contact]",
-                            key));
-  constexpr std::array kKeys = {"fluid.viscosity",
-                                "sphere.radius",
-                                "sphere.mass",
-                                "motion.initial_velocity",
-                                "reference.time_step",
-                                "inertial.relative_tolerance",
-                                "viscous_contact.time_step",
-                                "viscous_contact.roughness",
-                                "viscous_contact.threshold_gap"};
-  if (std::ranges::find(kKeys, key.substr(0, key.find('['))) == kKeys.end()) return;
+                            "varies keys of [{}] and [{}]",
+                            key, fmt::join(sections, "], ["), last));
+  }
   if (std::ranges::none_of(models,
                            [&](const auto& model) { return depends_on(find_model(model), key); }))
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because none of the models that are run depends "
-                            "on it ({}); leave it out, or add a model that does to --models",
+                            "on it ({}); leave it out, or add a model that depends on it",
                             key, fmt::join(models, ", ")));
 }
 
@@ -150,13 +141,9 @@ std::vector<std::string> sweep_columns(const SweepPlan& plan) {
 }
 
 Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
-  if (plan_.variations.empty())
-    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  if (plan_.variations.empty()) throw Error(ErrorKind::kWrongUsage, "the sweep varies no key");
   if (plan_.fit.basis.empty())
-    throw Error(
-        ErrorKind::kWrongUsage,
-        "the case names no drag to run with (file or exact in its section [fit]); give a fit "
-        "with --fit");
+    throw Error(ErrorKind::kWrongUsage, "the sweep has no fit of the drag");
   if (plan_.reference.empty()) plan_.reference = default_reference(plan_.models);
   std::vector<std::string> keys;
   for (const auto& variation : plan_.variations) keys.push_back(variation.key);
@@ -203,7 +190,7 @@ std::string Sweep::key_fields(std::uint64_t index) const {
   return text;
 }
 
-std::string Sweep::row(std::uint64_t index) const {
+std::string Sweep::row(std::uint64_t index, const StopToken& stop) const {
   std::string text = key_fields(index);
   std::vector<Trajectory> trajectories;
   std::string failure;
@@ -212,9 +199,11 @@ std::string Sweep::row(std::uint64_t index) const {
     const Fit fit = is_exact_plane(plan_.fit) ? exact_plane_fit(c.viscosity, c.radius)
                                               : with_viscosity(plan_.fit, c.viscosity);
     const LubricationForce force(fit, plan_.below, plan_.above);
+    Motion motion = required_motion(c);
+    motion.stop = stop;
     for (const auto& model : plan_.models) {
       try {
-        trajectories.push_back(simulate(find_model(model), required_motion(c), force));
+        trajectories.push_back(simulate(find_model(model), motion, force));
       } catch (const Error& error) {
         if (error.kind() == ErrorKind::kInterrupted) throw;
         failure += fmt::format("{}{}", failure.empty() ? "" : " | ", error.what());
@@ -244,34 +233,35 @@ std::string Sweep::row(std::uint64_t index) const {
 
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
-    const std::function<void(std::uint64_t index, const std::string& row)>& take) {
+    const std::function<void(std::uint64_t index, const std::string& row)>& take,
+    const StopToken& stop) {
   const std::uint64_t size = sweep_size(sweep.plan());
   // No thread computes rows further ahead of the last row taken than this, which limits the memory.
   const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
   std::mutex mutex;
-  std::condition_variable room;
+  std::condition_variable row_taken;
   std::map<std::uint64_t, std::string> finished;
   std::uint64_t next = begin, taken = begin;
   std::exception_ptr error;
   const auto work = [&] {
     std::unique_lock lock(mutex);
     for (;;) {
-      room.wait(lock, [&] { return error || next >= size || next < taken + window; });
-      if (error || next >= size || interrupted()) return;
+      row_taken.wait(lock, [&] { return error || next >= size || next < taken + window; });
+      if (error || next >= size || stop.stop_requested()) return;
       const std::uint64_t index = next++;
       lock.unlock();
       std::string row;
       std::exception_ptr thrown;
       try {
-        row = sweep.row(index);
+        row = sweep.row(index, stop);
       } catch (...) {
         thrown = std::current_exception();
       }
       lock.lock();
-      if (thrown && interrupted()) return;  // the interrupt came while a row was computed
+      if (thrown && stop.stop_requested()) return;  // the stop came while a row was computed
       if (thrown) {
         error = thrown;
-        room.notify_all();
+        row_taken.notify_all();
         return;
       }
       finished.emplace(index, std::move(row));
@@ -285,7 +275,7 @@ std::uint64_t run_sweep(
       } catch (...) {
         error = std::current_exception();
       }
-      room.notify_all();
+      row_taken.notify_all();
     }
   };
   {

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/sweep/variation.hpp"
 
 namespace viscontact {
@@ -65,7 +66,8 @@ class Sweep {
 
   /// The row of a point as a line of CSV. The fields of a model that fails are empty, and `failure`
   /// says why it failed. If the reference fails, the distances of all models are empty.
-  std::string row(std::uint64_t index) const;
+  /// Throws Error(kInterrupted) if `stop` requests a stop.
+  std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 
  private:
   Case case_at(std::uint64_t index) const;
@@ -76,10 +78,11 @@ class Sweep {
 };
 
 /// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
-/// Stops when interrupted() or when `take` throws; that exception is thrown again. The memory that
-/// it needs does not grow with the number of rows. Returns the number of the last row taken plus 1.
+/// Ends early if `stop` requests it or if `take` throws; that exception is thrown again. The memory
+/// that it needs does not grow with the number of rows. Returns the number of the last row taken plus 1.
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
-    const std::function<void(std::uint64_t index, const std::string& row)>& take);
+    const std::function<void(std::uint64_t index, const std::string& row)>& take,
+    const StopToken& stop = {});
 
 }  // namespace viscontact

@@ -12,12 +12,12 @@
 #include <fstream>
 #include <optional>
 
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
@@ -92,7 +92,8 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
 std::uint64_t write_sweep(
     const Sweep& sweep, const fs::path& path, int jobs, const std::string& version,
     const std::string& how_made,
-    const std::function<void(std::uint64_t done, std::uint64_t size)>& progress) {
+    const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
+    const StopToken& stop) {
   const std::uint64_t size = sweep_size(sweep.plan());
   const std::string header = header_of(sweep.plan(), version);
   if (const auto finished = kept_rows(path, header, sweep); finished && finished->rows == size)
@@ -102,7 +103,7 @@ std::uint64_t write_sweep(
   part += ".part";
   if (part.has_parent_path()) make_folder(part.parent_path());
   const Descriptor file = open_and_lock(
-      part, "is held by another sweep into the same file; wait for it, or write elsewhere");
+      part, "is locked by another sweep into the same file; wait for it, or write elsewhere");
   auto kept = kept_rows(part, header, sweep);
   // Removes an incomplete last row, or all rows of another plan.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
@@ -130,7 +131,7 @@ std::uint64_t write_sweep(
   };
   std::uint64_t taken = 0;
   try {
-    taken = run_sweep(sweep, kept->rows, jobs, take);
+    taken = run_sweep(sweep, kept->rows, jobs, take, stop);
   } catch (...) {
     write();  // finished rows are kept whatever ended the sweep
     throw;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 namespace {
@@ -17,8 +17,8 @@ constexpr double kMostValues = 1e9;
 constexpr double kMostPoints = 1e12;
 
 [[noreturn]] void refuse(std::string_view text, const std::string& what) {
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--vary {}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: {}; it must be KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or "
                           "KEY=VALUE,VALUE,...",
                           text, what));
 }

@@ -29,7 +29,7 @@ struct Variation {
 };
 
 /// Reads "KEY=A:B:log:N", "KEY=A:B:N" (equal distances) or "KEY=V,V,...". "motion.mass" stands for
-/// "sphere.mass". Throws Error(kWrongUsage), which names the fault: the key is missing, a number is
+/// "sphere.mass". Throws Error(kBadInput), which names the fault: the key is missing, a number is
 /// not finite, a logarithmic range contains 0 or changes sign, or N is no integer in [1, 1e9].
 Variation parse_variation(std::string_view text);
 

@@ -26,6 +26,14 @@ void show_progress(const std::string& text) {
   std::fflush(stderr);
 }
 
+bool ProgressTimer::is_due() {
+  constexpr auto kBetween = std::chrono::milliseconds(100);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kBetween) return false;
+  last_ = now;
+  return true;
+}
+
 void clear_progress() { show_progress(""); }
 
 // Errors of fputs are ignored: if standard error is closed or full, only the message is lost, and

@@ -2,6 +2,7 @@
 // colour. Where standard error is no terminal, messages are plain text and progress is not shown.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,17 @@ namespace viscontact {
 /// Replaces the progress line by `text` if standard error is a terminal that understands escape
 /// sequences; otherwise does nothing.
 void show_progress(const std::string& text);
+
+/// Limits how often a progress line is shown.
+class ProgressTimer {
+ public:
+  /// True if a tenth of a second has passed since this function last returned true, or since the
+  /// timer was made.
+  bool is_due();
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 /// Removes the progress line.
 void clear_progress();

@@ -1,32 +1,30 @@
 // Writes the case and prints the next commands for it.
-#include "viscontact/app/commands/init_command.hpp"
-
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
 #include "viscontact/app/command_options.hpp"
 #include "viscontact/app/commands/case_template.hpp"
+#include "viscontact/app/commands/commands.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/shell_words.hpp"
+#include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
 
 void add_init(CLI::App& app) {
-  auto* command = app.add_subcommand("init", "a commented case to begin with");
+  auto* command = app.add_subcommand("init", "write a case with comments to begin with");
   auto file = std::make_shared<std::string>();
-  command->add_option("CASE", *file, "case file to write (TOML); one that is there stays")
-      ->required()
-      ->type_name(kFile);
+  add_value(*command, "CASE", *file, kFile,
+            "case file to write (TOML); a file that exists is not replaced")
+      ->required();
   command->callback([file] {
     check_outputs({*file});
     const std::filesystem::path path = *file;
     if (std::filesystem::exists(std::filesystem::symlink_status(path)))
-      throw_bad_input({*file}, "is there and is not replaced; remove it first, or write elsewhere");
+      throw_bad_input({*file}, "exists and is not replaced; remove it first, or write elsewhere");
     write_file(path, case_template());
     // A name that begins with "-" is written as "./-...", so that it is not read as an option.
     const auto named = [](std::string name) {

@@ -1,20 +1,21 @@
 // Options of `sweep`, the choice of what its picture shows, and the messages.
-#include "viscontact/app/commands/sweep_command.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viscontact/app/command_options.hpp"
+#include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
-#include "viscontact/pipeline/pipeline.hpp"
-#include "viscontact/report/flow/sweep_plot.hpp"
+#include "viscontact/pipeline/simulate/simulate_stage.hpp"
+#include "viscontact/report/pictures/sweep_plot.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/sweep_file.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -37,7 +38,8 @@ SweepPlan plan_of(const SweepOptions& o, const Case& c) {
   if (!o.fit.empty()) plan.fit = read_fit(o.fit);
   if (!o.vary.empty()) {
     plan.variations.clear();
-    for (const auto& text : o.vary) plan.variations.push_back(parse_variation(text));
+    for (const auto& text : o.vary)
+      plan.variations.push_back(from_option("--vary", [&] { return parse_variation(text); }));
   }
   if (o.samples > 0) plan.samples = o.samples;
   plan.seed = o.seed;
@@ -154,12 +156,19 @@ void run(const SweepOptions& o) {
   refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
   if (!o.plot.empty()) refuse_other_kind(o.plot, "<svg", "picture");
   const Case c = read_case(o.case_file);
-  const Sweep sweep(plan_of(o, c));
+  SweepPlan plan = plan_of(o, c);
+  if (plan.variations.empty())
+    throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
+  if (plan.fit.basis.empty())
+    throw Error(ErrorKind::kWrongUsage,
+                "the case names no drag to run with (file or exact in its section [fit]); give a "
+                "fit with --fit");
+  const Sweep sweep(std::move(plan));
   const SweepPlot picture = o.plot.empty() ? SweepPlot{} : picture_of(o, c, sweep.plan());
   if (!o.plot.empty()) check_columns(picture, sweep.plan());
 
   if (o.dry_run) {
-    fmt::print("{}", dry_run_text({dry_run(sweep, o.output)}, o.jobs, o.json));
+    fmt::print("{}", dry_run_text({dry_run(sweep, o.output, interrupt_token())}, o.jobs, o.json));
     return;
   }
   auto files = files_of_motion(c);
@@ -170,15 +179,15 @@ void run(const SweepOptions& o) {
   const auto provenance = provenance_of({files, {}});
 
   Remaining remaining;
-  auto shown = std::chrono::steady_clock::now();
+  ProgressTimer progress;
   const auto computed = write_sweep(
-      sweep, o.output, o.jobs, VISCONTACT_VERSION, provenance_line(provenance, o.output),
+      sweep, o.output, o.jobs, VISCONTACT_VERSION,
+      output_text(o.output, TextKind::kHashComment, "", provenance),
       [&](std::uint64_t done, std::uint64_t size) {
-        const auto now = std::chrono::steady_clock::now();
-        if (now - shown < std::chrono::milliseconds(200)) return;
-        shown = now;
+        if (!progress.is_due()) return;
         show_progress(fmt::format("sweep: {} of {}{}", done, size, remaining.after(done, size)));
-      });
+      },
+      interrupt_token());
   clear_progress();
   const auto size = sweep_size(sweep.plan());
   const auto outcome = read_outcome(sweep.plan(), o.output);
@@ -194,63 +203,46 @@ void run(const SweepOptions& o) {
                             "at the first point: {}",
                             o.output, outcome.first_failure));
   if (!o.plot.empty())
-    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture),
+    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture, interrupt_token()),
                  provenance_of(Inputs{files, {o.output}}));
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("sweep", "a case run with many numbers: a row of figures each");
+  auto* command = app.add_subcommand(
+      "sweep", "run a case with many values of its numbers, each of which gives a row of results");
   auto o = std::make_shared<SweepOptions>();
-  command
-      ->add_option("CASE", o->case_file,
-                   "case file (TOML); its [sweep] holds defaults for what follows")
-      ->required()
-      ->type_name(kFile);
-  command
-      ->add_option("-o,--output", o->output,
-                   "rows to write (CSV); an interrupted sweep goes on with the same command")
-      ->required()
-      ->type_name(kFile);
-  command
-      ->add_option(
-          "--vary", o->vary,
-          "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
-          "sphere.mass, motion.external_force[0].value; may be repeated: the grid of all")
-      ->type_name("KEY=RANGE")
+  add_value(*command, "CASE", o->case_file, kFile,
+            "case file (TOML); its section [sweep] gives defaults for the options below")
+      ->required();
+  add_value(*command, "-o,--output", o->output, kFile,
+            "rows to write (CSV); an interrupted sweep goes on with the same command")
+      ->required();
+  add_value(*command, "--vary", o->vary, "KEY=RANGE",
+            "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
+            "sphere.mass, motion.external_force[0].value; if repeated, the grid of all ranges")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      ->add_option("--samples", o->samples,
-                   "so many random points of the ranges instead of the grid")
-      ->check(CLI::Range(1.0, 1e12))
-      ->type_name("N");
-  command->add_option("--seed", o->seed, "of the random points")->capture_default_str();
-  command->add_option("--models", o->models, "comma-separated; default: inertial,viscous_contact")
-      ->type_name(kModels)
+  add_value(*command, "--samples", o->samples, "N",
+            "number of random points in the ranges, in place of the grid")
+      ->check(CLI::Range(1.0, 1e12));
+  command->add_option("--seed", o->seed, "seed of the random points")->capture_default_str();
+  add_value(*command, "--models", o->models, kModels,
+            "comma-separated; default: inertial,viscous_contact")
       ->delimiter(',');
-  command
-      ->add_option("--reference", o->reference,
-                   "model that the others are compared with; default: inertial, or the first")
-      ->type_name(kModel);
-  command
-      ->add_option("--fit", o->fit,
-                   "fit of the lubrication force (JSON); default: the case's [fit] file or exact")
-      ->type_name(kFile);
-  command
-      ->add_option("--plot", o->plot,
-                   "picture to write (SVG): lines over one key, or a map over two")
-      ->type_name(kFile);
-  command->add_option("--x", o->x, "key along the picture; default: the first varied")
-      ->type_name("KEY");
-  command->add_option("--y", o->y, "key up the picture, for a map")->type_name("KEY");
-  command
-      ->add_option(
-          "--column", o->columns,
-          "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
-      ->type_name("COLUMN,...")
+  add_value(*command, "--reference", o->reference, kModel,
+            "model that the others are compared with; default: inertial, or the first");
+  add_value(*command, "--fit", o->fit, kFile,
+            "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
+  add_value(*command, "--plot", o->plot, kFile,
+            "picture to write (SVG): lines over one key, or a map over two");
+  add_value(*command, "--x", o->x, "KEY",
+            "key of the horizontal axis; default: the first varied key");
+  add_value(*command, "--y", o->y, "KEY", "key of the vertical axis, for a map");
+  add_value(
+      *command, "--column", o->columns, "COLUMN,...",
+      "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
       ->delimiter(',');
   add_jobs(*command, o->jobs, "points at once");
   auto* dry = command->add_flag("--dry-run", o->dry_run,

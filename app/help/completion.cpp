@@ -30,7 +30,7 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
 /// The words that the option's value can be, if it is a choice of words; otherwise empty.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
-  if (type == kModel || type == kModels) type = words_of(all_models());
+  if (type == kModel || type == kModels) type = names_of(all_models(), "|");
   if (type.find('|') == std::string::npos || type.starts_with('[')) return {};
   return CLI::detail::split(type, '|');
 }

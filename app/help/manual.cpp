@@ -1,34 +1,27 @@
-// Exit codes, environment variables and options in roff.
+// Exit codes, environment variables and options in roff. help2man cannot make this page, because it
+// reads one --help, and each command has its own.
 #include "viscontact/app/help/manual.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <string>
 #include <utility>
+
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
-
-constexpr std::array kExitCodes = {
-    std::pair("0", "done"),
-    std::pair("2", "wrong usage"),
-    std::pair("3", "bad input: a file, a value in it"),
-    std::pair("4",
-              "a computation did not converge, every point of a sweep failed, or memory ran out"),
-    std::pair("5", "FreeFEM or gnuplot failed or is missing"),
-    std::pair("130",
-              "interrupted; what was finished is kept, the same command goes on (particles: from "
-              "restart.bin)"),
-};
 
 constexpr std::array kEnvironment = {
     std::pair("VISCONTACT_FREEFEM", "the FreeFEM to run; default: FreeFem++-nw on the PATH"),
     std::pair("VISCONTACT_FREEFEM_TIME_LIMIT",
               "seconds after which FreeFEM is stopped; default: 1800 for a row of a table, 120 for "
-              "the question which version it is"),
+              "asking its version"),
     std::pair("NO_COLOR", "set and not empty: no colours on a terminal"),
-    std::pair("SOURCE_DATE_EPOCH", "seconds since 1970 to be written as the time of making"),
+    std::pair("SOURCE_DATE_EPOCH",
+              "seconds since 1970, which are written as the time at which a file was made"),
 };
 
 /// The text with the special characters of roff escaped.
@@ -69,7 +62,8 @@ std::string option_item(const CLI::Option& option) {
 
 std::string help_footer() {
   std::string text = "Exit codes:\n";
-  for (const auto& [code, meaning] : kExitCodes) text += fmt::format("  {:<26}{}\n", code, meaning);
+  for (const auto& [kind, code, meaning] : exit_codes())
+    text += fmt::format("  {:<26}{}\n", code, meaning);
   text += "Environment:\n";
   for (const auto& [name, meaning] : kEnvironment)
     text += fmt::format("  {:<26}{}\n", name, meaning);
@@ -91,7 +85,8 @@ std::string manual(const CLI::App& app, const std::string& version) {
     for (const auto* option : command->get_options()) text += option_item(*option);
   }
   text += ".SH EXIT STATUS\n";
-  for (const auto& [code, meaning] : kExitCodes) text += item(code, meaning);
+  for (const auto& [kind, code, meaning] : exit_codes())
+    text += item(std::to_string(code), std::string(meaning));
   text += ".SH ENVIRONMENT\n";
   for (const auto& [name, meaning] : kEnvironment) text += item(name, meaning);
   return text +

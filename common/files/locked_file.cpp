@@ -38,13 +38,13 @@ bool is_still_at(int file, const std::filesystem::path& path) {
 
 }  // namespace
 
-Descriptor open_and_lock(const std::filesystem::path& path, const std::string& held) {
+Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message) {
   for (;;) {
     Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
     if (file.get() < 0) throw_not_opened(path, errno);
     // A file system without locks must not prevent the computation.
     if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw_bad_input({path.string()}, held);
+      throw_bad_input({path.string()}, message);
     if (is_still_at(file.get(), path)) return file;
   }
 }

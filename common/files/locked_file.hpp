@@ -12,8 +12,8 @@ namespace viscontact {
 /// Opens a file for reading and appending, makes it if it does not exist, and locks it against
 /// other processes that lock it in the same way, until it is closed. Throws Error(kBadInput), which
 /// names the path, if the file cannot be opened, or if another process has locked it; then the
-/// message ends with `held`. A file system without locks is no error.
-Descriptor open_and_lock(const std::filesystem::path& path, const std::string& held);
+/// error ends with `message`. A file system without locks is no error.
+Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message);
 
 /// Writes the whole text at the end of the file. Throws Error(kBadInput), which names the path.
 void append_to(const Descriptor& file, std::string_view text, const std::filesystem::path& path);

@@ -13,7 +13,7 @@
 
 namespace viscontact {
 
-LockedFolder::LockedFolder(std::filesystem::path path, const std::string& held)
+LockedFolder::LockedFolder(std::filesystem::path path, const std::string& message)
     : path_(std::move(path)) {
   std::error_code said_below;
   made_ = !std::filesystem::exists(path_, said_below) && !said_below;
@@ -22,7 +22,7 @@ LockedFolder::LockedFolder(std::filesystem::path path, const std::string& held)
   // A folder that cannot be opened or locked (on a file system without locks, for example) is not
   // an error here. Whether files can be written into it shows when the first one is written.
   if (lock_.get() >= 0 && ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw_bad_input({path_.string()}, held);
+    throw_bad_input({path_.string()}, message);
 }
 
 LockedFolder::~LockedFolder() {

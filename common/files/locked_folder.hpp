@@ -15,8 +15,8 @@ namespace viscontact {
 class LockedFolder {
  public:
   /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another
-  /// process has locked it; then the message ends with `held`.
-  LockedFolder(std::filesystem::path path, const std::string& held);
+  /// process has locked it; then its message ends with `message`.
+  LockedFolder(std::filesystem::path path, const std::string& message);
   ~LockedFolder();
   LockedFolder(const LockedFolder&) = delete;
   LockedFolder& operator=(const LockedFolder&) = delete;

@@ -19,7 +19,6 @@
 #include <system_error>
 
 #include "viscontact/common/files/descriptor.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 
 namespace viscontact {
 namespace {
@@ -61,19 +60,19 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 
 using Clock = std::chrono::steady_clock;
 
-/// Sends `input` to the child and collects its output, until the child closes its output, the user
-/// interrupts, or `deadline` has passed.
+/// Sends `input` to the child and collects its output, until the child closes its output, a stop is
+/// requested, or `deadline` has passed.
 std::string converse(Descriptor& to_child, int from_child, std::string_view input,
-                     Clock::time_point deadline) {
+                     Clock::time_point deadline, const StopToken& stop) {
   std::string output;
   if (input.empty()) to_child.close();
   for (;;) {
     std::array<pollfd, 2> files = {pollfd{from_child, POLLIN, 0},
                                    pollfd{to_child.get(), POLLOUT, 0}};
-    // The longest delay until an interrupt is noticed.
+    // The longest delay until a stop is noticed.
     constexpr int kMilliseconds = 100;
     const int ready = ::poll(files.data(), to_child.get() >= 0 ? 2 : 1, kMilliseconds);
-    if (interrupted() || Clock::now() > deadline) return output;
+    if (stop.stop_requested() || Clock::now() > deadline) return output;
     if (ready <= 0) continue;
     if (to_child.get() >= 0 && files[1].revents != 0) {
       const ssize_t count =
@@ -94,21 +93,21 @@ struct ChildEnd {
   int status = 0;  ///< status from wait4
   rusage usage{};
   /// Why the child was killed, if it was.
-  bool interrupted = false, timed_out = false;
+  bool stopped = false, timed_out = false;
 };
 
-/// Waits until the child has ended. Kills its process group first if the user interrupts or
+/// Waits until the child has ended. Kills its process group first if a stop is requested or
 /// `deadline` passes. Both are checked here, too, because a child can close its output and go on.
-ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
+ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
   constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two checks
   ChildEnd end;
   for (int pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
-    const bool to_kill = !end.interrupted && !end.timed_out;
-    if (to_kill && interrupted())
-      end.interrupted = true;
+    const bool to_kill = !end.stopped && !end.timed_out;
+    if (to_kill && stop.stop_requested())
+      end.stopped = true;
     else if (to_kill && Clock::now() > deadline)
       end.timed_out = true;
-    if (to_kill && (end.interrupted || end.timed_out)) ::kill(-child, SIGKILL);
+    if (to_kill && (end.stopped || end.timed_out)) ::kill(-child, SIGKILL);
     const pid_t ended = ::wait4(child, &end.status, WNOHANG, &end.usage);
     if (ended == child || (ended < 0 && errno != EINTR)) return end;
     ::poll(nullptr, 0, pause);
@@ -138,7 +137,8 @@ ChildEnd wait_for_end(pid_t child, Clock::time_point deadline) {
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment, const std::string& input,
                           const std::string& folder,
-                          std::optional<std::chrono::milliseconds> time_limit) {
+                          std::optional<std::chrono::milliseconds> time_limit,
+                          const StopToken& stop) {
   const auto deadline = time_limit ? Clock::now() + *time_limit : Clock::time_point::max();
   Pipe in = make_pipe();
   Pipe out = make_pipe();
@@ -167,11 +167,11 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   }
   ProcessResult result;
   result.started = true;
-  result.output = converse(in.write_end, out.read_end.get(), input, deadline);
-  const auto [status, usage, cut_short, timed_out] = wait_for_end(child, deadline);
+  result.output = converse(in.write_end, out.read_end.get(), input, deadline, stop);
+  const auto [status, usage, stopped, timed_out] = wait_for_end(child, deadline, stop);
   result.timed_out = timed_out;
-  // A child that ended because the user interrupted has no result.
-  if (cut_short || WIFSIGNALED(status)) throw_if_interrupted();
+  // A child that was killed because of a stop has no result.
+  if (stopped || WIFSIGNALED(status)) stop.throw_if_stop_requested();
   result.exit_status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   if (WIFSIGNALED(status)) {
     if (!result.output.empty() && result.output.back() != '\n') result.output += '\n';

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
+
 namespace viscontact {
 
 struct ProcessResult {
@@ -25,11 +27,12 @@ struct ProcessResult {
 /// that the child may take; then the child and all processes that it started are killed, and the
 /// result is `timed_out`.
 ///
-/// If the user interrupts, the child is killed and Error(kInterrupted) is thrown. The child also
+/// If `stop` requests a stop, the child is killed and Error(kInterrupted) is thrown. The child also
 /// ends when the thread or the process that started it ends, even by SIGKILL.
 ProcessResult run_process(const std::vector<std::string>& arguments,
                           const std::vector<std::string>& environment = {},
                           const std::string& input = {}, const std::string& folder = {},
-                          std::optional<std::chrono::milliseconds> time_limit = {});
+                          std::optional<std::chrono::milliseconds> time_limit = {},
+                          const StopToken& stop = {});
 
 }  // namespace viscontact

@@ -11,8 +11,7 @@
 namespace viscontact {
 
 struct ThreadPool::Workers {
-  void (*call)(const void*, std::size_t) = nullptr;
-  const void* job = nullptr;
+  const std::function<void(std::size_t)>* body = nullptr;
   std::size_t blocks = 0;
   std::atomic<std::size_t> next{0};  // next block to be computed
   std::atomic<unsigned> round{0};    // number of the loop; its change wakes the workers
@@ -26,7 +25,7 @@ struct ThreadPool::Workers {
   void work() {
     for (std::size_t block = next.fetch_add(1); block < blocks; block = next.fetch_add(1)) {
       try {
-        call(job, block);
+        (*body)(block);
       } catch (...) {
         const std::lock_guard lock(failing);
         if (!failure) failure = std::current_exception();
@@ -69,14 +68,13 @@ ThreadPool::~ThreadPool() {
   for (auto& thread : workers_->threads) thread.join();
 }
 
-void ThreadPool::run(std::size_t blocks, void (*call)(const void*, std::size_t), const void* job) {
+void ThreadPool::run(std::size_t blocks, const std::function<void(std::size_t)>& body) {
   if (!workers_) {
-    for (std::size_t block = 0; block < blocks; ++block) call(job, block);
+    for (std::size_t block = 0; block < blocks; ++block) body(block);
     return;
   }
   auto& w = *workers_;
-  w.call = call;
-  w.job = job;
+  w.body = &body;
   w.blocks = blocks;
   w.next.store(0);
   w.busy.store(static_cast<int>(w.threads.size()));

@@ -23,9 +23,10 @@
 #include <vector>
 
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
 namespace {
@@ -39,9 +40,9 @@ viscontact::Motion lecture_motion() {
                             .initial_velocity = 0,
                             .end_time = 4,
                             .external_force = viscontact::ExternalForce(pieces)};
-  motion.reference_time_step = 1e-3;  // the rows of `inertial` are as far apart
-  motion.inertial_relative_tolerance = 1e-9;
-  motion.contact_time_step = 1e-3;
+  motion.set(viscontact::kReferenceTimeStep, 1e-3);  // the rows of `inertial` are as far apart
+  motion.set(viscontact::kRelativeTolerance, 1e-9);
+  motion.set(viscontact::kContactTimeStep, 1e-3);
   return motion;
 }
 

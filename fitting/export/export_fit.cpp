@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "viscontact/common/text_kind.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/common/text/text_kind.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 
 namespace viscontact {
 

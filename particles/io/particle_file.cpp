@@ -11,9 +11,9 @@
 #include <sstream>
 #include <unordered_map>
 
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact::particles {
 namespace {

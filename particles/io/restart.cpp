@@ -1,5 +1,5 @@
 // The binary restart file (restart.hpp). Files of version 1 must stay readable; a change of the
-// fields of State or Film needs a new version.
+// fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void for_fields(State& state, Field&& field) {
   field(state.pairs);
   field(state.walls);
   field(state.positions_at_listing);
-  field(state.reaches);
+  field(state.skins);
 }
 
 class Writer {
@@ -74,18 +74,18 @@ class Reader {
     values.resize(static_cast<std::size_t>(count));
     if (count > 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
   }
-  void operator()(std::vector<Film>& films) {
-    if (!version_1_) return operator()<Film>(films);
+  void operator()(std::vector<Pair>& pairs) {
+    if (!version_1_) return operator()<Pair>(pairs);
     // Version 1 did not record the error of gamma.
-    struct FilmOfVersion1 {
+    struct PairOfVersion1 {
       std::int32_t first, second;
       double gamma, impulse;
     };
-    std::vector<FilmOfVersion1> old;
-    operator()<FilmOfVersion1>(old);
-    films.clear();
-    for (const auto& film : old)
-      films.push_back({film.first, film.second, film.gamma, film.impulse, 0});
+    std::vector<PairOfVersion1> old;
+    operator()<PairOfVersion1>(old);
+    pairs.clear();
+    for (const auto& pair : old)
+      pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, 0});
   }
   bool at_end() const { return bytes_.empty(); }
   [[noreturn]] void throw_short() const {
@@ -148,18 +148,17 @@ State read_restart(const std::filesystem::path& path) {
       (p.dimension == 2 || p.dimension == 3) && p.positions.size() == numbers &&
       p.velocities.size() == numbers && p.masses.size() == p.count() &&
       (state.positions_at_listing.empty() ||
-       (state.positions_at_listing.size() == numbers && state.reaches.size() == p.count()));
+       (state.positions_at_listing.size() == numbers && state.skins.size() == p.count()));
   if (!consistent) reader.throw_short();
-  const auto in_range = [&](const Film& film, bool wall) {
-    return film.second >= 0 && static_cast<std::size_t>(film.second) < p.count() &&
-           (wall ? film.first < 0 : film.first >= 0 && film.first < film.second) &&
-           film.gamma <= 0 && std::isfinite(film.gamma) && std::isfinite(film.impulse) &&
-           film.gamma_error >= 0;
-  };
-  for (const auto& film : state.pairs)
-    if (!in_range(film, false)) reader.throw_short();
-  for (const auto& film : state.walls)
-    if (!in_range(film, true)) reader.throw_short();
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs) {
+      const bool first_in_range =
+          pairs == &state.walls ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
+      if (!first_in_range || pair.second < 0 || index_of(pair.second) >= p.count() ||
+          !(pair.gamma <= 0) || !std::isfinite(pair.gamma) || !std::isfinite(pair.impulse) ||
+          !(pair.gamma_error >= 0))
+        reader.throw_short();
+    }
   return state;
 }
 

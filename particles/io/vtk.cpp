@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/pipeline/particles/particles_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact {
@@ -41,11 +41,12 @@ std::string difference(const Provenance& before, const Provenance& now) {
     return found == provenance.versions.end() ? std::string() : found->second;
   };
   if (version(before) != version(now))
-    return fmt::format("is of Viscontact {}, this is {}", version(before), version(now));
-  if (before.inputs.size() != now.inputs.size()) return "is of other input files";
+    return fmt::format("was made by Viscontact {}, and this is Viscontact {}", version(before),
+                       version(now));
+  if (before.inputs.size() != now.inputs.size()) return "has other input files";
   for (std::size_t i = 0; i < now.inputs.size(); ++i)
     if (now.inputs[i].sha256.empty() || before.inputs[i].sha256 != now.inputs[i].sha256)
-      return fmt::format("is of another {} than the present one", now.inputs[i].file);
+      return fmt::format("was made from another version of {}", now.inputs[i].file);
   return "";
 }
 
@@ -61,19 +62,19 @@ void check_same_particles(const particles::State& state, const ParticlesCase& c,
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
     throw_bad_input({restart.string()},
-                    fmt::format("is of other particles than {}: {}; a case that continues a "
+                    fmt::format("has other particles than {}: {}; a case that continues a "
                                 "run must have the same particles in the same order",
                                 c.path.string(), what));
   };
   if (p.dimension != c.particles.dimension)
     differs(fmt::format("{} dimensions, not {}", p.dimension, c.particles.dimension));
   if (p.count() != c.particles.count())
-    differs(fmt::format("{}, not {}", p.count(), c.particles.count()));
-  if (p.radii != c.particles.radii) differs("with other radii");
-  if (p.masses != c.particles.masses) differs("with other masses");
+    differs(fmt::format("{} particles, not {}", p.count(), c.particles.count()));
+  if (p.radii != c.particles.radii) differs("other radii");
+  if (p.masses != c.particles.masses) differs("other masses");
   for (const auto& film : state.walls)
     if (static_cast<std::size_t>(-1 - film.first) >= c.setting.planes.size())
-      differs(fmt::format("at plane {}, which is not there", -film.first));
+      differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
 }
 
 std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
@@ -82,9 +83,10 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   if (!fs::is_regular_file(restart)) return {};
   try {
     const auto before = provenance_at_head(restart);
-    const std::string other = before ? difference(*before, provenance) : "says not of what it is";
+    const std::string other =
+        before ? difference(*before, provenance) : "does not say what it was made from";
     if (!other.empty()) {
-      say(fmt::format("particles: the run in {} {}: it is replaced by one from the start",
+      say(fmt::format("particles: the run in {} {}, so it is replaced by a run from the start",
                       folder.string(), other));
       return {};
     }
@@ -99,7 +101,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     return EarlierRun{std::move(state), std::move(record), std::move(frames)};
   } catch (const Error& error) {
     say(
-        fmt::format("particles: the run in {} cannot be gone on with ({}): it is replaced by one "
+        fmt::format("particles: the run in {} cannot be continued ({}), so it is replaced by a run "
                     "from the start",
                     folder.string(), error.what()));
     return {};
@@ -119,29 +121,6 @@ bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& 
   } catch (const std::exception&) {
     return false;  // a damaged file: the run continues and writes it again
   }
-}
-
-bool is_named_as_frame(const fs::path& path) {
-  constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  constexpr std::size_t kDigits = 5;  // smallest number of digits
-  const std::string name = path.filename();
-  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
-      name.size() < kBegin.size() + kDigits + kEnd.size())
-    return false;
-  const auto digits =
-      std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
-  return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
-}
-
-void remove_later_frames(const EarlierRun& run, const fs::path& folder) {
-  const auto& frames = run.frames.files();
-  std::vector<fs::path> later;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path()) &&
-        std::ranges::find(frames, entry.path().filename().string(), &FrameFile::second) ==
-            frames.end())
-      later.push_back(entry.path());
-  for (const auto& frame : later) remove_file(frame);
 }
 
 }  // namespace viscontact

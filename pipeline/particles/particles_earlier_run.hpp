@@ -37,16 +37,4 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
 bool is_finished(const EarlierRun& run, const ParticlesCase& c,
                  const std::filesystem::path& folder);
 
-/// Removes the frames in the folder that are not frames of `run`. These are the frames that were
-/// written after the last restart.bin, and the frame that was written because of the interrupt.
-void remove_later_frames(const EarlierRun& run, const std::filesystem::path& folder);
-
-/// True for a file name of the form particles_NNNNN.vtp.
-bool is_named_as_frame(const std::filesystem::path& path);
-
-/// The names of all files of a run, except its frames.
-inline constexpr const char* kParticleResults[] = {
-    "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
-    "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
-
 }  // namespace viscontact

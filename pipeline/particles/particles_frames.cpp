@@ -8,7 +8,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 

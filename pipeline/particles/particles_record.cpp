@@ -1,4 +1,5 @@
-// Writing and reading steps.csv: comment lines with the sums as JSON, then the rows of steps.
+// Writing and reading steps.csv (comment lines with the sums as JSON, then the rows of steps), and
+// writing run.json.
 #include "viscontact/pipeline/particles/particles_record.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact {
 namespace {
@@ -26,10 +28,22 @@ std::string comment_begin(std::int64_t last_step) {
   return fmt::format("# record after step {}: ", last_step);
 }
 
-/// Assigns the value of `key` to `value`. Throws Json::exception if there is none of this type.
-template <class Value>
-void get(const Json& json, const char* key, Value& value) {
-  json.at(key).get_to(value);
+/// Calls `visit` with the key and the value of each sum in a comment of steps.csv, in its order.
+template <class Totals, class Visit>
+void for_each_sum(Totals& sums, const Visit& visit) {
+  visit("steps", sums.steps);
+  visit("unconverged", sums.unconverged);
+  visit("iterations", sums.iterations);
+  visit("most_iterations", sums.most_iterations);
+  visit("first_time", sums.first_time);
+  visit("last_time", sums.last_time);
+  visit("largest_residual", sums.largest_residual);
+  visit("largest_overlap", sums.largest_overlap);
+  visit("largest_impulse_residual", sums.largest_impulse_residual);
+  visit("divided", sums.divided);
+  visit("unresolved", sums.unresolved);
+  visit("seconds", sums.seconds);
+  visit("peak_memory_mebibytes", sums.peak_memory_mebibytes);
 }
 
 /// The header line of `text` and its rows up to the step `last_step`.
@@ -70,20 +84,38 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
 }
 
 std::string record_comment(const StepTotals& sums) {
-  const Json json = {{"steps", sums.steps},
-                     {"unconverged", sums.unconverged},
-                     {"iterations", sums.iterations},
-                     {"most_iterations", sums.most_iterations},
-                     {"first_time", sums.first_time},
-                     {"last_time", sums.last_time},
-                     {"largest_residual", sums.largest_residual},
-                     {"largest_overlap", sums.largest_overlap},
-                     {"largest_impulse_residual", sums.largest_impulse_residual},
-                     {"divided", sums.divided},
-                     {"unresolved", sums.unresolved},
-                     {"seconds", sums.seconds},
-                     {"peak_memory_mebibytes", sums.peak_memory_mebibytes}};
+  Json json;
+  for_each_sum(sums, [&](const char* key, const auto& value) { json[key] = value; });
   return comment_begin(sums.last_step) + json.dump() + "\n";
+}
+
+std::string run_json(const ParticlesCase& c, const StepTotals& record,
+                     const particles::Simulation& simulation) {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
+  Json json;
+  json["title"] = c.title;
+  json["particles"] = simulation.state().particles.count();
+  json["dimension"] = simulation.state().particles.dimension;
+  json["from_time"] = record.first_time;
+  json["to_time"] = record.last_time;
+  json["time_step"] = c.setting.time_step;
+  json["steps"] = record.steps;
+  json["unconverged_steps"] = record.unconverged;
+  json["iterations"] = record.iterations;
+  json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
+  json["largest_iterations"] = record.most_iterations;
+  json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
+  json["largest_residual"] = record.largest_residual;
+  json["largest_impulse_residual"] = record.largest_impulse_residual;
+  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
+  json["divided_steps"] = record.divided;
+  json["unresolved_contacts"] = record.unresolved;
+  json["largest_overlap"] = record.largest_overlap;
+  json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
+  json["seconds"] = record.seconds;
+  json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
+  return json.dump(2) + "\n";
 }
 
 StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step) {
@@ -98,19 +130,7 @@ StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last
   try {
     const Json json =
         Json::parse(text.substr(json_begin, text.find('\n', json_begin) - json_begin));
-    get(json, "steps", record.steps);
-    get(json, "unconverged", record.unconverged);
-    get(json, "iterations", record.iterations);
-    get(json, "most_iterations", record.most_iterations);
-    get(json, "first_time", record.first_time);
-    get(json, "last_time", record.last_time);
-    get(json, "largest_residual", record.largest_residual);
-    get(json, "largest_overlap", record.largest_overlap);
-    get(json, "largest_impulse_residual", record.largest_impulse_residual);
-    get(json, "divided", record.divided);
-    get(json, "unresolved", record.unresolved);
-    get(json, "seconds", record.seconds);
-    get(json, "peak_memory_mebibytes", record.peak_memory_mebibytes);
+    for_each_sum(record, [&](const char* key, auto& value) { json.at(key).get_to(value); });
   } catch (const Json::exception&) {
     throw_bad_input({path.string()}, fmt::format("its record after step {} is damaged", last_step));
   }

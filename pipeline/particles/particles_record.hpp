@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact {
@@ -40,6 +41,10 @@ struct StepRecord : StepTotals {
 
 /// The comment line of steps.csv that contains the sums.
 std::string record_comment(const StepTotals& sums);
+
+/// The text of run.json at the end of a run with these sums.
+std::string run_json(const ParticlesCase& c, const StepTotals& record,
+                     const particles::Simulation& simulation);
 
 /// Reads from steps.csv the record as it was after the step `last_step` (0: before the first step).
 /// The file may contain later rows, because it is written before restart.bin; they are left out.

@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -18,17 +16,16 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
-#include "viscontact/common/system/interrupt.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/pipeline/particles/particles_earlier_run.hpp"
+#include "viscontact/pipeline/particles/particles_folder.hpp"
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 #include "viscontact/pipeline/particles/particles_record.hpp"
 #include "viscontact/report/particles/particles_page.hpp"
 #include "viscontact/report/particles/particles_picture.hpp"
-#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -67,95 +64,28 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
   return state;
 }
 
-/// The content of run.json.
-nlohmann::ordered_json record_of(const ParticlesCase& c, const StepTotals& record,
-                                 const Simulation& simulation) {
-  const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
-  nlohmann::ordered_json json;
-  json["title"] = c.title;
-  json["particles"] = simulation.state().particles.count();
-  json["dimension"] = simulation.state().particles.dimension;
-  json["from_time"] = record.first_time;
-  json["to_time"] = record.last_time;
-  json["time_step"] = c.setting.time_step;
-  json["steps"] = record.steps;
-  json["unconverged_steps"] = record.unconverged;
-  json["iterations"] = record.iterations;
-  json["mean_iterations"] = static_cast<double>(record.iterations) / steps;
-  json["largest_iterations"] = record.most_iterations;
-  json["tolerance"] = c.setting.solver.tolerance;
-  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
-  json["largest_residual"] = record.largest_residual;
-  json["largest_impulse_residual"] = record.largest_impulse_residual;
-  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
-  json["divided_steps"] = record.divided;
-  json["unresolved_contacts"] = record.unresolved;
-  json["largest_overlap"] = record.largest_overlap;
-  json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
-  json["seconds"] = record.seconds;
-  json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
-  return json;
-}
-
-/// Removes the files of an earlier run, so that the folder never contains files of two runs.
-void remove_earlier_run(const fs::path& folder) {
-  for (const auto* name : kParticleResults) remove_file(folder / name);
-  std::vector<fs::path> frames;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path())) frames.push_back(entry.path());
-  for (const auto& frame : frames) remove_file(frame);
-}
-
-/// Throws Error(kBadInput) if a file in the folder has the name of a result but Viscontact did not
-/// write it.
-void check_folder_is_ours(const fs::path& folder) {
-  const auto check = [](const fs::path& path) { refuse_other_kind(path, "", "result"); };
-  for (const auto* name : kParticleResults) check(folder / name);
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_named_as_frame(entry.path())) check(entry.path());
-}
-
-/// Throws Error(kBadInput) if the run would overwrite one of its inputs.
-void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
-  std::error_code none;
-  if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
-    throw_bad_input(
-        {restart.string()},
-        "belongs to the run in the output folder, whose frames and record would be lost; choose "
-        "another folder, or leave out --restart: the same command continues an interrupted run in "
-        "its own folder");
-  for (const auto& input : {c.path, c.particles_file}) {
-    if (input.empty()) continue;
-    for (const auto* output : kParticleResults) {
-      std::error_code ignored;
-      if (fs::equivalent(input, folder / output, ignored))
-        throw_bad_input({input.string()}, "would be overwritten by the run's " +
-                                              std::string(output) + "; choose another folder");
-    }
-  }
-}
-
 /// A run with its state, frames and record, which can be written at any time.
 class Run {
  public:
   /// `record` and `frames` are those of the interrupted run that continues, or new ones.
   Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance,
-      StepRecord record, ParticleFrames frames)
+      StepRecord record, ParticleFrames frames, const StopToken& stop)
       : case_(c),
         simulation_(simulation),
         folder_(std::move(folder)),
         provenance_(provenance),
         frames_(std::move(frames)),
         record_(std::move(record)),
-        earlier_(record_) {}
+        earlier_(record_),
+        stop_(stop) {}
 
-  /// Computes steps until the end time, or until the user interrupts the run.
+  /// Computes steps until the end time, or until a stop is requested.
   void simulate() {
     if (frames_.files().empty()) frames_.add(simulation_);
     save();
     const auto times = frame_times(case_, record_.first_time);
     double next_frame = times.after(frames_.files().back().first);
-    while (simulation_.state().time < case_.end_time - times.tiny && !interrupted()) {
+    while (simulation_.state().time < case_.end_time - times.tiny && !stop_.stop_requested()) {
       const auto report = simulation_.step(case_.end_time);
       record_.add(simulation_.state().steps, report);
       if (report.time >= next_frame - times.tiny) {
@@ -182,7 +112,7 @@ class Run {
     write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           particles_picture(frames_.playback(), case_.title, kPanels));
-    const auto json = record_of(case_, with_costs(), simulation_).dump(2) + "\n";
+    const auto json = run_json(case_, with_costs(), simulation_);
     write("run.json", TextKind::kJson, json);
     return json;
   }
@@ -224,12 +154,10 @@ class Run {
   }
 
   void tell(const StepReport& report) {
-    constexpr double kEvery = 0.2;  // [s]
-    if (seconds_since(last_word_) < kEvery) return;
+    if (!progress_.is_due()) return;
     show_progress(fmt::format(
         "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
         case_.end_time, report.contacts, report.iterations, seconds_since(begin_)));
-    last_word_ = Clock::now();
   }
 
   const ParticlesCase& case_;
@@ -239,13 +167,15 @@ class Run {
   ParticleFrames frames_;
   StepRecord record_;
   StepTotals earlier_;  // the sums when restart.bin was last written
-  Clock::time_point begin_ = Clock::now(), last_word_ = begin_, last_saved_ = begin_;
+  StopToken stop_;
+  Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
+  ProgressTimer progress_;
 };
 
 /// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
 /// interrupted, Error(kNotConverged) if a step did not converge.
 void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
-                                   const fs::path& folder) {
+                                   const fs::path& folder, const StopToken& stop) {
   say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
@@ -263,10 +193,10 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
         "other by more than half the sum of their radii even in a {}th of the time step "
         "(steps.csv says when); use a shorter time_step",
         record.unresolved, 1 << Simulation::kMostHalvings));
-  if (interrupted())
+  if (stop.stop_requested())
     say(fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
                     record.last_time));
-  throw_if_interrupted();
+  stop.throw_if_stop_requested();
   if (record.unconverged > 0)
     throw Error(
         ErrorKind::kNotConverged,
@@ -281,11 +211,11 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
 }
 
 /// Says of a finished run what the call that finished it said, and throws the same error.
-void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
-                   bool json) {
+void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
+                   const StopToken& stop) {
   if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
   say(fmt::format("particles: {} is up to date", folder.string()));
-  warn_or_fail_if_not_converged(c, run.record, folder);
+  warn_or_fail_if_not_converged(c, run.record, folder, stop);
 }
 
 }  // namespace
@@ -300,28 +230,30 @@ void run_particles(const ParticlesRequest& request) {
   check_inputs_stay(c, request.restart, folder);
   auto state = first_state(c, request.restart);
   const LockedFolder ours(folder, kFolderIsHeld);
-  check_folder_is_ours(folder);
+  check_results(folder);
   auto earlier = find_earlier_run(c, folder, provenance);
   if (earlier && is_finished(*earlier, c, folder)) {
-    tell_finished(c, *earlier, folder, request.json);
+    tell_finished(c, *earlier, folder, request.json, request.stop);
     return;
   }
   StepRecord record;
   ParticleFrames frames(folder, provenance, c.particles);
   if (earlier) {
-    remove_later_frames(*earlier, folder);
+    // These are the frames that were written after the last restart.bin, and the frame that was
+    // written because of the interrupt.
+    remove_other_frames(earlier->frames.files(), folder);
     say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
                     folder.string(), earlier->state.time, earlier->state.steps));
     state = std::move(earlier->state);
     record = std::move(earlier->record);
   } else {
-    remove_earlier_run(folder);
+    remove_results(folder);
     record.first_time = record.last_time = state.time;
     record.last_step = state.steps;
   }
   Simulation simulation(c.setting, std::move(state), request.threads);
   Run run(c, simulation, folder, provenance, std::move(record),
-          earlier ? std::move(earlier->frames) : std::move(frames));
+          earlier ? std::move(earlier->frames) : std::move(frames), request.stop);
   try {
     run.simulate();
   } catch (const Error&) {
@@ -335,7 +267,7 @@ void run_particles(const ParticlesRequest& request) {
   }
   const auto json = run.write_results();
   if (request.json) fmt::print("{}", json);
-  warn_or_fail_if_not_converged(c, run.record(), folder);
+  warn_or_fail_if_not_converged(c, run.record(), folder, request.stop);
 }
 
 }  // namespace viscontact

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "viscontact/common/stop_token.hpp"
+
 namespace viscontact {
 
 /// The options of the command `particles`.
@@ -11,6 +13,7 @@ struct ParticlesRequest {
   std::string case_file, folder, restart;
   int threads = 1;
   bool json = false;  ///< true: print run.json to standard output
+  StopToken stop{};
 };
 
 /// Reads the case, simulates, and writes the files of docs/file-formats.md into the folder. If the
@@ -18,7 +21,7 @@ struct ParticlesRequest {
 /// inputs is left as it is; the files of any other run are removed at the beginning. Throws
 /// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
 /// must not be replaced. Throws after everything is written: Error(kNotConverged) if a step did not
-/// reach the tolerance or cannot be computed, Error(kInterrupted) if the user interrupted the run.
+/// reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact

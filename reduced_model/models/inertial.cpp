@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/common/bisection.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/root_finding.hpp"
+#include "viscontact/reduced_model/external_force/polynomial.hpp"
 #include "viscontact/reduced_model/integration/cvode.hpp"
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
@@ -20,7 +21,7 @@ class InertialRun {
  public:
   InertialRun(const Motion& motion, const LubricationForce& force)
       : motion_(motion),
-        equation_(motion, force),
+        equation_(motion, force, motion.parameter(kRelativeTolerance)),
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
@@ -94,9 +95,7 @@ class InertialRun {
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
     const auto instant = [&](double t) {
       if (!many) return instant_of(t, cvode_.at(t));
-      double s = 0;
-      for (std::size_t k = expansion.size(); k-- > 0;) s = s * (t - end) + expansion[k];
-      return instant_of(t, s);
+      return instant_of(t, polynomial::value(expansion, t - end));
     };
     const auto add_rows_before = [&](double time) {
       for (; next_row_ != times_.end() && *next_row_ < time; ++next_row_)

@@ -2,11 +2,22 @@
 // masses and times are in any one consistent system of units.
 #pragma once
 
+#include <array>
+
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
+
+/// Relative tolerance of the gap [1].
+inline constexpr ModelParameter kRelativeTolerance = {
+    "inertial.relative_tolerance",
+    "relative tolerance of the gap in inertial",
+    "1",
+    {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"},
+    [](const Motion&, double) { return 1e-9; }};
+inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelativeTolerance};
 
 /// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.
 ///
@@ -16,8 +27,8 @@ namespace viscontact {
 /// extended precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
-/// motion.reference_time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in
-/// a step is at most a tenth of motion.inertial_relative_tolerance, and 3e-4 of that in free
+/// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in
+/// a step is at most a tenth of inertial.relative_tolerance, and 3e-4 of that in free
 /// flight. If a film stops a fall within 1e-12 of t, which no step can resolve, the fall ends at
 /// once in that film.
 ///

@@ -8,9 +8,11 @@
 
 namespace viscontact {
 
-InertialEquation::InertialEquation(const Motion& motion, const LubricationForce& force)
+InertialEquation::InertialEquation(const Motion& motion, const LubricationForce& force,
+                                   double relative_tolerance)
     : motion_(motion),
       force_(force),
+      relative_tolerance_(relative_tolerance),
       momentum_at_start_(motion.mass * motion.initial_velocity +
                          force.impulse(motion.initial_gap)) {}
 
@@ -52,8 +54,7 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
     const double q = gap_of(y[0]);
     const double damping = force_.resistance(q) / motion_.mass + slope(t, q);
     const double share = damping * motion_.end_time > kManyDampings ? 1 : kFlightShare;
-    allowed[0] =
-        share * (kShare * motion_.inertial_relative_tolerance) + kRounding * std::abs(y[0]);
+    allowed[0] = share * (kShare * relative_tolerance_) + kRounding * std::abs(y[0]);
   };
   return system;
 }
@@ -65,7 +66,7 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   const double by_momentum = (momentum(t) - absorbed) / m;
   const double resistance = force_.resistance(q);
   const double momentum_error = (kEpsilon * (std::abs(momentum(t)) + std::abs(absorbed)) +
-                                 motion_.inertial_relative_tolerance * resistance * q) /
+                                 relative_tolerance_ * resistance * q) /
                                 m;
   // With so much inertia, and at least three digits in the momentum, the balance below has fewer
   // digits than the momentum, whatever the tolerance.

@@ -26,9 +26,10 @@ struct InertialInstant {
 };
 
 /// Equation (S) and what follows from a solution of it. Motion and force must outlive the object.
+/// `relative_tolerance` is that of the gap [1].
 class InertialEquation {
  public:
-  InertialEquation(const Motion& motion, const LubricationForce& force);
+  InertialEquation(const Motion& motion, const LubricationForce& force, double relative_tolerance);
 
   double gap_of(double s) const;      ///< q = r e^s [L]
   double state_of(double gap) const;  ///< s = ln(q/r)
@@ -67,6 +68,7 @@ class InertialEquation {
 
   const Motion& motion_;
   const LubricationForce& force_;
+  double relative_tolerance_;
   double momentum_at_start_;  // P(0)
 };
 

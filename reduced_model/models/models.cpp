@@ -13,78 +13,71 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
-#include "viscontact/reduced_model/integration/explicit_euler.hpp"
-#include "viscontact/reduced_model/models/inelastic_contact.hpp"
+#include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/explicit_euler.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
 
 namespace viscontact {
 namespace {
 
-constexpr bool kByDefault = true;
-constexpr bool kOnRequest = false;
-constexpr bool kInertia = true;
-constexpr bool kNoInertia = false;
-constexpr auto kNoContact = nullptr;
+constexpr bool kByDefault = true, kOnRequest = false;
+constexpr bool kInertia = true, kNoInertia = false;
+constexpr bool kFluid = true, kNoFluid = false;
+
+constexpr std::array kReferenceParameters = {kReferenceTimeStep};
+constexpr std::array kContactParameters = {kContactTimeStep};
 
 constexpr std::array kModels = {
     Model{"reference", "no inertia, explicit Euler (the lecture's)", simulate_reference, nullptr,
-          kByDefault, kNoInertia, "fluid.viscosity sphere.radius reference.time_step",
-          TimeSteps::kReference},
+          kByDefault, kNoInertia, kFluid, kReferenceParameters, &kReferenceTimeStep},
     Model{"reference_exact", "no inertia, first integral", simulate_reference_exact, nullptr,
-          kByDefault, kNoInertia, "fluid.viscosity sphere.radius reference.time_step"},
-    Model{"inertial", "with inertia, CVODE", simulate_inertial, kNoContact, kByDefault, kInertia,
-          "fluid.viscosity sphere.radius reference.time_step inertial.relative_tolerance"},
-    Model{"viscous_contact", "viscous contact", simulate_viscous_contact, viscous_contact,
-          kByDefault, kInertia,
-          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness",
-          TimeSteps::kContact},
-    Model{"viscous_contact_regular_drag", "viscous contact and regular drag",
-          simulate_viscous_contact_regular_drag, viscous_contact_regular_drag, kByDefault, kInertia,
-          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness",
-          TimeSteps::kContact},
+          kByDefault, kNoInertia, kFluid, kReferenceParameters},
+    Model{"inertial", "with inertia, CVODE", simulate_inertial, nullptr, kByDefault, kInertia,
+          kFluid, kInertialParameters},
+    Model{"viscous_contact", "viscous contact", nullptr, viscous_contact, kByDefault, kInertia,
+          kFluid, kContactParameters, &kContactTimeStep},
+    Model{"viscous_contact_regular_drag", "viscous contact and regular drag", nullptr,
+          viscous_contact_regular_drag, kByDefault, kInertia, kFluid, kContactParameters,
+          &kContactTimeStep},
     Model{"viscous_contact_threshold", "whole drag down to a threshold gap, viscous contact there",
-          simulate_viscous_contact_threshold, viscous_contact_threshold, kByDefault, kInertia,
-          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness "
-          "viscous_contact.threshold_gap",
-          TimeSteps::kContact},
+          nullptr, viscous_contact_threshold, kByDefault, kInertia, kFluid, kThresholdParameters,
+          &kContactTimeStep},
     Model{"viscous_contact_exact", "viscous contact from event to event, no time step",
-          simulate_viscous_contact_exact, viscous_contact, kOnRequest, kInertia,
-          "fluid.viscosity sphere.radius viscous_contact.time_step viscous_contact.roughness",
-          TimeSteps::kNone},
-    Model{"inelastic_contact", "plain inelastic contact", simulate_inelastic_contact,
-          inelastic_contact, kOnRequest, kInertia, "viscous_contact.time_step",
-          TimeSteps::kContact},
+          simulate_viscous_contact_exact, viscous_contact, kOnRequest, kInertia, kFluid,
+          kContactParameters, nullptr, "none"},
+    Model{"inelastic_contact", "plain inelastic contact", nullptr, inelastic_contact, kOnRequest,
+          kInertia, kNoFluid, kContactParameters, &kContactTimeStep},
     Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
-          kOnRequest, kInertia, "fluid.viscosity sphere.radius viscous_contact.time_step",
-          TimeSteps::kContact},
+          kOnRequest, kInertia, kFluid, kContactParameters, &kContactTimeStep},
 };
 
 /// The budget of a model whose film is the whole drag. The film's impulse between two rows is the
 /// change of momentum minus the impulse of the force, its work that impulse times the mean
 /// velocity.
-MomentumEnergyBudget books_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
-                                   bool inertia) {
-  MomentumEnergyBudget books;
+MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
+                                    bool inertia) {
+  MomentumEnergyBudget budget;
   const double m = inertia ? motion.mass : 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& a = rows[i - 1];
     const auto& b = rows[i];
     const double push = (b.time - a.time) * motion.external_force.mean(a.time, b.time);
-    books.film_work += (m * (b.velocity - a.velocity) - push) * (a.velocity + b.velocity) / 2;
+    budget.film_work += (m * (b.velocity - a.velocity) - push) * (a.velocity + b.velocity) / 2;
   }
   const auto& first = rows.front();
   const auto& last = rows.back();
-  books.external_impulse = motion.external_force.impulse(last.time);
-  books.film_impulse = m * (last.velocity - first.velocity) - books.external_impulse;
-  books.external_work =
-      m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) - books.film_work;
-  return books;
+  budget.external_impulse = motion.external_force.impulse(last.time);
+  budget.film_impulse = m * (last.velocity - first.velocity) - budget.external_impulse;
+  budget.external_work =
+      m / 2 * (last.velocity - first.velocity) * (last.velocity + first.velocity) -
+      budget.film_work;
+  return budget;
 }
 
 /// Throws Error(kNotConverged) if a number of the trajectory is not finite, or if times do not
@@ -104,9 +97,19 @@ void check_finite(const Trajectory& trajectory) {
           is_number(row.gamma) && is_number(row.solid_force)))
       refuse(row.time);
   for (const auto& entry : kBudgetEntries)
-    if (!std::isfinite((*trajectory.books).*entry.value)) refuse(trajectory.rows.back().time);
+    if (!std::isfinite((*trajectory.budget).*entry.value)) refuse(trajectory.rows.back().time);
   for (std::size_t i = 1; i < trajectory.rows.size(); ++i)
     if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
+}
+
+/// Calls `work`. The messages of its Errors get the name of the model.
+template <class Work>
+void with_name_in_errors(const ModelChoice& choice, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
+  }
 }
 
 }  // namespace
@@ -125,7 +128,24 @@ std::vector<Model> models_on_request() {
   return models;
 }
 
-ModelChoice find_model(std::string_view name) {
+std::vector<ModelParameter> model_parameters() {
+  std::vector<ModelParameter> all;
+  for (const auto& model : kModels)
+    for (const auto& parameter : model.parameters)
+      if (std::ranges::find(all, parameter.key, &ModelParameter::key) == all.end())
+        all.push_back(parameter);
+  return all;
+}
+
+std::vector<std::string_view> model_sections() {
+  std::vector<std::string_view> sections;
+  for (const auto& parameter : model_parameters())
+    if (std::ranges::find(sections, parameter.section()) == sections.end())
+      sections.push_back(parameter.section());
+  return sections;
+}
+
+std::optional<ModelChoice> known_model(std::string_view name) {
   ModelChoice choice{std::string(name)};
   const auto take = [&](std::string_view suffix) {
     const bool has_it = find_named(kModels, name) == nullptr && name.ends_with(suffix);
@@ -137,24 +157,28 @@ ModelChoice find_model(std::string_view name) {
     choice.smooth = choice.smooth || take(kSmoothSuffix);
   }
   const auto* found = find_named(kModels, name);
-  if (found != nullptr && choice.smooth && found->contact == nullptr) found = nullptr;
-  choice.model = found != nullptr ? found : &require_named(kModels, choice.name, "model");
+  if (found == nullptr || (choice.smooth && found->contact == nullptr)) return {};
+  choice.model = found;
   return choice;
+}
+
+ModelChoice find_model(std::string_view name) {
+  if (const auto choice = known_model(name)) return *choice;
+  return {std::string(name), &require_named(kModels, name, "model")};  // throws
 }
 
 bool depends_on(const ModelChoice& choice, std::string_view key) {
   key = key.substr(0, key.find('['));
-  if (key == "sphere.mass" || key == "motion.initial_velocity") return choice.model->inertia;
-  if (key.starts_with("motion.")) return true;
-  if (choice.smooth && key == "viscous_contact.roughness") return false;
-  std::string_view rest = choice.model->settings;
-  if (rest.empty()) return true;
-  while (!rest.empty()) {
-    const auto end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == key) return true;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
+  const Model& model = *choice.model;
+  if (key == "sphere.mass" || key == "motion.initial_velocity") return model.inertia;
+  if (key == "fluid.viscosity" || key == "sphere.radius") return model.fluid;
+  // The roughness bounds the film of contact models, and plain contact has no film.
+  if (key == "viscous_contact.roughness")
+    return model.contact != nullptr && model.fluid && !choice.smooth;
+  const auto has_key = [&](const auto& parameters) {
+    return std::ranges::find(parameters, key, &ModelParameter::key) != std::end(parameters);
+  };
+  return has_key(model.parameters) || !has_key(model_parameters());
 }
 
 Motion motion_of(const ModelChoice& choice, const Motion& motion) {
@@ -174,34 +198,33 @@ LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& forc
 }
 
 void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force) {
-  try {
-    const Motion own_motion = motion_of(choice, motion);
-    const bool contact = choice.model->contact != nullptr;
-    (void)step_count(motion.end_time,
-                     contact ? motion.contact_time_step : motion.reference_time_step);
-    if (contact) (void)choice.model->contact(own_motion, force);
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
-  }
+  with_name_in_errors(choice, [&] {
+    for (const auto& parameter : choice.model->parameters)
+      if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
+    if (choice.model->contact != nullptr)
+      (void)choice.model->contact(motion_of(choice, motion), force);
+  });
 }
 
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
-  try {
+  Trajectory trajectory;
+  with_name_in_errors(choice, [&] {
+    const Model& model = *choice.model;
     const Motion own_motion = motion_of(choice, motion);
     const LubricationForce own_force = drag_of(choice, force);
-    Trajectory trajectory = choice.model->simulate(own_motion, own_force);
+    trajectory = model.simulate != nullptr
+                     ? model.simulate(own_motion, own_force)
+                     : run_contact_model(model.contact, own_motion, own_force);
     trajectory.model = choice.name;
-    if (!trajectory.books)
-      trajectory.books = books_of_drag(trajectory.rows, motion, choice.model->inertia);
+    if (!trajectory.budget)
+      trajectory.budget = budget_of_drag(trajectory.rows, motion, model.inertia);
     check_finite(trajectory);
-    trajectory.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return trajectory;
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
-  }
+  });
+  trajectory.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return trajectory;
 }
 
 }  // namespace viscontact

@@ -2,38 +2,40 @@
 // Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "viscontact/reduced_model/models/contact_model.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/model_parameter.hpp"
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
-
-/// Which steps of time a model makes.
-enum class TimeSteps {
-  kVariable,   ///< those that its integrator chooses
-  kReference,  ///< Motion::reference_time_step
-  kContact,    ///< Motion::contact_time_step
-  kNone        ///< it goes from event to event
-};
 
 /// A model of motion with what the programs must know about it.
 struct Model {
   std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
+  /// Null for a contact model that run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const LubricationForce&);
   /// What gamma stands for; null if it is no contact model.
-  ContactModel (*contact)(const Motion&, const LubricationForce&) = nullptr;
+  MakeContactModel contact = nullptr;
   /// True if it runs when a case names no models.
   bool by_default = true;
   /// True if its motion depends on the mass.
   bool inertia = true;
-  /// The keys of a case on which the model depends, apart from those of [motion], separated by
-  /// blanks. Empty: the model may depend on every key. `inertia` decides on `sphere.mass`.
-  std::string_view settings = {};
-  TimeSteps time_steps = TimeSteps::kVariable;
+  /// True if its motion depends on the drag of the fluid.
+  bool fluid = true;
+  /// The parameters that it reads; all of them have a value in the motion of a case.
+  std::span<const ModelParameter> parameters;
+  /// The parameter that is its time step; null if it has no fixed one.
+  const ModelParameter* time_step = nullptr;
+  /// What trajectory files say of the time step of a model without a fixed one.
+  std::string_view steps = "variable";
 };
 
 /// All models.
@@ -44,6 +46,12 @@ std::vector<Model> default_models();
 
 /// The models that run only when they are named.
 std::vector<Model> models_on_request();
+
+/// The parameters of all models, each once, in the order of the models.
+std::vector<ModelParameter> model_parameters();
+
+/// The sections of a case that these parameters are in, each once, in their order.
+std::vector<std::string_view> model_sections();
 
 /// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
 /// place of the fit, as in inertial_brenner.
@@ -62,12 +70,15 @@ struct ModelChoice {
   bool smooth = false;
 };
 
-/// The model with this name, which may have suffixes. Throws Error(kBadInput), which lists the
-/// names, if there is none.
+/// The model with this name, which may have suffixes; nothing if there is none.
+std::optional<ModelChoice> known_model(std::string_view name);
+
+/// The same. Throws Error(kBadInput), which lists the names, if there is none.
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
-/// change what the model computes.
+/// change what the model computes. True for all keys of [motion] but the initial velocity, and for
+/// keys that are neither of fluid, sphere and roughness nor of a parameter.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
 /// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
@@ -80,18 +91,11 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion);
 std::string description_of(const ModelChoice& choice);
 
 /// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,
-/// but without running the model. Only the interval of `force` matters.
-/// matters.
+/// but without running the model. Of `force`, only the interval matters.
 void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
 
 /// Runs a model and fills in its name, its budget and the wall time. The messages of all Errors
 /// begin with the name of the model.
 Trajectory simulate(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
-
-/// The same with `force` as the drag.
-inline Trajectory simulate(const Model& model, const Motion& motion,
-                           const LubricationForce& force) {
-  return simulate(ModelChoice{std::string(model.name), &model}, motion, force);
-}
 
 }  // namespace viscontact

@@ -8,7 +8,7 @@
 namespace viscontact {
 
 Trajectory simulate_reference(const Motion& motion, const LubricationForce& force) {
-  const double h = motion.reference_time_step;
+  const double h = motion.parameter(kReferenceTimeStep);
   const double end = motion.end_time;
   const int steps = step_count(end, h);
 

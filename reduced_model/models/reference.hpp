@@ -13,7 +13,7 @@ namespace viscontact {
 ///     F_lub(q^n, u^n) + f^n = 0,   that is u^n = f^n / R(q^n),
 ///     q^{n+1} = q^n + h u^n,
 ///
-/// f^n is the mean of f_ext over the step and h = motion.reference_time_step. The scheme is of
+/// f^n is the mean of f_ext over the step and h = reference.time_step. The scheme is of
 /// first order in h, and its film is too thin. Throws Error(kNotConverged) if a step goes through
 /// the wall, and Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_reference(const Motion& motion, const LubricationForce& force);

@@ -12,7 +12,7 @@ namespace viscontact {
 ///
 ///     Gamma(q(t)) = Gamma(q0) + int_0^t f_ext              (first integral (I) with m = 0),
 ///
-/// which is solved for q at the time of each row: the multiples of motion.reference_time_step, and
+/// which is solved for q at the time of each row: the multiples of reference.time_step, and
 /// the jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves
 /// the fit's interval.
 Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce& force);

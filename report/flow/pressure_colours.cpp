@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "viscontact/report/flow/colour_scale.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact {
 namespace {

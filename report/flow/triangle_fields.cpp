@@ -34,7 +34,7 @@ bool touches(const Window& window, const CurvedMesh& mesh, const CurvedMesh::Tri
 /// `weights` are the values there of the six quadratic shape functions, first those of the
 /// vertices, then those of the middles of the opposite sides.
 struct NewPoint {
-  int first, second;
+  std::size_t first, second;
   std::array<double, 6> weights;
 };
 constexpr std::array<NewPoint, 9> kNewPoints = {{
@@ -50,24 +50,22 @@ constexpr std::array<NewPoint, 9> kNewPoints = {{
 }};
 // The 16 triangles. Points 0 to 5 are the nodes; from 6 on they are the new points in the order
 // above.
-constexpr std::array<std::array<int, 3>, 16> kSixteen = {{
-    {0, 6, 11},
-    {6, 5, 12},
-    {6, 12, 11},
-    {11, 12, 4},
-    {5, 7, 13},
-    {7, 1, 8},
-    {7, 8, 13},
-    {13, 8, 3},
-    {4, 14, 10},
-    {14, 3, 9},
-    {14, 9, 10},
-    {10, 9, 2},
-    {5, 13, 12},
-    {12, 13, 14},
-    {12, 14, 4},
-    {13, 3, 14},
-}};
+constexpr std::array<std::array<std::size_t, 3>, 16> kSixteen = {{{0, 6, 11},
+                                                                  {6, 5, 12},
+                                                                  {6, 12, 11},
+                                                                  {11, 12, 4},
+                                                                  {5, 7, 13},
+                                                                  {7, 1, 8},
+                                                                  {7, 8, 13},
+                                                                  {13, 8, 3},
+                                                                  {4, 14, 10},
+                                                                  {14, 3, 9},
+                                                                  {14, 9, 10},
+                                                                  {10, 9, 2},
+                                                                  {5, 13, 12},
+                                                                  {12, 13, 14},
+                                                                  {12, 14, 4},
+                                                                  {13, 3, 14}}};
 
 }  // namespace
 
@@ -105,8 +103,8 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
     }
     for (std::size_t i = 0; i < kNewPoints.size(); ++i) {
       const auto& point = kNewPoints[i];
-      const auto [place, is_new] = new_numbers.try_emplace(pair_key(
-          all[static_cast<std::size_t>(point.first)], all[static_cast<std::size_t>(point.second)]));
+      const auto [place, is_new] =
+          new_numbers.try_emplace(pair_key(all[point.first], all[point.second]));
       if (is_new) {
         double rho = 0, z = 0, value = 0;
         for (std::size_t j = 0; j < 6; ++j) {
@@ -115,15 +113,12 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
           value += point.weights[j] * values[triangle[j]];
         }
         if (!gradient.empty())
-          value = between(triangle[static_cast<std::size_t>(point.first)],
-                          triangle[static_cast<std::size_t>(point.second)], rho, z);
+          value = between(triangle[point.first], triangle[point.second], rho, z);
         place->second = add(rho, z, value);
       }
       all[6 + i] = place->second;
     }
-    for (const auto& [a, b, c] : kSixteen)
-      field.triangles.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)],
-                                 all[static_cast<std::size_t>(c)]});
+    for (const auto& [a, b, c] : kSixteen) field.triangles.push_back({all[a], all[b], all[c]});
   }
   return field;
 }
@@ -186,6 +181,18 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
       if (count > 0) picture[row * columns + column] = sum / count;
     }
   return picture;
+}
+
+std::pair<double, double> extremes(const LinearField& field, const Window& window) {
+  std::pair<double, double> result = {std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < field.points.size(); ++i) {
+    const auto& [rho, z] = field.points[i];
+    if (rho > window.right || z < window.bottom || z > window.top) continue;
+    result.first = std::min(result.first, field.values[i]);
+    result.second = std::max(result.second, field.values[i]);
+  }
+  return result;
 }
 
 std::vector<Polyline> level_lines(const LinearField& field, double level) {

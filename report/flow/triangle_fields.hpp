@@ -40,6 +40,9 @@ LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& valu
 std::vector<double> pixels(const LinearField& field, const Window& window, std::size_t columns,
                            std::size_t rows);
 
+/// The smallest and the largest value at the points in the window.
+std::pair<double, double> extremes(const LinearField& field, const Window& window);
+
 using Polyline = std::vector<std::pair<double, double>>;
 
 /// The lines on which the field equals `level`, joined across triangles.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/report/flow/colour_scale.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact {
 
@@ -16,6 +16,10 @@ double lowest_gamma(const particles::Playback& playback) {
     for (const auto& contact : frame.contacts)
       if (std::isfinite(contact.gamma)) lowest = std::min(lowest, contact.gamma);
   return lowest;
+}
+
+bool has_contact_without_film(const particles::Frame& frame) {
+  return std::ranges::any_of(frame.contacts, [](const auto& c) { return !(c.gamma < 0); });
 }
 
 std::string film_colour(double share) {
@@ -28,16 +32,17 @@ std::string film_colour(double share) {
   return colour_between(kViridis, share);
 }
 
+std::string film_colour(int level, int levels) {
+  return film_colour(static_cast<double>(level) / (levels - 1));
+}
+
 std::vector<double> film_ticks(double lowest) {
   constexpr double kAbout = 4;  // approximate number of intervals between ticks
   const double rough = -lowest / kAbout, decade = std::pow(10, std::floor(std::log10(rough)));
-  double step = 10 * decade;
-  if (rough < 1.5 * decade)
-    step = decade;
-  else if (rough < 3 * decade)
-    step = 2 * decade;
-  else if (rough < 7 * decade)
-    step = 5 * decade;
+  const double step = decade * (rough < 1.5 * decade ? 1
+                                : rough < 3 * decade ? 2
+                                : rough < 7 * decade ? 5
+                                                     : 10);
   std::vector<double> ticks;
   for (int i = 0; i * step <= -lowest * (1 + 1e-9); ++i) ticks.push_back(i == 0 ? 0 : -i * step);
   return ticks;

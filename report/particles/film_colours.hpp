@@ -12,8 +12,13 @@ namespace viscontact {
 /// The most negative gamma of all frames; 0 if no contact has gamma < 0.
 double lowest_gamma(const particles::Playback& playback);
 
+/// True if a contact of the frame has gamma = 0.
+bool has_contact_without_film(const particles::Frame& frame);
+
 /// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
 std::string film_colour(double share);
+/// The colour of one of `levels` evenly spaced shares, the first of which is 0.
+std::string film_colour(int level, int levels);
 
 /// Round numbers from `lowest` < 0 to 0 for the scale, in decreasing order.
 std::vector<double> film_ticks(double lowest);

@@ -35,24 +35,24 @@ Interval reach_of(const Playback& playback, const Frame& frame, std::size_t axis
   return reach;
 }
 
-double size_of(const ViewBox& room, int dimension) {
+double size_of(const ViewBox& box, int dimension) {
   double size = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    size = std::max(size, room.high[d] - room.low[d]);
+    size = std::max(size, box.high[d] - box.low[d]);
   return size;
 }
 
 /// Extends the box to a plane that is near it, so that particles are seen to lie on the plane.
-void extend_to_plane(ViewBox& room, const PlanePosition& plane, int dimension) {
+void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   constexpr double kNear = 0.5;  // largest distance, in sizes of the box
   double distance = 0;
   for (std::size_t d = 0; d < 3; ++d)
     distance +=
-        plane.normal[d] * ((plane.normal[d] > 0 ? room.low[d] : room.high[d]) - plane.point[d]);
-  if (distance <= 0 || distance > kNear * size_of(room, dimension)) return;
+        plane.normal[d] * ((plane.normal[d] > 0 ? box.low[d] : box.high[d]) - plane.point[d]);
+  if (distance <= 0 || distance > kNear * size_of(box, dimension)) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     const double shift = -plane.normal[d] * distance;
-    (shift < 0 ? room.low[d] : room.high[d]) += shift;
+    (shift < 0 ? box.low[d] : box.high[d]) += shift;
   }
 }
 
@@ -64,7 +64,7 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   // At both ends of all axes together, 2 % of the particles are left out.
   const auto cut = playback.radii.size() / (100 * dimension);
-  ViewBox room;
+  ViewBox box;
   double size = 0;
   for (std::size_t axis = 0; axis < dimension; ++axis) {
     Interval all, central;
@@ -76,24 +76,24 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     }
     if (!(all.low <= all.high)) all = central = {-1, 1};
     const bool flown = all.high - all.low > kFlownAway * (central.high - central.low);
-    room.low[axis] = flown ? central.low : all.low;
-    room.high[axis] = flown ? central.high : all.high;
-    size = std::max(size, room.high[axis] - room.low[axis]);
+    box.low[axis] = flown ? central.low : all.low;
+    box.high[axis] = flown ? central.high : all.high;
+    size = std::max(size, box.high[axis] - box.low[axis]);
   }
   if (!(size > 0)) size = 1;
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
-      extend_to_plane(room, plane, playback.dimension);
+      extend_to_plane(box, plane, playback.dimension);
   // Margin, and smallest size in any direction, both in sizes of the box.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
-  size = std::max(size, size_of(room, playback.dimension));
+  size = std::max(size, size_of(box, playback.dimension));
   for (std::size_t axis = 0; axis < dimension; ++axis) {
     const double more =
-        std::max(kMargin * size, 0.5 * (kFlattest * size - (room.high[axis] - room.low[axis])));
-    room.low[axis] -= more;
-    room.high[axis] += more;
+        std::max(kMargin * size, 0.5 * (kFlattest * size - (box.high[axis] - box.low[axis])));
+    box.low[axis] -= more;
+    box.high[axis] += more;
   }
-  return room;
+  return box;
 }
 
 Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal) {
@@ -107,14 +107,14 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
   return kept;
 }
 
-Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
+Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
   // Planes may meet or coincide; the slack keeps round-off from removing such polygons.
-  const double slack = 1e-4 * size_of(room, dimension);
+  const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
-    Vector axis{};
+    Vector axis{0, 0, 0};
     axis[d] = 1;
-    polygon = clipped(clipped(polygon, room.low, axis), room.high, -1.0 * axis);
+    polygon = clipped(clipped(polygon, box.low, axis), box.high, -1.0 * axis);
   }
   for (std::size_t j = 0; j < planes.size(); ++j)
     if (j != own)

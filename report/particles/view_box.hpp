@@ -38,9 +38,9 @@ using Polygon = std::vector<particles::Vector>;  ///< convex, its corners in ord
 Polygon clipped(const Polygon& polygon, const particles::Vector& point,
                 const particles::Vector& normal);
 
-/// The part of a polygon in the plane number `own` that is in the box `room` and on the free side
+/// The part of a polygon in the plane number `own` that is in the box and on the free side
 /// of all other planes.
-Polygon clipped_to_view(Polygon polygon, const ViewBox& room,
+Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<particles::PlanePosition>& planes, std::size_t own,
                         int dimension);
 

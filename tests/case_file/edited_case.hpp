@@ -29,7 +29,8 @@ std::string lecture_text();
 /// With another value (TOML); the line is the key's.
 EditedCase with_value(const LectureKey& key, std::string_view value);
 
-/// Without the key; the line is that of its table: where the header or the inline table's key stands.
+/// Without the key; the line is that of its table: where the header or the inline table's key
+/// stands.
 EditedCase without_key(const LectureKey& key);
 
 /// With `from` (there once) replaced by `to`; the line is where that begins.
@@ -38,7 +39,8 @@ EditedCase with_text(std::string_view from, std::string_view to);
 /// Reads a case from a file of that text in a folder of its own.
 Case read_text(const std::string& text);
 
-/// Expects that the case is refused as bad input with a message "FILE:LINE: path ..." that also has `words`.
+/// Expects that the case is refused as bad input with a message "FILE:LINE: path ..." that also has
+/// `words`.
 void expect_refused(const EditedCase& edited, const std::string& path, const std::string& words);
 
 }  // namespace viscontact

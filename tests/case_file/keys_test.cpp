@@ -1,4 +1,5 @@
-// Every key of the lecture's case: missing, of another type, not finite, out of range; and a stranger in every table.
+// Every key of the lecture's case: missing, of another type, not finite, out of range; and a
+// stranger in every table.
 #include <gtest/gtest.h>
 
 #include <cctype>

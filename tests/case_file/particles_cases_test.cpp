@@ -55,8 +55,8 @@ class ShippedRun {
     return energy;
   }
   auto films() const {
-    // Films whose gamma is not the rounding errors that a spent film may leave between particles that
-    // move on together: the impulses that they have taken here are about 1.
+    // Films whose gamma is not the rounding errors that a spent film may leave between particles
+    // that move on together: the impulses that they have taken here are about 1.
     constexpr double kRounding = 1e-12;
     return std::ranges::count_if(contacts(),
                                  [](const CurrentContact& c) { return c.gamma < -kRounding; });
@@ -103,14 +103,15 @@ TEST(Raft, RemembersThePushAndComesApartWhenThePullHasGivenItBack) {
   auto films = raft.contacts();
   std::erase_if(films, [](const CurrentContact& c) { return !(c.gamma < 0); });
   ASSERT_EQ(films.size(), kRows * (kColumns - 1));
-  // A film's impulse is solved for to the tolerance over h, with masses and mean radius 1; 200 steps of it may add up.
+  // A film's impulse is solved for to the tolerance over h, with masses and mean radius 1; 200
+  // steps of it may add up.
   for (const auto& film : films) EXPECT_NEAR(film.gamma, -4, 200 * tolerance / 0.02);
   raft.to(7.9);
   EXPECT_EQ(raft.films(), static_cast<std::ptrdiff_t>(films.size()));
   raft.to_end();
   EXPECT_EQ(raft.films(), 0);
-  // Columns first close the gaps of 0.05 between them, towards the middle; the ends leave at t = 8 with acceleration 1, which the scheme, of the first
-  // order, integrates to t (t + h)/2.
+  // Columns first close the gaps of 0.05 between them, towards the middle; the ends leave at t = 8
+  // with acceleration 1, which the scheme, of the first order, integrates to t (t + h)/2.
   const double h = raft.of().setting.time_step, t = 11 - 8, left = t * (t + h) / 2;
   for (std::size_t k = 0; k < kRows * kColumns; ++k) {
     const auto column = k % kColumns;

@@ -8,6 +8,8 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 
 namespace viscontact {
 namespace {
@@ -75,11 +77,11 @@ TEST(LecturesCase, PushesForTwoAndPullsForTwo) {
   EXPECT_EQ(motion.external_force.value(0), -200);
   EXPECT_EQ(motion.external_force.value(2), 200);
   EXPECT_THAT(motion.external_force.jumps(), ElementsAre(2));
-  EXPECT_EQ(motion.reference_time_step, 1e-3);
-  EXPECT_EQ(motion.inertial_relative_tolerance, 1e-9);
-  EXPECT_EQ(motion.contact_time_step, 1e-3);
+  EXPECT_EQ(motion.parameter(kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(motion.parameter(kRelativeTolerance), 1e-9);
+  EXPECT_EQ(motion.parameter(kContactTimeStep), 1e-3);
   EXPECT_THAT(motion.roughness, ElementsAre(0, 0));
-  EXPECT_EQ(motion.threshold_gap, 0.1);
+  EXPECT_EQ(motion.parameter(kThresholdGap), 0.1);
   EXPECT_THAT(c.models, IsEmpty());
 }
 

@@ -6,6 +6,8 @@
 
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 
 namespace viscontact {
 namespace {
@@ -41,13 +43,13 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
   EXPECT_EQ(read.basis.name, kOwnTerms);
   EXPECT_EQ(read.basis.terms.size(), 3U);
   EXPECT_EQ(read.loss, Loss::kHuber);
-  EXPECT_TRUE(read.hold_leading);
+  EXPECT_TRUE(read.fix_leading);
   EXPECT_EQ(read.leading_value, 56.5);
   read = settings("basis = \"lecture\"\nweights = \"relative\"\nfix = \"theory\"\n");
-  EXPECT_TRUE(read.hold_leading);
+  EXPECT_TRUE(read.fix_leading);
   EXPECT_FALSE(read.leading_value.has_value());
   read = settings(kFitKeys);
-  EXPECT_FALSE(read.hold_leading);
+  EXPECT_FALSE(read.fix_leading);
   EXPECT_EQ(read.loss, Loss::kSquared);
 }
 
@@ -133,8 +135,8 @@ TEST(TimeScale, DrawsOutForceEndAndSteps) {
   const Case c = read_text(text);
   const auto& motion = required_motion(c);
   EXPECT_EQ(motion.end_time, 10);
-  EXPECT_EQ(motion.reference_time_step, 2.5e-3);
-  EXPECT_EQ(motion.contact_time_step, 2.5e-3);
+  EXPECT_EQ(motion.parameter(kReferenceTimeStep), 2.5e-3);
+  EXPECT_EQ(motion.parameter(kContactTimeStep), 2.5e-3);
   EXPECT_EQ(motion.external_force.value(4.9), -200);
   EXPECT_EQ(motion.external_force.value(5.1), 200);
   EXPECT_EQ(motion.external_force.impulse(10), 0);
@@ -245,20 +247,21 @@ TEST(CaseParts, NumericalSettingsHaveDefaults) {
   text = text.substr(0, text.find("[reference]"));
   const Case c = read_text(text);
   ASSERT_TRUE(c.motion);
-  // docs/case-file.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial gap.
-  EXPECT_EQ(c.motion->reference_time_step, 1e-3);
-  EXPECT_EQ(c.motion->contact_time_step, 1e-3);
-  EXPECT_EQ(c.motion->inertial_relative_tolerance, 1e-9);
+  // docs/case-file.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial
+  // gap.
+  EXPECT_EQ(c.motion->parameter(kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(c.motion->parameter(kContactTimeStep), 1e-3);
+  EXPECT_EQ(c.motion->parameter(kRelativeTolerance), 1e-9);
   EXPECT_THAT(c.motion->roughness, ElementsAre(0, 0));
-  EXPECT_EQ(c.motion->threshold_gap, 0.1);
+  EXPECT_EQ(c.motion->parameter(kThresholdGap), 0.1);
   // One key of a section leaves the others at their defaults.
   const Case thin = read_text(text + "[viscous_contact]\ntime_step = 2e-3\n");
-  EXPECT_EQ(thin.motion->contact_time_step, 2e-3);
-  EXPECT_EQ(thin.motion->reference_time_step, 1e-3);
-  EXPECT_EQ(thin.motion->threshold_gap, 0.1);
+  EXPECT_EQ(thin.motion->parameter(kContactTimeStep), 2e-3);
+  EXPECT_EQ(thin.motion->parameter(kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(thin.motion->parameter(kThresholdGap), 0.1);
   // A sphere that starts near the plane starts above its threshold, too.
   const auto near = text.replace(text.find("initial_gap = 1.0"), 17, "initial_gap = 0.02");
-  EXPECT_EQ(read_text(near).motion->threshold_gap, 0.002);
+  EXPECT_EQ(read_text(near).motion->parameter(kThresholdGap), 0.002);
 }
 
 TEST(CaseParts, FitIsTheLecturesByDefault) {

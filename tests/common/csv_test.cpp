@@ -1,4 +1,4 @@
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,8 @@
 
 namespace viscontact {
 
-/// The message of the Error of this kind that `call` throws. Anything else fails the test and gives "".
+/// The message of the Error of this kind that `call` throws. Anything else fails the test and gives
+/// "".
 template <class Call>
 std::string failure(ErrorKind kind, Call&& call) {
   try {

@@ -107,7 +107,8 @@ TEST(WriteFile, LeavesTheOldFileWhenTheNewOneCannotBeWrittenBesideIt) {
 }
 
 TEST(WriteFile, NeverPutsAFileInPlaceOfADevice) {
-  // Root could replace /dev/stdout, which is a link, or /dev/null; here a link of our own stands for them.
+  // Root could replace /dev/stdout, which is a link, or /dev/null; here a link of our own stands
+  // for them.
   const TemporaryFolder folder;
   const auto path = folder.path() / "link_to_device";
   std::filesystem::create_symlink("/dev/null", path);

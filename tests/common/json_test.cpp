@@ -1,4 +1,4 @@
-#include "viscontact/common/json.hpp"
+#include "viscontact/common/text/json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

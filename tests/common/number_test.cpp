@@ -1,4 +1,4 @@
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 #include <gtest/gtest.h>
 

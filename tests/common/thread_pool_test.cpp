@@ -1,4 +1,5 @@
-// Loops that threads share: every index once, sums that do not depend on the threads, errors that come back.
+// Loops that threads share: every index once, sums that do not depend on the threads, errors that
+// come back.
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <gmock/gmock.h>

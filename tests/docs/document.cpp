@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What another processor's arithmetic may change: meshes and so tables within their accuracy, 1e-5, and figures made of the small differences between them.
+// What another processor's arithmetic may change: meshes and so tables within their accuracy, 1e-5,
+// and figures made of the small differences between them.
 constexpr double kTolerance = 0.02;
 
 const std::regex kNumber("[-+]?[0-9]*\\.?[0-9]+(e[-+]?[0-9]+)?");

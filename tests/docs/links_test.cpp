@@ -1,11 +1,12 @@
-// Every link of a page leads somewhere: to a file of this tree, and to a heading where it names one.
+// Every link of a page leads somewhere: to a file of this tree, and to a heading where it names
+// one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <regex>
 #include <set>
 
+#include "tests/common/regular_expressions.hpp"
 #include "tests/docs/document.hpp"
 
 namespace viscontact {
@@ -44,25 +45,17 @@ std::string anchor_of(const std::string& heading) {
 
 std::set<std::string> anchors_of(const fs::path& page) {
   std::set<std::string> anchors;
-  static const std::regex heading("#+ (.*)");
   for (const auto& line : prose_of(page))
-    if (std::smatch match; std::regex_match(line, match, heading))
-      anchors.insert(anchor_of(match[1]));
+    for (const auto& heading : matches_in(line, "^#+ (.*)", 1)) anchors.insert(anchor_of(heading));
   return anchors;
 }
 
 /// Targets of links and pictures, code left aside.
 std::vector<std::string> links_of(const fs::path& page) {
-  static const std::regex code("`[^`]*`");
-  static const std::regex link("\\]\\(([^)\\s]+)\\)");
-  std::vector<std::string> links;
-  for (const auto& line : prose_of(page)) {
-    // The text of a link may be code: `](` keeps its place.
-    const std::string text = std::regex_replace(line, code, "");
-    for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match)
-      links.push_back((*match)[1]);
-  }
-  return links;
+  std::string text;
+  for (const auto& line : prose_of(page)) text += line + "\n";
+  // The text of a link may be code: `](` keeps its place.
+  return matches_in(replaced_matches(text, "`[^`\n]*`", ""), "\\]\\(([^)\\s]+)\\)", 1);
 }
 
 TEST(Links, LeadToFilesAndHeadings) {

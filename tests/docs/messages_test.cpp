@@ -1,4 +1,7 @@
-// docs/troubleshooting.md quotes messages that the program can print.
+// docs/troubleshooting.md quotes messages that the program can print, docs/command-line.md its exit
+// codes.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +10,7 @@
 
 #include "tests/docs/document.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
 
 namespace viscontact {
 namespace {
@@ -15,7 +19,8 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = VISCONTACT_SOURCE_FOLDER;
 
-/// The texts in quotes of all sources, neighbours joined as the compiler does, a line each; of FreeFEM's scripts too, whose texts are joined by +.
+/// The texts in quotes of all sources, neighbours joined as the compiler does, a line each; of
+/// FreeFEM's scripts too, whose texts are joined by +.
 std::string all_texts() {
   static const std::regex text("\"((?:[^\"\\\\\n]|\\\\.)*)\"");
   static const std::regex space("\\s*");
@@ -75,6 +80,12 @@ TEST(Troubleshooting, QuotesMessagesThatAreInTheSource) {
     }
   }
   EXPECT_GT(messages, 40);
+}
+
+TEST(CommandLine, ListsTheExitCodesOfTheProgram) {
+  const std::string page = read_file(kSource / "docs/command-line.md");
+  for (const auto& [kind, code, meaning] : exit_codes())
+    EXPECT_THAT(page, ::testing::HasSubstr(fmt::format("\n| {} | {}", code, meaning)));
 }
 
 }  // namespace

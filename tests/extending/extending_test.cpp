@@ -1,4 +1,5 @@
 // docs/extending.md, applied and built (CMakeLists.txt here), does what its text says.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,20 +22,22 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 struct Replacement {
   std::string key, value;
 };
 
-/// The lecture's case with other values of those keys.
-void write_case(const fs::path& path, std::initializer_list<Replacement> replacements) {
+/// The lecture's case with other values of those keys, and with further sections.
+void write_case(const fs::path& path, std::initializer_list<Replacement> replacements,
+                const std::string& sections = "") {
   std::string text = read_file(VISCONTACT_SOURCE_FOLDER "/data/cases/lecture.toml");
   for (const auto& [key, value] : replacements) {
     const auto begin = text.find("\n" + key + " = ") + 1;
     ASSERT_NE(begin, 0U) << key;
     text.replace(begin, text.find('\n', begin) - begin, key + " = " + value);
   }
-  put_text(path, text);
+  put_text(path, text + sections);
 }
 
 void run_extended(std::vector<std::string> arguments) {
@@ -70,8 +73,8 @@ TEST(ExtendedGeometry, MuchSlipIsAFreeSurface) {
     EXPECT_NEAR(row.drag_factor / free_surface_drag_factor(row.gap), 1, 1e-5) << row.gap;
 }
 
-// Vinogradova 1995, one surface with slip; f(1) = 0.62942. Both drags have further terms of order ln(1/q): 3e-4 of the first at q = 1e-4, and the ratio
-// differs from f by less.
+// Vinogradova 1995, one surface with slip; f(1) = 0.62942. Both drags have further terms of order
+// ln(1/q): 3e-4 of the first at q = 1e-4, and the ratio differs from f by less.
 TEST(ExtendedGeometry, DragInAFilmAsThickAsTheSlipLengthIsThatOfLubricationTheory) {
   const TemporaryFolder folder;
   const auto table = slip_table(folder.path(), "1e-4", "[1e-4]");
@@ -94,36 +97,92 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   EXPECT_NEAR(-coefficient("1/q^2") / coefficient("1/q"), 1e-4, 3e-6);
 }
 
-/// The smallest gap that a model finds in the lecture's case with the exact drag.
-double smallest_gap(const std::string& model, const std::string& time_step) {
+// A geometry, a term with a basis, and a model with a parameter: each is its own files and one row.
+TEST(Extending, ChangesNoOtherFiles) {
+  EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
+            "freefem_axi/geometry.cpp\n"
+            "freefem_axi/scripts/axisymmetric_stokes.idp\n"
+            "freefem_axi/scripts/slip_plane.edp\n"
+            "lubrication/terms.cpp\n"
+            "reduced_model/CMakeLists.txt\n"
+            "reduced_model/models/models.cpp\n"
+            "reduced_model/models/reference_log.cpp\n"
+            "reduced_model/models/reference_log.hpp\n");
+}
+
+/// The command that runs the model with the exact drag in the lecture's case with these sections.
+std::vector<std::string> simulate_log(const fs::path& folder, const std::string& time_step,
+                                      const std::string& sections) {
+  write_case(folder / "case.toml", {{"time_step", time_step}},  // the first one: [reference]
+             sections);
+  return {"simulate", (folder / "case.toml").string(),
+          "--fit",    VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json",
+          "-o",       (folder / "run").string(),
+          "--models", "reference_log_brenner"};
+}
+
+/// The smallest gap that it finds.
+double smallest_gap(const std::string& time_step, const std::string& sections = "") {
   const TemporaryFolder folder;
-  write_case(folder.path() / "case.toml",
-             {{"time_step", time_step}});  // the first one: [reference]
-  run_extended({"simulate", (folder.path() / "case.toml").string(), "--fit",
-                VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json", "-o",
-                (folder.path() / "run").string(), "--models", model + "_brenner"});
+  run_extended(simulate_log(folder.path(), time_step, sections));
   const auto trajectory =
-      read_trajectory(folder.path() / "run/trajectories" / (model + "_brenner.csv"));
-  double smallest = trajectory.rows.front().gap;
-  for (const auto& row : trajectory.rows) smallest = std::min(smallest, row.gap);
-  return smallest;
+      read_trajectory(folder.path() / "run/trajectories/reference_log_brenner.csv");
+  return std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
 }
 
 constexpr double kExactSmallestGap = 2.97084661e-3;  // docs/theory.md
 
 TEST(ExtendedModel, ReachesTheExactSmallestGap) {
-  EXPECT_NEAR(smallest_gap("reference_log", "1e-3") / kExactSmallestGap, 1, 1e-6);
+  EXPECT_NEAR(smallest_gap("1e-3") / kExactSmallestGap, 1, 1e-6);
 }
 
 TEST(ExtendedModel, IsOfSecondOrder) {
-  const double coarse = smallest_gap("reference_log", "0.02") - kExactSmallestGap;
-  const double fine = smallest_gap("reference_log", "0.01") - kExactSmallestGap;
+  const double coarse = smallest_gap("0.02") - kExactSmallestGap;
+  const double fine = smallest_gap("0.01") - kExactSmallestGap;
   // The next term of the error is of order h relative to it.
   EXPECT_NEAR(coarse / fine, 4, 0.1);
 }
 
+TEST(ExtendedModel, HasTheOrderThatTheCaseAsksFor) {
+  const auto error = [](const char* time_step, const char* order) {
+    return smallest_gap(time_step, std::string("\n[reference_log]\norder = ") + order + "\n") -
+           kExactSmallestGap;
+  };
+  EXPECT_NEAR(error("0.002", "1") / error("0.001", "1"), 2, 0.05);
+  EXPECT_EQ(error("0.01", "2"), smallest_gap("0.01") - kExactSmallestGap);
+}
+
+TEST(ExtendedModel, RefusesAnotherOrderAndAnUnknownKey) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& key) {
+    auto command = simulate_log(folder.path(), "1e-3", "\n[reference_log]\n" + key + "\n");
+    command.insert(command.begin(), VISCONTACT_EXTENDED);
+    const auto result = run_process(command);
+    EXPECT_EQ(result.exit_status, 3);
+    return result.output;
+  };
+  EXPECT_THAT(refused("order = 3"),
+              HasSubstr("reference_log.order is 3; it must be a number equal to 1 or 2"));
+  EXPECT_THAT(refused("method = 1"), HasSubstr("the known keys are: order"));
+}
+
+// A sweep varies the parameter although the case has no section for it.
+TEST(ExtendedModel, HasAParameterThatASweepVaries) {
+  const TemporaryFolder folder;
+  write_case(folder.path() / "case.toml", {});
+  const auto sweep = [&](const std::string& models) {
+    return run_process({VISCONTACT_EXTENDED, "sweep", (folder.path() / "case.toml").string(),
+                        "--fit", VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json", "-o",
+                        (folder.path() / "sweep.csv").string(), "--vary", "reference_log.order=1,2",
+                        "--models", models, "--reference", "inertial"});
+  };
+  EXPECT_THAT(sweep("inertial").output, HasSubstr("none of the models that are run depends on it"));
+  const auto done = sweep("inertial,reference_log");
+  EXPECT_EQ(done.exit_status, 0) << done.output;
+}
+
 TEST(ExtendedModel, StaysAboveThePlaneWhereExplicitEulerGoesThrough) {
-  EXPECT_GT(smallest_gap("reference_log", "0.5"), 0);
+  EXPECT_GT(smallest_gap("0.5"), 0);
 }
 
 }  // namespace

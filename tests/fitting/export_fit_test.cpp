@@ -15,9 +15,9 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/fitting/samples.hpp"
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
@@ -29,7 +29,8 @@ using ::testing::HasSubstr;
 
 constexpr double kVelocity = -0.7;
 
-/// Every term there is, with coefficients of no short form, at a radius and a velocity that are not 1.
+/// Every term there is, with coefficients of no short form, at a radius and a velocity that are
+/// not 1.
 Fit fit_of_all_terms() {
   Fit fit = planted_fit({}, 1e-3, 2);
   fit.basis = kOwnTerms;
@@ -107,8 +108,10 @@ TEST_F(Export, CHeaderCompilesWithoutAWarningAsCAndAsCxxAndHasTheValues) {
 int main(void) {{
   const double gaps[] = {{{}}};
   for (unsigned i = 0; i < sizeof gaps / sizeof *gaps; ++i)
-    printf("%.17g %.17g %.17g\n", viscontact_resistance(gaps[i]), viscontact_force(gaps[i], {}), viscontact_impulse(gaps[i]));
-  return !(isnan(viscontact_resistance(9e-4)) && isnan(viscontact_impulse(2.1)) && isnan(viscontact_force(-1, 1)));
+    printf("%.17g %.17g %.17g\n", viscontact_resistance(gaps[i]),
+           viscontact_force(gaps[i], {}), viscontact_impulse(gaps[i]));
+  return !(isnan(viscontact_resistance(9e-4)) && isnan(viscontact_impulse(2.1)) &&
+           isnan(viscontact_force(-1, 1)));
 }}
 )",
                                        gap_list(fit_), kVelocity));
@@ -149,7 +152,8 @@ TEST_F(Export, PythonModuleHasTheValuesAndRaisesOutside) {
   put_text(path("main.py"), fmt::format(R"(
 import lubrication
 for gap in [{}]:
-    print(repr(lubrication.resistance(gap)), repr(lubrication.force(gap, {})), repr(lubrication.impulse(gap)))
+    print(repr(lubrication.resistance(gap)), repr(lubrication.force(gap, {})),
+          repr(lubrication.impulse(gap)))
 for gap in (9e-4, 2.1, float("nan")):
     for function in (lubrication.resistance, lubrication.impulse):
         try:

@@ -1,4 +1,4 @@
-#include "viscontact/lubrication/fit_diagnostics.hpp"
+#include "viscontact/lubrication/fit/fit_diagnostics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
@@ -63,7 +63,8 @@ TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
       auto& largest = i == 0 || i + 1 == table.rows.size() ? end : inner;
       if (residual > largest.relative_residual) largest = {row.gap, residual};
     }
-    // The same numbers by another way: round-off times the conditioning, over residuals of 1e-3 and more.
+    // The same numbers by another way: round-off times the conditioning, over residuals of 1e-3 and
+    // more.
     constexpr double kRoundOff = 1e-8;
     EXPECT_NEAR(d.leave_one_out_rms.value() / std::sqrt(squares / 50), 1, kRoundOff);
     for (const auto& [found, expected] :
@@ -134,7 +135,8 @@ TEST(ChiSquared, IsTheSumOverTheRowsOfResidualOverEstimateSquared) {
 }
 
 TEST(Misfit, IsTheDatasOrTheBasiss) {
-  // Noise within the estimates, beyond them (chi-squared 45 * 4 against a quantile of 70), and no estimates.
+  // Noise within the estimates, beyond them (chi-squared 45 * 4 against a quantile of 70), and no
+  // estimates.
   EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 2e-4), settings_of("lecture")).misfit,
             Misfit::kData);
   EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 5e-5), settings_of("lecture")).misfit,
@@ -196,7 +198,8 @@ TEST(Misfit, IsJudgedWithoutTheOutliers) {
 }
 
 TEST(Misfit, JudgesByTheQuantileOfChiSquared) {
-  // 99 % quantile for 45 degrees of freedom: 69.957 (tables). +-noise/estimate = z in all 50 rows gives about 50 z^2.
+  // 99 % quantile for 45 degrees of freedom: 69.957 (tables). +-noise/estimate = z in all 50 rows
+  // gives about 50 z^2.
   for (const auto& [chi_squared, misfit] :
        {std::pair{68.0, Misfit::kData}, {72.0, Misfit::kBasis}}) {
     auto table = table_with_noise(1e-4, 1e-4);
@@ -240,7 +243,8 @@ TEST(Outliers, AreNamedByARobustLossOnly) {
 TEST(Warnings, AreNoneForAGoodFit) {
   auto table = exact_table();
   table.leading_coefficient = 18 * std::numbers::pi;
-  // The basis leaves 1e-8; with estimates below that, what it does to the leading coefficient would be named.
+  // The basis leaves 1e-8; with estimates below that, what it does to the leading coefficient would
+  // be named.
   for (auto& row : table.rows) row.relative_error_estimate = 1e-7;
   EXPECT_THAT(diagnostics_of(table, settings_of("asymptotic_extended")).warnings, IsEmpty());
 }

@@ -1,4 +1,4 @@
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ TEST(Fit, ReportsTheResidualsOfItsCoefficients) {
       largest = std::max(largest, std::abs(residual));
       squares += residual * residual;
     }
-    // Residuals of 1e-3 and more, each the difference of terms that are known to 1e-15 of the force, times their cancellation.
+    // Residuals of 1e-3 and more, each the difference of terms that are known to 1e-15 of the
+    // force, times their cancellation.
     EXPECT_NEAR(fit.largest_relative_residual, largest, 1e-13);
     EXPECT_NEAR(fit.rms_relative_residual, std::sqrt(squares / 50), 1e-13);
     EXPECT_EQ(fit.viscosity, 3);
@@ -84,7 +85,8 @@ TEST(Fit, LeavesResidualsThatEveryTermIsOrthogonalTo) {
         terms += value * value;
         forces += weight * row.force * weight * row.force;
       }
-      // The cosine of the angle is 0 up to the rounding of the forces (eps of their length, a hundred operations) over the residual.
+      // The cosine of the angle is 0 up to the rounding of the forces (eps of their length, a
+      // hundred operations) over the residual.
       const double rounding = 2e-14 * std::sqrt(forces / residuals);
       EXPECT_LT(std::abs(product) / std::sqrt(residuals * terms), rounding) << term.name;
     }
@@ -104,7 +106,8 @@ TEST(Fit, RecoversPlantedCoefficients) {
     ASSERT_EQ(fit.terms.size(), basis.terms.size());
     for (std::size_t i = 0; i < basis.terms.size(); ++i) {
       EXPECT_EQ(fit.terms[i].name, basis.terms[i].name);
-      // Forces are rounded to eps = 2e-16; the conditioning brings it back, in units of the smallest column (1e-2 of the largest).
+      // Forces are rounded to eps = 2e-16; the conditioning brings it back, in units of the
+      // smallest column (1e-2 of the largest).
       EXPECT_NEAR(fit.terms[i].coefficient, planted[i], 1e-13 * fit.condition_number)
           << basis.name << " " << fit.terms[i].name;
     }
@@ -115,7 +118,7 @@ TEST(Fit, RecoversPlantedCoefficients) {
 TEST(Fit, WithEveryCoefficientHeldIsRefused) {
   FitSettings settings;
   settings.basis = parse_terms("1/q");
-  settings.hold_leading = true;
+  settings.fix_leading = true;
   settings.leading_value = 56.5;
   EXPECT_THAT(
       bad_input([&] { fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), settings); }),
@@ -130,7 +133,8 @@ TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
 }
 
 TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
-  // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact in doubles too.
+  // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact
+  // in doubles too.
   const auto one =
       fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
   const auto several = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4, 0.5}, 3, 1),

@@ -17,7 +17,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The columns of a basis at gaps, each row weighted by its gap: as a relative fit does it near contact.
+/// The columns of a basis at gaps, each row weighted by its gap: as a relative fit does it near
+/// contact.
 Eigen::MatrixXd columns_of(std::string_view basis, const std::vector<double>& gaps) {
   const auto& terms = find_basis(basis).terms;
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(gaps.size()),
@@ -35,7 +36,8 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::mt19
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
-/// |x - y| over |y|, each coefficient counted by the length of its column: what the conditioning of the scaled problem bounds.
+/// |x - y| over |y|, each coefficient counted by the length of its column: what the conditioning of
+/// the scaled problem bounds.
 double scaled_distance(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& x,
                        const Eigen::VectorXd& y) {
   const Eigen::VectorXd scale = matrix.colwise().norm();
@@ -50,7 +52,8 @@ TEST_P(OnBasis, RecoversPlantedCoefficients) {
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::VectorXd planted = random_matrix(matrix.cols(), 1, random);
     const auto solution = solve_least_squares(matrix, matrix * planted);
-    // The right-hand side itself is rounded: eps times the conditioning comes back. 1e-12 leaves room for 50 rows.
+    // The right-hand side itself is rounded: eps times the conditioning comes back. 1e-12 leaves
+    // room for 50 rows.
     EXPECT_LT(scaled_distance(matrix, solution.coefficients, planted),
               1e-12 * solution.condition_number);
   }
@@ -64,7 +67,8 @@ TEST_P(OnBasis, AgreesWithAnIndependentQrInLongDouble) {
                                             noise * random_matrix(matrix.rows(), 1, random);
     const auto solution = solve_least_squares(matrix, right_hand_side);
     const auto oracle = long_double_least_squares(matrix, right_hand_side);
-    // A residual that does not vanish counts with the square of the conditioning (Bjorck 1996, theorem 1.4.6).
+    // A residual that does not vanish counts with the square of the conditioning (Bjorck 1996,
+    // theorem 1.4.6).
     const double condition = solution.condition_number;
     EXPECT_LT(scaled_distance(matrix, solution.coefficients, oracle.coefficients.cast<double>()),
               1e-14 * (condition + noise * condition * condition));
@@ -92,7 +96,8 @@ TEST(LeastSquares, DoesNotMindColumnsOfDifferentMagnitudes) {
   const auto scaled = solve_least_squares(matrix * scale.asDiagonal(), right_hand_side);
   EXPECT_DOUBLE_EQ(scaled.condition_number, plain.condition_number);
   for (Eigen::Index i = 0; i < 4; ++i) {
-    // Column norms of 2^200 and their squares are exact powers apart: nothing but a few roundings may differ.
+    // Column norms of 2^200 and their squares are exact powers apart: nothing but a few roundings
+    // may differ.
     EXPECT_NEAR(scaled.coefficients(i) * scale(i), plain.coefficients(i),
                 1e-14 * plain.coefficients.norm());
     EXPECT_NEAR(std::sqrt(scaled.covariance(i, i)) * scale(i), std::sqrt(plain.covariance(i, i)),

@@ -13,7 +13,8 @@ struct LongSolution {
   LongMatrix covariance;  ///< s^2 (A^T A)^-1, s^2 = |A x - b|^2 / (rows - columns)
 };
 
-/// QR by Gram and Schmidt, each column orthogonalised twice (which is enough: Giraud & Langou 2005).
+/// QR by Gram and Schmidt, each column orthogonalised twice (which is enough: Giraud & Langou
+/// 2005).
 inline LongSolution long_double_least_squares(const Eigen::MatrixXd& matrix,
                                               const Eigen::VectorXd& right_hand_side) {
   const LongMatrix a = matrix.cast<long double>();

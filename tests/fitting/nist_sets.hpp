@@ -1,4 +1,5 @@
-// The NIST Statistical Reference Datasets of linear regression, and how many of their certified digits our least squares reach.
+// The NIST Statistical Reference Datasets of linear regression, and how many of their certified
+// digits our least squares reach.
 #pragma once
 
 #include <Eigen/Core>

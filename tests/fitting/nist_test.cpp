@@ -1,4 +1,5 @@
-// Our least squares on the NIST Statistical Reference Datasets. bench/README.md has the digits reached, bench_nist prints them.
+// Our least squares on the NIST Statistical Reference Datasets. bench/README.md has the digits
+// reached, bench_nist prints them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -20,7 +21,8 @@ INSTANTIATE_TEST_SUITE_P(Sets, Nist, ::testing::ValuesIn(nist_sets().begin(), ni
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(NistExactData, LeavesDeviationsThatAreRoundOff) {
-  // Certified: 0. The data have 7 digits, so the residuals' round-off is eps times that, times the conditioning.
+  // Certified: 0. The data have 7 digits, so the residuals' round-off is eps times that, times the
+  // conditioning.
   for (const auto* name : {"Wampler1", "Wampler2"}) {
     const auto set = read_nist_set(name);
     const auto solution = solve_least_squares(set.matrix, set.right_hand_side);

@@ -54,7 +54,8 @@ TEST_P(RobustLoss, IsNotMovedByOutliersThatMoveLeastSquares) {
   for (const Eigen::Index i : {10, 30, 55}) line.right_hand_side(i) += 5;
   const auto plain = solve_least_squares(line.matrix, line.right_hand_side);
   const auto robust = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());
-  // Three rows of sixty pull with the force of 1.345 scales at most (Huber): some hundredths; least squares with all of 5.
+  // Three rows of sixty pull with the force of 1.345 scales at most (Huber): some hundredths; least
+  // squares with all of 5.
   EXPECT_LT((robust.least_squares.coefficients - kTrue).norm(), 0.05);
   EXPECT_GT((plain.coefficients - kTrue).norm(), 0.5);
   for (const Eigen::Index i : {10, 30, 55}) {
@@ -64,7 +65,8 @@ TEST_P(RobustLoss, IsNotMovedByOutliersThatMoveLeastSquares) {
 }
 
 TEST_P(RobustLoss, SolvesItsOwnEquations) {
-  // At the minimum of sum rho(r/s) the sum of weight * residual * column vanishes: to what the iteration stops at, 1e-9 of the scale.
+  // At the minimum of sum rho(r/s) the sum of weight * residual * column vanishes: to what the
+  // iteration stops at, 1e-9 of the scale.
   auto line = noisy_parabola(0.01);
   line.right_hand_side(20) -= 1;
   const auto robust = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/oracles/brenner.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 

@@ -71,8 +71,8 @@ TEST(Attempts, GoOnUntilTheAccuracyIsMetAndAnswerWithTheirOwnEstimateWhereItIsNo
 }
 
 /// FreeFEM with at most 0.6 GB of addresses, of which it takes 0.4 GB before it begins. That is
-/// enough for 40 000 unknowns, but not for 100 000. UMFPACK then leaves zeros: FreeFEM 4.11 goes on,
-/// 4.15 throws an error.
+/// enough for 40 000 unknowns, but not for 100 000. UMFPACK then leaves zeros: FreeFEM 4.11 goes
+/// on, 4.15 throws an error.
 FreeFem limited_freefem(const TemporaryFolder& scratch) {
   const auto limited = scratch.path() / "limited_freefem";
   const auto freefem = default_freefem();

@@ -1,4 +1,5 @@
-// That the error estimate of a row is true, against exact drags. bench_estimates does the same with many more rows.
+// That the error estimate of a row is true, against exact drags. bench_estimates does the same with
+// many more rows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +40,9 @@ TEST_P(ErrorEstimate, IsAboveTheErrorInNineteenRowsOfTwentyAndOneThirdOfItInAll)
     ratios.push_back(solved.ratio());
   }
   EXPECT_LE(20 * above, ratios.size());
-  // Nor is it so careful that it says nothing: estimates a hundred times the error would make meshes needlessly fine. (A single
-  // error may be small by chance. Medians over many rows: bench/README.md.)
+  // Nor is it so careful that it says nothing: estimates a hundred times the error would make
+  // meshes needlessly fine. (A single error may be small by chance. Medians over many rows:
+  // bench/README.md.)
   std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
   EXPECT_GT(ratios[ratios.size() / 2], 0.01);
 }

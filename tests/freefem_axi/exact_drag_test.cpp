@@ -65,16 +65,17 @@ TEST(Scaling, DragFactorDependsOnRatiosOfLengthsOnly) {
   constexpr double kVelocity = 3e-4;  // away from the floor
   const auto unit = solve_row(default_freefem(), unit_tabulation({kGap}, 5, kCoarse), kGap, -1);
 
-  // About a micrometre, and a power of two: lengths over the radius are the same to the last bit, and so is the mesh; only
-  // round-off of the solve remains (1e-13).
+  // About a micrometre, and a power of two: lengths over the radius are the same to the last bit,
+  // and so is the mesh; only round-off of the solve remains (1e-13).
   const double binary = std::ldexp(1.0, -20);
   const auto same_mesh =
       solve_row(default_freefem(), scaled_tabulation(kGap, binary), kGap * binary, kVelocity);
   EXPECT_NEAR(same_mesh.drag_factor / unit.drag_factor, 1, 1e-9);
   EXPECT_LT(same_mesh.force, 0);  // opposed to the velocity
 
-  // A decimal micrometre: the container is 5.000000000000001 radii wide, and the mesh generator decides otherwise in places. Another
-  // mesh of the same size errs by another amount of the same size: 2e-7 observed, where the estimates are some 1e-6.
+  // A decimal micrometre: the container is 5.000000000000001 radii wide, and the mesh generator
+  // decides otherwise in places. Another mesh of the same size errs by another amount of the same
+  // size: 2e-7 observed, where the estimates are some 1e-6.
   const auto other_mesh =
       solve_row(default_freefem(), scaled_tabulation(kGap, 1e-6), kGap * 1e-6, kVelocity);
   EXPECT_NEAR(other_mesh.drag_factor / unit.drag_factor, 1,
@@ -82,7 +83,8 @@ TEST(Scaling, DragFactorDependsOnRatiosOfLengthsOnly) {
 }
 
 TEST(Scaling, ForceIsOfTheRadiusTheViscosityAndTheVelocityAsItsDimensionSays) {
-  // F = -6 pi mu r u lambda(q/r, R/r, H/r), every ratio exact in binary, so that the meshes are equal; round-off of the solve (1e-13) is left.
+  // F = -6 pi mu r u lambda(q/r, R/r, H/r), every ratio exact in binary, so that the meshes are
+  // equal; round-off of the solve (1e-13) is left.
   constexpr double kRadius = 2.5, kViscosity = 3, kVelocity = -0.7;
   constexpr double kGap = 0.25;
   const auto unit = solve_row(default_freefem(), unit_tabulation({kGap}, 5, kCoarse), kGap, -1);
@@ -96,7 +98,8 @@ TEST(Scaling, ForceIsOfTheRadiusTheViscosityAndTheVelocityAsItsDimensionSays) {
   EXPECT_NEAR(row.drag_factor / unit.drag_factor, 1, 1e-10);
 }
 
-/// That F/u0 is one number over velocities of both signs and five orders of magnitude, in one tabulation.
+/// That F/u0 is one number over velocities of both signs and five orders of magnitude, in one
+/// tabulation.
 void expect_linear(Tabulation tabulation) {
   tabulation.reference_velocities = {-1, 1, -1e-3, 250};
   const TemporaryFolder scratch;

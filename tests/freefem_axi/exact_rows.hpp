@@ -1,4 +1,5 @@
-// Rows of tabulations whose drag is known exactly, drawn at random, for the tests of the error estimate and for bench_estimates.
+// Rows of tabulations whose drag is known exactly, drawn at random, for the tests of the error
+// estimate and for bench_estimates.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace viscontact {
 
 using Random = std::mt19937_64;
 
-/// From one generator's bits alone: the distributions of the standard library differ between libraries.
+/// From one generator's bits alone: the distributions of the standard library differ between
+/// libraries.
 inline double uniform(Random& random, double from, double to) {
   return std::lerp(from, to, static_cast<double>(random() >> 11U) * 0x1p-53);
 }

@@ -1,4 +1,5 @@
-// A shell script in FreeFEM's place: answers at once, remembers what it was asked, and fails as it is told to.
+// A shell script in FreeFEM's place: answers at once, remembers what it was asked, and fails as it
+// is told to.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +12,13 @@ namespace viscontact {
 
 class FakeFreeFem {
  public:
-  /// Writes the script into `folder`. `before` is shell text that runs before a row is answered, with $gap, $velocity, $viscosity
-  /// and $radius set and $folder the folder; it may sleep, fail or exit. (version.edp is answered before that.)
+  /// Writes the script into `folder`. `before` is shell text that runs before a row is answered,
+  /// with $gap, $velocity, $viscosity and $radius set and $folder the folder; it may sleep, fail or
+  /// exit. (version.edp is answered before that.)
   explicit FakeFreeFem(std::filesystem::path folder, const std::string& before = "");
 
-  /// What the row of a gap and velocity answers: F = -6 pi mu r u0 (r/q + 1), which the lecture's basis fits exactly.
+  /// What the row of a gap and velocity answers: F = -6 pi mu r u0 (r/q + 1), which the lecture's
+  /// basis fits exactly.
   static double force(double radius, double viscosity, double gap, double velocity);
 
   FreeFem freefem() const { return {executable(), folder_}; }

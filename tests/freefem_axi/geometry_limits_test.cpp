@@ -1,4 +1,5 @@
-// The ends of what a geometry may be told, and geometries that are equal or nearly so in other words.
+// The ends of what a geometry may be told, and geometries that are equal or nearly so in other
+// words.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -93,8 +94,8 @@ TEST(SecondSphere, TendsToAPlaneAsItGrows) {
   constexpr double kGap = 0.1;
   for (const double radius : {100.0, 1000.0}) {
     const auto sphere = drag("sphere", kGap, {radius, 0}, 1e-4);
-    // The film's resistance is (1 + 1/R)^-2 of the plane's, a difference of 2/R; the flow around, some 10 % of the drag here, differs less:
-    // 1.63/R and 1.56/R observed.
+    // The film's resistance is (1 + 1/R)^-2 of the plane's, a difference of 2/R; the flow around,
+    // some 10 % of the drag here, differs less: 1.63/R and 1.56/R observed.
     const double difference = 1 - sphere.factor / bispherical_plane_factor(kGap);
     EXPECT_GT(difference * radius, 1.4) << radius;
     EXPECT_LT(difference * radius, 2.0) << radius;
@@ -116,7 +117,8 @@ TEST(TightCylinder, HasTheDragOfASphereInALongTube) {
   row.tabulation.container = Container{kTube, 8};
   const auto solved = solve(default_freefem(), row);
   EXPECT_TRUE(solved.says_reached()) << solved.in_words();
-  // Bungay & Brenner 1973 (Int. J. Multiphase Flow 1, 25): a sphere that settles on the axis of a closed tube, x = r/R.
+  // Bungay & Brenner 1973 (Int. J. Multiphase Flow 1, 25): a sphere that settles on the axis of a
+  // closed tube, x = r/R.
   const double x = 1 / kTube;
   const double film = 2.25 * std::pow(std::numbers::pi, 2) * std::numbers::sqrt2 *
                       std::pow(1 - x, -2.5) *
@@ -124,8 +126,8 @@ TEST(TightCylinder, HasTheDragOfASphereInALongTube) {
   const double tube = (film - 22.5083 - 5.6117 * x - 0.3363 * x * x - 1.216 * std::pow(x, 3) +
                        1.647 * std::pow(x, 4)) /
                       (6 * std::numbers::pi);
-  // Their formula joins the film's expansion to the wide tube's; ends 3 radii away do not matter (the flow in a tube decays like
-  // exp(-4 z/R)).
+  // Their formula joins the film's expansion to the wide tube's; ends 3 radii away do not matter
+  // (the flow in a tube decays like exp(-4 z/R)).
   EXPECT_NEAR(solved.answer.drag_factor / tube, 1, 0.01);
 }
 
@@ -161,8 +163,8 @@ TEST(RoughPlane, NearContactIsFeltThroughItsCrest) {
   const auto rough = drag("rough_plane", kGap, {kAmplitude, 0.5});
   EXPECT_LT(rough.factor + rough.error, bispherical_plane_factor(kGap));
   EXPECT_GT(rough.factor - rough.error, bispherical_plane_factor(kGap + 2 * kAmplitude));
-  // The crest is a cap of curvature (2 pi / wavelength)^2 amplitude = 3.16: its film resists like (1 + 3.16)^-2 r/q, and what is
-  // around adds some 10 of 58.
+  // The crest is a cap of curvature (2 pi / wavelength)^2 amplitude = 3.16: its film resists like
+  // (1 + 3.16)^-2 r/q, and what is around adds some 10 of 58.
   EXPECT_GT(rough.factor,
             std::pow(1 + kAmplitude * std::pow(2 * std::numbers::pi / 0.5, 2), -2) / kGap);
 }

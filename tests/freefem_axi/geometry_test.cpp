@@ -80,7 +80,7 @@ TEST(Geometry, LengthsArePositiveAndAVelocityRatioIsAnything) {
 TEST(Geometry, AboveAFloorNeedsTheSphereAndTheGap) {
   const std::vector<double> ripples = {0.25, 0.5};
   for (const std::string name : {"plane", "free_surface", "rough_plane"}) {
-    const auto room = find_geometry(name).room(2, 0.5, ripples);
+    const auto room = find_geometry(name).required_space(2, 0.5, ripples);
     EXPECT_EQ(room.container_radius, name == "rough_plane" ? 4 : 2) << name;
     EXPECT_EQ(room.container_height, 4.5) << name;
     EXPECT_EQ(room.largest_gap, kInfinity) << name;
@@ -92,7 +92,7 @@ TEST(Geometry, PairOfSpheresNeedsTheLargerOneOnBothSidesOfTheMiddle) {
   const auto& sphere = find_geometry("sphere");
   for (const auto& [r, neighbour] : {std::pair(2., 3.), std::pair(3., 2.)}) {
     const std::vector<double> parameters = {neighbour, 0};
-    const auto room = sphere.room(r, 0.5, parameters);
+    const auto room = sphere.required_space(r, 0.5, parameters);
     EXPECT_EQ(room.container_radius, 3);
     EXPECT_EQ(room.container_height, 12.5);
     EXPECT_EQ(room.largest_gap, kInfinity);
@@ -103,8 +103,8 @@ TEST(Geometry, PairOfSpheresNeedsTheLargerOneOnBothSidesOfTheMiddle) {
 TEST(Geometry, CavityIsItsOwnContainerUpToConcentric) {
   const std::vector<double> radius = {5};
   EXPECT_FALSE(find_geometry("cavity").takes_container);
-  EXPECT_EQ(find_geometry("cavity").room(2, 1, radius).largest_gap, 3);
-  EXPECT_LE(find_geometry("cavity").room(5, 1, radius).largest_gap, 0);
+  EXPECT_EQ(find_geometry("cavity").required_space(2, 1, radius).largest_gap, 3);
+  EXPECT_LE(find_geometry("cavity").required_space(5, 1, radius).largest_gap, 0);
 }
 
 Tabulation tabulation_of(const char* geometry, std::vector<double> parameters) {

@@ -1,4 +1,5 @@
-// The pull-back of isoparametric.idp by itself: isoparametric.edp of this folder, with curved edges and with straight ones.
+// The pull-back of isoparametric.idp by itself: isoparametric.edp of this folder, with curved edges
+// and with straight ones.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,7 +43,8 @@ double last_order(const std::vector<std::array<double, kQuantities>>& errors, Qu
   return observed_order(errors.at(2)[quantity], errors.at(3)[quantity]);
 }
 
-// Orders are within 0.15 of theory on the last two meshes, of 16 and 32 elements from sphere to sphere, 0.25 where it is said.
+// Orders are within 0.15 of theory on the last two meshes, of 16 and 32 elements from sphere to
+// sphere, 0.25 where it is said.
 TEST(Isoparametric, CurvedEdgesGiveTheOrderOfTheElementsInGeometryEnergyAndForce) {
   const auto error = errors("1");
   EXPECT_NEAR(last_order(error, kVolume), 4, 0.15);       // observed 4.00

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/common/number.hpp"
 #include "viscontact/common/system/process.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 

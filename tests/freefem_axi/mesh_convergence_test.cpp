@@ -1,4 +1,5 @@
-// Orders of convergence of the scripts in the mesh size against exact drags, on nested meshes each of half the size of the one before.
+// Orders of convergence of the scripts in the mesh size against exact drags, on nested meshes each
+// of half the size of the one before.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,25 +39,30 @@ TEST_P(MeshConvergence, IsOfTwiceTheOrderInTheReactionsAsInTheBoundaryStress) {
   const auto force_error = [&](std::size_t level) { return levels[level][0] / exact - 1; };
   const auto stress_error = [&](std::size_t level) { return levels[level][1] / exact - 1; };
 
-  // h^4: quadratic velocity in the energy norm, squared, on isoparametric edges. From the first mesh, which has two layers of
-  // elements across the film, the order is already seen: 3.7 to 3.8, then 3.86 to 3.91, then 3.94 to 3.96. Straight edges give 2.
+  // h^4: quadratic velocity in the energy norm, squared, on isoparametric edges. From the first
+  // mesh, which has two layers of elements across the film, the order is already seen: 3.7 to 3.8,
+  // then 3.86 to 3.91, then 3.94 to 3.96. Straight edges give 2.
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const double order = observed_order(force_error(i - 1), force_error(i));
     EXPECT_GT(order, 3.5) << i;
     EXPECT_LT(order, 4.5) << i;
-    // Each triangle is cut into four: 4 times the unknowns, less what the boundaries share (3.7 observed from the first mesh).
+    // Each triangle is cut into four: 4 times the unknowns, less what the boundaries share (3.7
+    // observed from the first mesh).
     EXPECT_GT(levels[i][2], 3.5 * levels[i - 1][2]) << i;
   }
-  // h^2: stress of the quadratic velocity on the boundary. The coarser meshes' orders go from 0.5 to 2; here 1.91, 2.03, 1.97.
+  // h^2: stress of the quadratic velocity on the boundary. The coarser meshes' orders go from 0.5
+  // to 2; here 1.91, 2.03, 1.97.
   const double order = observed_order(stress_error(2), stress_error(3));
   EXPECT_GT(order, 1.7);
   EXPECT_LT(order, 2.3);
-  // Two functionals of one solution: that they agree says that both are the drag. Observed 3e-4 at most.
+  // Two functionals of one solution: that they agree says that both are the drag. Observed 3e-4 at
+  // most.
   EXPECT_LT(std::abs(stress_error(3)), 1e-3);
   // A direct solve: round-off. Observed 1e-13.
   for (const auto& level : levels) EXPECT_LT(level[3], 1e-11);
 
-  // Extrapolation gains on the finest mesh at least as much as another refinement would, 16. Observed 160 at least.
+  // Extrapolation gains on the finest mesh at least as much as another refinement would, 16.
+  // Observed 160 at least.
   std::istringstream answer(line_after(result.output, "viscontact-result"));
   double extrapolated = 0, estimate = 0;
   answer >> extrapolated >> estimate;

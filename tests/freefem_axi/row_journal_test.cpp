@@ -1,4 +1,4 @@
-#include "viscontact/freefem_axi/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/row_record.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact {
 namespace {
@@ -202,7 +202,8 @@ TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
 }
 
 TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
-  // A folder where the file should be, and a file where its folder should be: refused to root as well.
+  // A folder where the file should be, and a file where its folder should be: refused to root as
+  // well.
   const auto folder = scratch_.path() / "folder.rows";
   std::filesystem::create_directory(folder);
   expect_error([&] { const RowJournal journal(folder, kHash); }, ErrorKind::kBadInput,

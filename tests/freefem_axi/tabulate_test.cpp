@@ -12,7 +12,7 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/freefem_axi/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 namespace viscontact {
 namespace {

@@ -7,7 +7,8 @@
 
 namespace viscontact {
 
-/// A sphere of radius 1 in a fluid of viscosity 1, moving at -1 in a closed cylinder, lengths in sphere radii.
+/// A sphere of radius 1 in a fluid of viscosity 1, moving at -1 in a closed cylinder, lengths in
+/// sphere radii.
 inline Tabulation unit_tabulation(std::vector<double> gaps, double container_radius,
                                   double relative_accuracy) {
   Tabulation tabulation;

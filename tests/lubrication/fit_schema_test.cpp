@@ -1,5 +1,5 @@
-// That docs/fit.schema.json and the reader mean the same file: every rule of the schema, applied to a good file, is one the
-// reader has too.
+// That docs/fit.schema.json and the reader mean the same file: every rule of the schema, applied to
+// a good file, is one the reader has too.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact {
@@ -54,7 +54,8 @@ class Schema : public ::testing::Test {
 
   void read(const Json& json) const { read_fit(folder_.file("fit.json", json.dump())); }
 
-  /// Applies each rule of `rules` (a schema of type object) to the object at `pointer` in a good file.
+  /// Applies each rule of `rules` (a schema of type object) to the object at `pointer` in a good
+  /// file.
   void expect_object_rules(const Json& rules, const std::string& pointer) const {
     const Json::json_pointer place(pointer);
     const Json good = good_file();
@@ -178,6 +179,19 @@ TEST_F(Schema, RulesOfATermAreTheReaders) {
 TEST_F(Schema, RulesOfAnOutlierAreTheReaders) {
   expect_object_rules(schema().at("/properties/diagnostics/properties/outliers/items"_json_pointer),
                       "/diagnostics/outliers/0");
+}
+
+TEST_F(Schema, AllowsNoTermsInTheFileOfTheExactDragAlone) {
+  EXPECT_EQ(schema().at("/if/properties/basis/const"_json_pointer), kExactPlane);
+  EXPECT_EQ(schema().at("/then/properties/terms/maxItems"_json_pointer), 0);
+  EXPECT_EQ(schema().at("/else/properties/terms/minItems"_json_pointer), 1);
+  Json exact = Json::parse(write_fit(exact_plane_fit(3, 1)));
+  EXPECT_NO_THROW(read(exact));
+  Json fitted = good_file();
+  exact["terms"] = fitted["terms"];
+  expect_refused(exact, "terms");
+  fitted["terms"] = Json::array();
+  expect_refused(fitted, "terms");
 }
 
 TEST_F(Schema, KnowsEveryWeights) {

@@ -22,8 +22,9 @@ using ::testing::HasSubstr;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// What round-off allows the inverse at `gap`, relative: it works on ln q, whose own rounding is eps |ln q|, and Gamma is a sum of
-/// terms that are each rounded and may cancel; dq/q = dGamma / (R q). A handful of roundings of each.
+/// What round-off allows the inverse at `gap`, relative: it works on ln q, whose own rounding is
+/// eps |ln q|, and Gamma is a sum of terms that are each rounded and may cancel; dq/q = dGamma / (R
+/// q). A handful of roundings of each.
 double round_off(const Fit& fit, const LubricationForce& force, double gap) {
   double sizes = std::abs(force.impulse(gap));
   for (const auto& term : fit.terms) {
@@ -109,7 +110,8 @@ INSTANTIATE_TEST_SUITE_P(Impulse, Inverse, ::testing::ValuesIn(samples()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(ImpulseInverse, StaysInsideAnyIntervalItIsGiven) {
-  // exp(ln q) is not always q: the ends of many intervals, where a rounding outwards would leave them.
+  // exp(ln q) is not always q: the ends of many intervals, where a rounding outwards would leave
+  // them.
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> logarithm(-9, 0);
   for (int i = 0; i < 2000; ++i) {
@@ -167,9 +169,10 @@ TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
 }
 
 TEST(ImpulseInverse, GivesTheLecturesMinimalGap) {
-  // Without inertia Gamma(q_min) = Gamma(q0) + impulse of the push, -200 for 2 units of time (docs/theory.md, section 3), on the exact
-  // drag. The fit is within 6e-6 of the drag everywhere, hence Gamma too, and dq/q = dGamma/k = 6e-6 * 400/56.5 at worst;
-  // the residual changes sign, so 1e-5 holds.
+  // Without inertia Gamma(q_min) = Gamma(q0) + impulse of the push, -200 for 2 units of time
+  // (docs/theory.md, section 3), on the exact drag. The fit is within 6e-6 of the drag everywhere,
+  // hence Gamma too, and dq/q = dGamma/k = 6e-6 * 400/56.5 at worst; the residual changes sign, so
+  // 1e-5 holds.
   const LubricationForce force(fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1),
                                                "asymptotic", Weights::kRelative));
   constexpr double kExact = 2.97084661e-3;

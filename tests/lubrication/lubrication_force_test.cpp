@@ -75,7 +75,8 @@ TEST_P(OnBothBases, LogSlopeIsGapTimesTheDerivativeOfTheResistance) {
 TEST_P(OnBothBases, ImpulseIsTheIntegralOfTheResistance) {
   const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
   const auto resistance = [&](double gap) { return force.resistance(gap); };
-  // Simpson in ln q: h^4/180 ((ln q)^4-derivative of q R, at most 81 q R for q^4 terms) < 1e-11 of the whole.
+  // Simpson in ln q: h^4/180 ((ln q)^4-derivative of q R, at most 81 q R for q^4 terms) < 1e-11 of
+  // the whole.
   EXPECT_EQ(force.impulse(1), 0) << "q_ref is the radius";
   EXPECT_NEAR(-force.impulse(1e-3), simpson(resistance, 1e-3, 1),
               1e-10 * std::abs(force.impulse(1e-3)));
@@ -102,7 +103,8 @@ TEST_P(OnBothBases, IsContinuousAtTheLowerEndOfItsInterval) {
   const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
   const double gap = 1e-3;
   const double below = std::nextafter(gap, 0.0);
-  // One unit in the last place of q changes R and Gamma by as many of theirs; both are sums of a few rounded terms.
+  // One unit in the last place of q changes R and Gamma by as many of theirs; both are sums of a
+  // few rounded terms.
   EXPECT_NEAR(force.resistance(below), force.resistance(gap), 4e-15 * force.resistance(gap));
   EXPECT_NEAR(force.impulse(below), force.impulse(gap), 4e-15 * std::abs(force.impulse(gap)));
 }

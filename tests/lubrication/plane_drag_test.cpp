@@ -13,7 +13,7 @@
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/gauss_legendre.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
 namespace {

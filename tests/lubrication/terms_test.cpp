@@ -15,14 +15,16 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// f'(q) by the central difference of five points, step h = q/256 (a power of two: q +- h are exact).
+/// f'(q) by the central difference of five points, step h = q/256 (a power of two: q +- h are
+/// exact).
 double numerical_derivative(const Formula& f, double q) {
   const double h = std::ldexp(q, -8);
   return (8 * (f(q + h) - f(q - h)) - (f(q + 2 * h) - f(q - 2 * h))) / (12 * h);
 }
 
-/// What that may be off by. Truncation is h^4 f^(5)/30 = q^-1 (h/q)^4 |q^5 f^(5)|/30, where |q^5 f^(5)| is at most 120 times the
-/// size of the term (1/q: 5!), hence 4 * 2^-32 = 1e-9; rounding is eps * 256 = 6e-14. `size` is the term's own.
+/// What that may be off by. Truncation is h^4 f^(5)/30 = q^-1 (h/q)^4 |q^5 f^(5)|/30, where |q^5
+/// f^(5)| is at most 120 times the size of the term (1/q: 5!), hence 4 * 2^-32 = 1e-9; rounding is
+/// eps * 256 = 6e-14. `size` is the term's own.
 double numerical_tolerance(double size, double q) { return 2e-9 * size / q; }
 
 /// |f| without the dip where a logarithm passes zero.

@@ -11,7 +11,7 @@
 
 #include "tests/oracles/brenner.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
 namespace {
@@ -127,8 +127,8 @@ TEST(Bispherical, TheForceOfOneSphereOnTheOtherIsReciprocal) {
 }
 
 TEST(Bispherical, EqualSpheresThatMoveTogetherDragLessThanTwoAlone) {
-  // At contact 0.645141..., Cooley & O'Neill 1969 (Proc. Camb. Phil. Soc. 66, 407) for touching spheres; the
-  // approach is linear in the gap, with a slope of order 0.1.
+  // At contact 0.645141..., Cooley & O'Neill 1969 (Proc. Camb. Phil. Soc. 66, 407) for touching
+  // spheres; the approach is linear in the gap, with a slope of order 0.1.
   EXPECT_NEAR(two_sphere_drag_factor(1e-6, 1, 1), 0.645141, 1e-6);
   // Far away, at distance d of the centres over r, Smoluchowski's reflections give mobility
   // 1 + 3/(2d) - 1/d^3 - 15/(4 d^4) + ...; together and, at -1, against each other.

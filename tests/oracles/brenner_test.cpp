@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/oracles/near_contact_expansion.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
 namespace {

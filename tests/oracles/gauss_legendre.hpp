@@ -33,7 +33,8 @@ inline std::vector<QuadratureNode> gauss_legendre(int count) {
   for (int i = 0; i < count; ++i) {
     long double x = std::cos(std::numbers::pi_v<long double> * (i + 0.75L) / (count + 0.5L));
     long double derivative = 0;
-    // Newton's method doubles the 4 digits or more of this first guess each time; the last makes the derivative as good as the zero.
+    // Newton's method doubles the 4 digits or more of this first guess each time; the last makes
+    // the derivative as good as the zero.
     for (int iteration = 0; iteration < 5; ++iteration) {
       Legendre legendre(x);
       while (legendre.n < count) legendre.advance();

@@ -16,20 +16,23 @@ namespace {
 
 using Real = long double;
 
-/// Butcher's array of Radau IIA: nodes c in (0, 1], the last 1, and a_ij = int_0^{c_i} of the j-th Lagrange polynomial.
+/// Butcher's array of Radau IIA: nodes c in (0, 1], the last 1, and a_ij = int_0^{c_i} of the j-th
+/// Lagrange polynomial.
 template <int stages>
 struct Radau {
   Eigen::Matrix<Real, stages, 1> c;
   Eigen::Matrix<Real, stages, stages> a, inverse;
 
   Radau() {
-    // Zeros of P_s - P_{s-1} on [-1, 1]: 1, and one between each two neighbouring zeros of P_s and of P_{s-1}.
+    // Zeros of P_s - P_{s-1} on [-1, 1]: 1, and one between each two neighbouring zeros of P_s and
+    // of P_{s-1}.
     const auto defect = [](Real x) {
       Legendre legendre(x);
       while (legendre.n < stages) legendre.advance();
       return legendre.p - legendre.p_before;
     };
-    // Between 1 and the largest zero of P_s there is none, and the polynomial changes its sign between neighbours of P_s' zeros.
+    // Between 1 and the largest zero of P_s there is none, and the polynomial changes its sign
+    // between neighbours of P_s' zeros.
     auto gauss = gauss_legendre(stages);
     std::ranges::sort(gauss, {}, &QuadratureNode::x);
     c(stages - 1) = 1;
@@ -79,8 +82,9 @@ bool InertialMotion::step(const State& y, Real elapsed, Real length, State& afte
   using Vector = Eigen::Matrix<Real, kStages, 1>;
   const Real m = problem_.mass;
 
-  // Unknown: what w has changed by at each point; what s has changed by is linear in it. The equation of w is multiplied by the inverse of A and each of its rows
-  // is divided by its own stiffness: no row is lost beside another, be R/m 1e100 times 1/length.
+  // Unknown: what w has changed by at each point; what s has changed by is linear in it. The
+  // equation of w is multiplied by the inverse of A and each of its rows is divided by its own
+  // stiffness: no row is lost beside another, be R/m 1e100 times 1/length.
   Vector change = Vector::Zero();
   Real last_correction = 1;
   for (int iteration = 0; iteration < 12; ++iteration) {
@@ -212,7 +216,8 @@ Real brenner_series(Real epsilon) {
   }
 }
 
-/// eps lambda on pieces of length 1/2 of ln eps, by interpolation at 16 of Chebyshev's points: it is analytic for |Im ln eps| < pi, so an error of 25^-16 = 2e-22.
+/// eps lambda on pieces of length 1/2 of ln eps, by interpolation at 16 of Chebyshev's points: it
+/// is analytic for |Im ln eps| < pi, so an error of 25^-16 = 2e-22.
 class PlaneDrag {
  public:
   Real operator()(Real epsilon) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 

@@ -10,7 +10,7 @@
 
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/near_contact_expansion.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
 namespace {

@@ -31,7 +31,8 @@ TEST(Box2d, ComesToRestWithoutOverlapsAndEveryStepConverges) {
   run(simulation, 30, [&](const StepReport& report) {
     EXPECT_TRUE(report.converged) << report.time;
     EXPECT_LE(report.residual, 1e-6) << report.time;
-    // A gap is no less than the linearised one, which is within the tolerance; the rest is rounding of heights up to 30.
+    // A gap is no less than the linearised one, which is within the tolerance; the rest is rounding
+    // of heights up to 30.
     EXPECT_LE(largest_overlap(setting, state), 1e-6 + 1e-13) << report.time;
     if (state.steps % 20 == 0) {
       EXPECT_LE(largest_overlap_of_all(state), 1e-6 + 1e-13) << report.time;

@@ -27,13 +27,14 @@ Setting on_the_floor(double h) {
 
 /// Contact forces over the weight of one: n at the floor, then n - 1, ..., 1.
 void expect_weights(const State& state, int count, double h, double tolerance) {
-  EXPECT_NEAR(film_of(state, -1, 0).impulse / h, count, tolerance);
+  EXPECT_NEAR(pair_of(state, -1, 0).impulse / h, count, tolerance);
   for (int k = 1; k < count; ++k)
-    EXPECT_NEAR(film_of(state, k - 1, k).impulse / h, count - k, tolerance) << k;
+    EXPECT_NEAR(pair_of(state, k - 1, k).impulse / h, count - k, tolerance) << k;
 }
 
-/// Of forces, when every gap is within the solver's tolerance: W is h/m times the matrix of second differences with one end free, whose inverse has row
-/// sums up to n (n + 1)/2; gaps h^2 times forces. And gaps are rounded, heights 2 n.
+/// Of forces, when every gap is within the solver's tolerance: W is h/m times the matrix of second
+/// differences with one end free, whose inverse has row sums up to n (n + 1)/2; gaps h^2 times
+/// forces. And gaps are rounded, heights 2 n.
 double tolerance_of(const Setting& setting, int count) {
   const double gaps = setting.solver.tolerance + 2.0 * count * 4e-16;
   return gaps * count * (count + 1) / 2 / (setting.time_step * setting.time_step);
@@ -52,7 +53,7 @@ TEST_P(Column, AtRestCarriesItsWeights) {
       EXPECT_TRUE(simulation.step(1).converged);
       expect_weights(simulation.state(), count, setting.time_step, tolerance);
       // Smooth: the films have taken all of it.
-      EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma, -count * setting.time_step * n,
+      EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -count * setting.time_step * n,
                   n * tolerance * setting.time_step);
     }
     EXPECT_LE(largest_overlap(setting, simulation.state()), 1e-12);
@@ -73,7 +74,8 @@ TEST_P(Column, ThatHasFallenCarriesItsWeights) {
 }
 
 TEST_P(Column, OfRisingMassesCarriesTheirWeights) {
-  // Heavy above light, 1 : 4^9, is the hard way round for a solver that goes from contact to contact.
+  // Heavy above light, 1 : 4^9, is the hard way round for a solver that goes from contact to
+  // contact.
   auto state = column(GetParam(), 10, 0);
   double above = 0;
   for (std::size_t k = 0; k < 10; ++k)
@@ -85,7 +87,7 @@ TEST_P(Column, OfRisingMassesCarriesTheirWeights) {
   double carried = above;
   for (int k = 0; k < 10; ++k) {
     // As above; W's inverse is that of masses of up to 4^9.
-    EXPECT_NEAR(film_of(simulation.state(), k == 0 ? -1 : k - 1, k).impulse / 0.02 / carried, 1,
+    EXPECT_NEAR(pair_of(simulation.state(), k == 0 ? -1 : k - 1, k).impulse / 0.02 / carried, 1,
                 1e-6)
         << k;
     carried -= state.particles.masses[static_cast<std::size_t>(k)];

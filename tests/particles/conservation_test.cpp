@@ -1,4 +1,5 @@
-// What contacts must not change: momentum, the sum of an action and its reaction; and the memory's books.
+// What contacts must not change: momentum, the sum of an action and its reaction; and the memory's
+// books.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double kEpsilon = 2.3e-16;
 
-/// Radii 1:100 and densities over four decades, so masses over eight (discs) or ten (spheres), drawn to the middle by forces whose sum is 0.
+/// Radii 1:100 and densities over four decades, so masses over eight (discs) or ten (spheres),
+/// drawn to the middle by forces whose sum is 0.
 struct Collapse {
   State state;
   Setting setting;
@@ -143,7 +145,8 @@ TEST_P(Conservation, InelasticContactsNeverGainEnergy) {
     double energy = start;
     run(simulation, 3, [&](const StepReport& report) {
       EXPECT_TRUE(report.converged);
-      // The projection on a set that holds 0 shortens; overlaps of the tolerance, pushed out in a step, bring 1e-9/h times the momenta.
+      // The projection on a set that holds 0 shortens; overlaps of the tolerance, pushed out in a
+      // step, bring 1e-9/h times the momenta.
       EXPECT_LE(kinetic_energy(p), energy + 1e-6 * start) << report.time;
       energy = kinetic_energy(p);
     });
@@ -163,7 +166,8 @@ TEST_P(Conservation, FilmsGainHardlyAnyEnergyAndNoAngularMomentum) {
       const Vector turning = angular_momentum(p);
       double lowest = start;
       run(simulation, 3, [&](const StepReport& report) {
-        // The equality of a film takes back what the step before drifted apart, also where what drove them apart is over by then: 4e-5 is seen.
+        // The equality of a film takes back what the step before drifted apart, also where what
+        // drove them apart is over by then: 4e-5 is seen.
         EXPECT_LE(kinetic_energy(p), lowest + 4e-4 * start) << report.time << ", h = " << h;
         lowest = std::min(lowest, kinetic_energy(p));
         // Impulses along the lines of the centres.

@@ -19,7 +19,8 @@ double order(double coarse, double fine, double ratio) {
 class Convergence : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Dimensions, Convergence, ::testing::Values(2, 3));
 
-/// Largest errors of q and gamma in the lecture's limit case (physics.md, section 4): q = 1 - t^2 to t = 1, 0 to t = 4, then (t - 4)^2; gamma = -2t, 2t - 8.
+/// Largest errors of q and gamma in the lecture's limit case (physics.md, section 4): q = 1 - t^2
+/// to t = 1, 0 to t = 4, then (t - 4)^2; gamma = -2t, 2t - 8.
 std::array<double, 2> limit_case_errors(int dimension, double h) {
   Setting setting;
   setting.time_step = h;
@@ -38,7 +39,7 @@ std::array<double, 2> limit_case_errors(int dimension, double h) {
     errors[0] = std::max(errors[0], std::abs(height - q));
     // Within the two steps of the impact gamma is on its way from 0 to -2.
     if (std::abs(t - 1) > 2 * h)
-      errors[1] = std::max(errors[1], std::abs(film_of(simulation.state(), -1, 0).gamma - gamma));
+      errors[1] = std::max(errors[1], std::abs(pair_of(simulation.state(), -1, 0).gamma - gamma));
   });
   return errors;
 }
@@ -49,13 +50,14 @@ TEST_P(Convergence, InTheLimitCaseIsOfFirstOrder) {
   // C h (1 + O(h)): 2 h after the flight of 2.
   EXPECT_NEAR(order(coarse[0], fine[0], 10), 1, 0.02);
   EXPECT_LT(fine[0], 6e-3);
-  // What the film has taken is exact, m u + gamma = int f, but for what the solver leaves: gaps of 1e-14 over h/m.
+  // What the film has taken is exact, m u + gamma = int f, but for what the solver leaves: gaps of
+  // 1e-14 over h/m.
   EXPECT_LT(coarse[1], 3e-11);
   EXPECT_LT(fine[1], 3e-11);
 }
 
-/// Two of masses 1 and 2, touching at t = 0, pushed together by 2 cos t until pi/2 and pulled apart after: gamma = -2 sin t is 0 at pi, then the gap is
-/// 2 (1 + cos t) (1 + 1/2).
+/// Two of masses 1 and 2, touching at t = 0, pushed together by 2 cos t until pi/2 and pulled apart
+/// after: gamma = -2 sin t is 0 at pi, then the gap is 2 (1 + cos t) (1 + 1/2).
 struct Smooth {
   double gap_error;        ///< at t = 5
   double corrected_error;  ///< of the gap less h u/2
@@ -83,7 +85,7 @@ Smooth smooth_errors(int dimension, double h) {
     const double gamma = std::min(0.0, -2 * std::sin(report.time));
     if (report.time < 3.2)
       errors.gamma_error =
-          std::max(errors.gamma_error, std::abs(film_of(simulation.state(), 0, 1).gamma - gamma));
+          std::max(errors.gamma_error, std::abs(pair_of(simulation.state(), 0, 1).gamma - gamma));
   });
   const double gap = 1.5 * 2 * (1 + std::cos(5.0));
   const auto& p = simulation.state().particles;
@@ -100,7 +102,8 @@ TEST_P(Convergence, OfASmoothlyPulledPairIsOfFirstOrderAndTheReleaseExact) {
   RecordProperty("gap", std::to_string(fine.gap_error));
   // h u/2 (1 + O(h)): the scheme moves with the velocity of the step's end.
   EXPECT_NEAR(order(coarse.gap_error, fine.gap_error, 8), 1, 0.05);
-  // The rest is of second order, the release within its step included (its share of the step is not the same for both).
+  // The rest is of second order, the release within its step included (its share of the step is not
+  // the same for both).
   EXPECT_GT(order(coarse.corrected_error, fine.corrected_error, 8), 1.8);
   // Impulses are exact, released ones too.
   for (const auto& errors : {coarse, fine}) {

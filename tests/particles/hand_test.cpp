@@ -16,7 +16,8 @@
 namespace viscontact::particles {
 namespace {
 
-// Gaps are solved to 1e-14, impulses so to that over h/m, h >= 1e-3; the rest is rounding of numbers of about 1.
+// Gaps are solved to 1e-14, impulses so to that over h/m, h >= 1e-3; the rest is rounding of
+// numbers of about 1.
 constexpr double kRounding = 2e-11;
 
 Setting setting_of(double time_step, std::optional<double> gamma_min = {}) {
@@ -27,7 +28,8 @@ Setting setting_of(double time_step, std::optional<double> gamma_min = {}) {
   return setting;
 }
 
-/// Masses 1 and 3 that meet at t = 1.25 with relative velocity 2: together they have (1 - 3)/4 = -1/2, and their film takes 3/2.
+/// Masses 1 and 3 that meet at t = 1.25 with relative velocity 2: together they have (1 - 3)/4 =
+/// -1/2, and their film takes 3/2.
 State head_on(int dimension) {
   State state = no_particles(dimension);
   add_particle(state, {-2, 0, 0}, 1, 1, {1, 0, 0});
@@ -50,7 +52,7 @@ TEST_P(ByHand, HeadOnTheyGoOnTogetherAndTheFilmRemembersTheImpulse) {
     const auto& state = simulation.state();
     for (const std::size_t k : {0U, 1U})
       EXPECT_NEAR(state.particles.velocity(k)[0], -0.5, kRounding) << h;
-    EXPECT_NEAR(film_of(state, 0, 1).gamma, -1.5, kRounding) << h;
+    EXPECT_NEAR(pair_of(state, 0, 1).gamma, -1.5, kRounding) << h;
     EXPECT_NEAR(pair_gap(state, 0, 1), 0, kRounding) << h;
   }
 }
@@ -74,7 +76,8 @@ Setting pulled(double h, double pull, std::optional<double> gamma_min) {
 }
 
 TEST_P(ByHand, PulledApartTheyLeaveWhenTheImpulseIsGivenBackWhateverTheStep) {
-  // Film -> release: 3/2 (all of the impact), what the solids left of it, or nothing: gamma_min = 0 is plain inelastic contact.
+  // Pair -> release: 3/2 (all of the impact), what the solids left of it, or nothing: gamma_min = 0
+  // is plain inelastic contact.
   for (const auto& [gamma_min, held] :
        std::vector<std::pair<std::optional<double>, double>>{{{}, 1.5}, {-0.4, 0.4}, {0.0, 0.0}})
     for (const double pull : {0.7, 3.1})
@@ -85,7 +88,7 @@ TEST_P(ByHand, PulledApartTheyLeaveWhenTheImpulseIsGivenBackWhateverTheStep) {
         const double acceleration = pull * (1 + 1.0 / 3);
         run(simulation, end, [&](const StepReport& report) {
           const auto& state = simulation.state();
-          const double gamma = film_of(state, 0, 1).gamma;
+          const double gamma = pair_of(state, 0, 1).gamma;
           if (report.time > 1.25 + 2 * h && report.time < 2) {
             EXPECT_NEAR(gamma, -held, kRounding) << report.time;
           }
@@ -98,12 +101,14 @@ TEST_P(ByHand, PulledApartTheyLeaveWhenTheImpulseIsGivenBackWhateverTheStep) {
             EXPECT_EQ(report.glued, 0U) << report.time;
           }
         });
-        // The impulse within the step of release counts: velocities are exact from then on, so the time of release is.
+        // The impulse within the step of release counts: velocities are exact from then on, so the
+        // time of release is.
         const auto& p = simulation.state().particles;
         const double velocity = p.velocity(1)[0] - p.velocity(0)[0];
         EXPECT_NEAR(end - velocity / acceleration, release, kRounding / acceleration);
-        // The scheme moves with the velocity of the step's end, h u/2 ahead, and by a h^2 theta (1 - theta)/2 for the share theta of the step after
-        // release; the last step of the run, cut short, and the step at t = 2 are ahead by less.
+        // The scheme moves with the velocity of the step's end, h u/2 ahead, and by a h^2 theta (1
+        // - theta)/2 for the share theta of the step after release; the last step of the run, cut
+        // short, and the step at t = 2 are ahead by less.
         const double ahead = pair_gap(simulation.state(), 0, 1) -
                              acceleration * (end - release) * (end - release) / 2;
         EXPECT_NEAR(ahead, h * velocity / 2, 1.1 * acceleration * h * h);
@@ -124,14 +129,14 @@ TEST_P(ByHand, ThreeInARowGoOnTogether) {
     // Gauss-Seidel to 1e-12 of a displacement h u.
     for (const std::size_t k : {0U, 1U, 2U})
       EXPECT_NEAR(simulation.state().particles.velocity(k)[0], 1.0 / 3, 1e-9);
-    EXPECT_NEAR(film_of(simulation.state(), 0, 1).gamma, gamma_min ? 0 : -2.0 / 3, 1e-9);
-    EXPECT_NEAR(film_of(simulation.state(), 1, 2).gamma, gamma_min ? 0 : -1.0 / 3, 1e-9);
+    EXPECT_NEAR(pair_of(simulation.state(), 0, 1).gamma, gamma_min ? 0 : -2.0 / 3, 1e-9);
+    EXPECT_NEAR(pair_of(simulation.state(), 1, 2).gamma, gamma_min ? 0 : -1.0 / 3, 1e-9);
   }
 }
 
 TEST_P(ByHand, AMovingPlaneCarriesAParticleAndLetsItGoWhenItTurnsBack) {
-  // A piston from the left meets the disc, mass 2, at t = 0.5 and carries it with 1, film -2. From t = 1 on it goes back with -1: the film can stop
-  // the disc with its 2, no more.
+  // A piston from the left meets the disc, mass 2, at t = 0.5 and carries it with 1, film -2. From
+  // t = 1 on it goes back with -1: the film can stop the disc with its 2, no more.
   State state = no_particles(GetParam());
   add_particle(state, {0, 0, 0}, 0.5, 2);
   for (const double h : {0.1, 0.01, 0.0043}) {
@@ -146,10 +151,10 @@ TEST_P(ByHand, AMovingPlaneCarriesAParticleAndLetsItGoWhenItTurnsBack) {
     run(simulation, 0.95);
     EXPECT_NEAR(p.velocity(0)[0], 1, kRounding);
     EXPECT_EQ(p.velocity(0)[1], 0);
-    EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma, -2, kRounding);
+    EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -2, kRounding);
     run(simulation, 2);
     EXPECT_NEAR(p.velocity(0)[0], 0, kRounding);
-    EXPECT_EQ(film_of(simulation.state(), -1, 0).gamma, 0);
+    EXPECT_EQ(pair_of(simulation.state(), -1, 0).gamma, 0);
     // It has been carried for half of 1, and comes to rest within a step of t = 1.
     EXPECT_NEAR(p.position(0)[0], 0.5, h * (1 + kRounding));
   }
@@ -177,7 +182,8 @@ TEST_P(ByHand, BetweenTwoClosingPlanesItIsCarriedAndThenTheStepIsReported) {
 }
 
 TEST_P(ByHand, ATurningPlaneLiftsWhatLiesOnIt) {
-  // About the origin, by 0.5 a unit of time; the particle slides down without friction, so that it is in contact all the time.
+  // About the origin, by 0.5 a unit of time; the particle slides down without friction, so that it
+  // is in contact all the time.
   State state = no_particles(GetParam());
   add_particle(state, {1, 0.5, 0}, 0.5, 1);
   auto setting = setting_of(0.01);
@@ -211,7 +217,8 @@ TEST_P(ByHand, AJumpOfTheForceWithinAStepCountsByItsShare) {
   EXPECT_NEAR(p.velocity(0)[1], (0.0833 * 4 + 0.0767) / 4, 1e-14);
 }
 
-/// Two of radius 1, mass 1, that turn about each other by 1 a unit of time, touching, with a film of -1.
+/// Two of radius 1, mass 1, that turn about each other by 1 a unit of time, touching, with a film
+/// of -1.
 State turning_pair(int dimension) {
   State state = no_particles(dimension);
   add_particle(state, {-1, 0, 0}, 1, 1, {0, -1, 0});
@@ -221,14 +228,15 @@ State turning_pair(int dimension) {
 }
 
 TEST_P(ByHand, ATurningPairIsHeldByItsFilmUntilItIsUsedUp) {
-  // The film gives the centripetal m r omega^2 = 1 each: it is used up at t = 1, then they fly straight on.
+  // The film gives the centripetal m r omega^2 = 1 each: it is used up at t = 1, then they fly
+  // straight on.
   for (const double h : {0.02, 0.01, 0.001}) {
     SCOPED_TRACE(h);
     Simulation simulation(setting_of(h), turning_pair(GetParam()), 1);
     const auto& state = simulation.state();
     double released = std::numeric_limits<double>::infinity(), drift = 0;
     run(simulation, 1.5, [&](const StepReport& report) {
-      if (film_of(state, 0, 1).gamma < 0)
+      if (pair_of(state, 0, 1).gamma < 0)
         drift = std::max(drift, std::abs(pair_gap(state, 0, 1)));
       else
         released = std::min(released, report.time);
@@ -237,7 +245,8 @@ TEST_P(ByHand, ATurningPairIsHeldByItsFilmUntilItIsUsedUp) {
     });
     // Of first order in h; seen is one step.
     EXPECT_NEAR(released, 1, 2 * h);
-    // The linearised equality moves them along the tangent, h omega r each: h^2 further apart, which the next step takes back.
+    // The linearised equality moves them along the tangent, h omega r each: h^2 further apart,
+    // which the next step takes back.
     EXPECT_GT(drift, 0.9 * h * h);
     EXPECT_LT(drift, 1.1 * h * h);
     EXPECT_NEAR(kinetic_energy(state.particles), 1, h);

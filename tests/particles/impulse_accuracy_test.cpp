@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -10,8 +11,6 @@
 
 namespace viscontact::particles {
 namespace {
-
-PiecewiseConstant constant(const Vector& force) { return {{{1e300, force}}}; }
 
 /// A chain along `axis` that touches: particle k has the radius radii[k]; the first touches 0.
 State chain(int dimension, const std::vector<double>& radii, const std::vector<double>& masses,
@@ -25,19 +24,6 @@ State chain(int dimension, const std::vector<double>& radii, const std::vector<d
     add_particle(state, centre, radii[k], masses[k]);
   }
   return state;
-}
-
-/// Takes `steps` steps, each of which must converge. Returns the most iterations of a step.
-int take_steps(Simulation& simulation, int steps) {
-  int most = 0;
-  for (int n = 0; n < steps; ++n) {
-    const auto report = simulation.step(1e300);
-    EXPECT_TRUE(report.converged) << "step " << n << ", residuals " << report.residual << ", "
-                                  << report.impulse_residual << ", iterations "
-                                  << report.iterations;
-    most = std::max(most, report.iterations);
-  }
-  return most;
 }
 
 TEST(ImpulseAccuracy, TwoDiscsPushedTogetherRememberThePush) {
@@ -55,7 +41,7 @@ TEST(ImpulseAccuracy, TwoDiscsPushedTogetherRememberThePush) {
     setting.forces[1] = constant({-force, 0, 0});
     Simulation simulation(setting, chain(2, {1, 1}, {1, 1}, 0), 1);
     take_steps(simulation, steps);
-    const auto film = film_of(simulation.state(), 0, 1);
+    const auto film = pair_of(simulation.state(), 0, 1);
     // Of sums of so many numbers.
     EXPECT_NEAR(film.gamma / (force * h * steps), -1, 1e-10);
     // What the residuals allow it to be wrong by is no more than was asked for.
@@ -70,9 +56,9 @@ TEST(ImpulseAccuracy, StackOfShortStepsCarriesItsWeights) {
   setting.time_step = 1e-5;
   Simulation simulation(setting, chain(2, {1, 1, 1}, {1, 1, 1}, 1), 1);
   take_steps(simulation, 100'000);
-  EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma, -3, 1e-9);
-  EXPECT_NEAR(film_of(simulation.state(), 0, 1).gamma, -2, 1e-9);
-  EXPECT_NEAR(film_of(simulation.state(), 1, 2).gamma, -1, 1e-9);
+  EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma, -3, 1e-9);
+  EXPECT_NEAR(pair_of(simulation.state(), 0, 1).gamma, -2, 1e-9);
+  EXPECT_NEAR(pair_of(simulation.state(), 1, 2).gamma, -1, 1e-9);
 }
 
 TEST(ImpulseAccuracy, MicrometreStackInSiUnits) {
@@ -85,7 +71,7 @@ TEST(ImpulseAccuracy, MicrometreStackInSiUnits) {
   take_steps(simulation, 1000);
   for (int k = 0; k < 5; ++k)
     EXPECT_NEAR(
-        film_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(5 - k) * kForce * 1e-2), 1,
+        pair_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(5 - k) * kForce * 1e-2), 1,
         1e-8)
         << k;
 }
@@ -100,7 +86,7 @@ TEST(ImpulseAccuracy, RowThatIsPushedSharesThePush) {
   EXPECT_LE(take_steps(simulation, 100), 60);
   // All go together: a contact moves what is beyond it.
   for (int k = 1; k < kCount; ++k)
-    EXPECT_NEAR(film_of(simulation.state(), k - 1, k).gamma * kCount / -(kCount - k), 1,
+    EXPECT_NEAR(pair_of(simulation.state(), k - 1, k).gamma * kCount / -(kCount - k), 1,
                 10 * setting.solver.impulse_tolerance)
         << k;
 }
@@ -121,7 +107,7 @@ TEST_P(LongChain, StandsHangsAndIsPushedInTensOfIterations) {
     Simulation simulation(setting, chain(GetParam(), ones, ones, 1), 1);
     EXPECT_LE(take_steps(simulation, kSteps), 60);
     for (const int k : {0, 1, 10, 5000, 9999})
-      EXPECT_NEAR(film_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(kCount - k) * t),
+      EXPECT_NEAR(pair_of(simulation.state(), k == 0 ? -1 : k - 1, k).gamma / (-(kCount - k) * t),
                   1, 1e-8)
           << k;
   }
@@ -139,7 +125,7 @@ TEST_P(LongChain, StandsHangsAndIsPushedInTensOfIterations) {
     EXPECT_LE(take_steps(hang, kSteps), 60);
     for (const int k : {0, 1, 10, 5000, 9999})
       EXPECT_NEAR(
-          film_of(hang.state(), k == 0 ? -1 : k - 1, k).gamma / (-(kCount - k) * (100 * h - t)), 1,
+          pair_of(hang.state(), k == 0 ? -1 : k - 1, k).gamma / (-(kCount - k) * (100 * h - t)), 1,
           1e-8)
           << k;
   }
@@ -151,7 +137,7 @@ TEST_P(LongChain, StandsHangsAndIsPushedInTensOfIterations) {
     Simulation simulation(setting, chain(GetParam(), ones, ones, 1), 1);
     EXPECT_LE(take_steps(simulation, kSteps), 60);
     for (const int k : {1, 10, 5000, 9999})
-      EXPECT_NEAR(film_of(simulation.state(), k - 1, k).gamma * kCount / (-(kCount - k) * t), 1,
+      EXPECT_NEAR(pair_of(simulation.state(), k - 1, k).gamma * kCount / (-(kCount - k) * t), 1,
                   1e-8)
           << k;
   }
@@ -243,7 +229,7 @@ TEST(ImpulseAccuracy, ChainsAndColumnsOfAnyMassesAndRadii) {
     for (int k = 0; k < count; ++k) {
       const double carried = column ? load * beyond : load * beyond / all;
       if (column || k > 0) {
-        const auto film = film_of(simulation.state(), k == 0 ? -1 : k - 1, k);
+        const auto film = pair_of(simulation.state(), k == 0 ? -1 : k - 1, k);
         EXPECT_NEAR(film.gamma / (carried * h * steps), -1, 1e-6) << k;
       }
       beyond -= masses[static_cast<std::size_t>(k)];
@@ -269,98 +255,9 @@ TEST(ImpulseAccuracy, PairsOfDifferentLoadsDoNotDisturbEachOther) {
   take_steps(simulation, 100);
   for (std::size_t pair = 0; pair < loads.size(); ++pair) {
     const auto first = static_cast<std::int32_t>(2 * pair);
-    EXPECT_NEAR(film_of(simulation.state(), first, first + 1).gamma / (0.1 * loads[pair]), -1, 1e-8)
+    EXPECT_NEAR(pair_of(simulation.state(), first, first + 1).gamma / (0.1 * loads[pair]), -1, 1e-8)
         << loads[pair];
   }
-}
-
-TEST(ImpulseAccuracy, DoesNotDependOnTheUnits) {
-  // Isostatic: three discs that rest on each other in a V of two planes.
-  const auto gamma_in = [](double length, double mass, double time) {
-    State state = no_particles(2);
-    const double s = std::sqrt(0.5);
-    add_particle(state, {0, std::sqrt(2.0) * length, 0}, length, mass);
-    add_particle(state, {0, (std::sqrt(2.0) + 2) * length, 0}, length, 2 * mass);
-    add_particle(state, {0, (std::sqrt(2.0) + 3.5) * length, 0}, 0.5 * length, 0.5 * mass);
-    Setting setting;
-    setting.planes = {plane_at_rest({}, {s, s, 0}), plane_at_rest({}, {-s, s, 0})};
-    setting.gravity = {0, -length / (time * time), 0};
-    setting.time_step = 0.01 * time;
-    Simulation simulation(setting, state, 1);
-    take_steps(simulation, 50);
-    std::vector<double> gammas;
-    const double unit = mass * length / time;
-    for (const auto& [first, second] :
-         {std::pair(-1, 0), std::pair(-2, 0), std::pair(0, 1), std::pair(1, 2)})
-      gammas.push_back(film_of(simulation.state(), first, second).gamma / unit);
-    return gammas;
-  };
-  const auto expected = gamma_in(1, 1, 1);
-  EXPECT_NEAR(expected[2], -2.5 * 0.5, 1e-9);
-  for (const auto& [length, mass, time] :
-       {std::tuple(1e-6, 1e-15, 1e-3), std::tuple(3e5, 7e9, 11.0), std::tuple(0.3, 1e-9, 1e4)}) {
-    const auto gammas = gamma_in(length, mass, time);
-    for (std::size_t k = 0; k < gammas.size(); ++k)
-      EXPECT_NEAR(gammas[k] / expected[k], 1, 1e-9) << length << ' ' << k;
-  }
-}
-
-TEST(ImpulseAccuracy, AtRestDoesNotDependOnTheStep) {
-  // Two discs fall, land and rest: the floor has taken the weight times the time.
-  for (const double h : {1e-2, 1e-3, 1e-4}) {
-    Setting setting;
-    setting.planes = {plane_at_rest({}, {0, 1, 0})};
-    setting.gravity = {0, -1, 0};
-    setting.time_step = h;
-    State state = no_particles(2);
-    add_particle(state, {0, 1.1, 0}, 1, 1);
-    add_particle(state, {0, 3.3, 0}, 1, 1);
-    Simulation simulation(setting, state, 1);
-    run(simulation, 1);
-    EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma, -2, 1e-8) << h;
-    EXPECT_NEAR(film_of(simulation.state(), 0, 1).gamma, -1, 1e-8) << h;
-  }
-}
-
-struct Scale {
-  double length = 1, mass = 1, time = 1;
-};
-
-/// A disc slides down another one, so heavy that nothing moves it, from an angle of 0.3 with a speed
-/// of 0.2: the film holds both together. The angle from the vertical obeys 2 theta'' = sin theta, and
-/// the film's gamma is minus the integral of cos theta - 2 theta'^2. Returns gamma after a time of 1.
-double gamma_of_slide(double h, const Scale& unit) {
-  State state = no_particles(2);
-  const double angle = 0.3;
-  add_particle(state, {}, unit.length, 1e12 * unit.mass);
-  add_particle(state, {2 * unit.length * std::sin(angle), 2 * unit.length * std::cos(angle), 0},
-               unit.length, unit.mass,
-               {0.2 * unit.length / unit.time * std::cos(angle),
-                -0.2 * unit.length / unit.time * std::sin(angle), 0});
-  Setting setting;
-  setting.forces[1] = constant({0, -unit.mass * unit.length / (unit.time * unit.time), 0});
-  setting.time_step = h * unit.time;
-  Simulation simulation(setting, state, 1);
-  take_steps(simulation, static_cast<int>(std::lround(1 / h)));
-  return film_of(simulation.state(), 0, 1).gamma / (unit.mass * unit.length / unit.time);
-}
-
-TEST(ImpulseAccuracy, OfACurvedMotionIsOfFirstOrderInTheStep) {
-  // By Runge and Kutta's method of fourth order in steps of 1e-3.
-  constexpr double kExact = -0.8544427644219761;
-  double coarser = gamma_of_slide(1e-2, {}) - kExact;
-  for (const double h : {1e-3, 1e-4}) {
-    const double error = gamma_of_slide(h, {}) - kExact;
-    // 10 for an error of first order, of which the second order is some hundredths.
-    EXPECT_NEAR(coarser / error, 10, 0.5) << h << ": " << error;
-    coarser = error;
-  }
-}
-
-TEST(ImpulseAccuracy, OfACurvedMotionDoesNotDependOnTheUnits) {
-  const double expected = gamma_of_slide(1e-3, {});
-  for (const Scale& unit : {Scale{1e-6, 1e-15, 1e-3}, Scale{3e5, 7e9, 11.0}})
-    EXPECT_NEAR(gamma_of_slide(1e-3, unit) / expected, 1, 1e-9) << unit.length;
 }
 
 }  // namespace

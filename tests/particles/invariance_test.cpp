@@ -50,11 +50,13 @@ State after(const Scene& scene, double end) {
   return simulation.state();
 }
 
-// Residuals of 1e-13 (lengths) and rounding become differences of impulses times the packing's condition, 1e3, and contacts multiply them as they go: over 120 steps
-// of falling and settling 7e-12 is seen (relabelled), 0 in the mirror.
+// Residuals of 1e-13 (lengths) and rounding become differences of impulses times the packing's
+// condition, 1e3, and contacts multiply them as they go: over 120 steps of falling and settling
+// 7e-12 is seen (relabelled), 0 in the mirror.
 constexpr double kSame = 1e-9;
 
-/// Every vector of the scene by `map`, which is linear and keeps lengths; angular velocities are times `sign`, -1 of a mirror.
+/// Every vector of the scene by `map`, which is linear and keeps lengths; angular velocities are
+/// times `sign`, -1 of a mirror.
 Scene mapped(const Scene& scene, const std::function<Vector(const Vector&)>& map, double sign) {
   Scene result = scene;
   auto& p = result.state.particles;
@@ -127,7 +129,8 @@ TEST_P(Invariance, UnderRelabelling) {
     EXPECT_LE(norm(one.particles.position(order[k]) - renamed.particles.position(k)), kSame) << k;
 }
 
-/// A lattice whose particles all touch, more than a block of contacts, is pushed together from one side, jerked from below, and pulled.
+/// A lattice whose particles all touch, more than a block of contacts, is pushed together from one
+/// side, jerked from below, and pulled.
 Scene big_lattice(int dimension) {
   Scene scene;
   scene.state = no_particles(dimension);
@@ -164,7 +167,7 @@ TEST_P(Invariance, ThreadsDoNotChangeABit) {
     EXPECT_TRUE(result.particles.velocities == results[0].particles.velocities);
     EXPECT_TRUE(result.pairs == results[0].pairs);
     EXPECT_TRUE(result.walls == results[0].walls);
-    EXPECT_TRUE(result.reaches == results[0].reaches);
+    EXPECT_TRUE(result.skins == results[0].skins);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/reduced_model/models/contact_model.hpp"
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -36,8 +36,8 @@ Case random_case(Random& random) {
 
 Trajectory by_reduced_model(const Case& c) {
   Motion motion{c.mass, c.gap, c.velocity, c.end, ExternalForce(c.pieces)};
-  motion.contact_time_step = c.step;
-  // simulate_viscous_contact without the fit: contact at q = 0, gamma_min, no drag.
+  motion.set(kContactTimeStep, c.step);
+  // The model viscous_contact without the fit: contact at q = 0, gamma_min, no drag.
   return run_contact_model(motion, {0, c.gamma_min, {}, {}});
 }
 
@@ -80,7 +80,7 @@ void expect_same_motion(const Case& c, const Scene& scene, double tolerance, dou
     ASSERT_NEAR(simulation.state().time, expected.time, 1e-6 * c.step);
     EXPECT_NEAR(q, expected.gap, tolerance * std::max(1.0, expected.gap)) << expected.time;
     EXPECT_NEAR(dot(p.velocity(0), normal), expected.velocity, of_velocity) << expected.time;
-    EXPECT_NEAR(film_of(simulation.state(), -1, 0).gamma / c.mass, *expected.gamma / c.mass,
+    EXPECT_NEAR(pair_of(simulation.state(), -1, 0).gamma / c.mass, *expected.gamma / c.mass,
                 of_velocity)
         << expected.time;
   });
@@ -107,8 +107,9 @@ TEST(OneSphere, MovesAsTheReducedModelSaysWhateverTheStepAndTheRadius) {
     const auto c = random_case(random);
     SCOPED_TRACE(::testing::Message() << i << ": h = " << c.step << ", gamma_min = " << c.gamma_min
                                       << ", m = " << c.mass << ", r = " << c.radius);
-    // In contact the gap is 0 to the solver's 1e-14, and the velocity to that over h; one that leaves takes that along, 1e-11 of a gap in the end,
-    // and the step of its next impact has the velocity -gap/h.
+    // In contact the gap is 0 to the solver's 1e-14, and the velocity to that over h; one that
+    // leaves takes that along, 1e-11 of a gap in the end, and the step of its next impact has the
+    // velocity -gap/h.
     const double of_gap = 1e-13 / c.step + 1e-12, of_velocity = of_gap / c.step;
     for (const int dimension : {2, 3})
       expect_same_motion(c, scene_of(c, dimension, random), of_gap, of_velocity);

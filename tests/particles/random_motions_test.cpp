@@ -17,7 +17,8 @@ struct Scene {
   Setting setting;
 };
 
-/// 2 to 30 particles, radii over up to two decades, densities over four, in a box that may move; forces that jump; films of all kinds.
+/// 2 to 30 particles, radii over up to two decades, densities over four, in a box that may move;
+/// forces that jump; films of all kinds.
 Scene random_scene(Random& random) {
   const int dimension = random.integer(2, 3);
   const auto count = static_cast<std::size_t>(random.integer(2, 30));
@@ -115,8 +116,8 @@ TEST(RandomMotions, ObeyTheContactLaw) {
           // In the parts of a divided step the normals change.
           if (!(film.gamma < 0) || !report.converged || report.parts > 1) continue;
           ++held;
-          // A film that holds has a gap of 0, but for the drift of the linearised equality, d^2/(2 |x_j - x_i|) for a step d across the normal; or it
-          // has no more left than the tolerance.
+          // A film that holds has a gap of 0, but for the drift of the linearised equality, d^2/(2
+          // |x_j - x_i|) for a step d across the normal; or it has no more left than the tolerance.
           const auto j = static_cast<std::size_t>(film.second);
           double mobility = s.time_step / p.masses[j];
           double drift = 0, gap_now = 0;
@@ -143,9 +144,10 @@ TEST(RandomMotions, ObeyTheContactLaw) {
     });
     if (HasFailure()) return;
   }
-  // There is always room: two planes that close in do so at an angle. One step, in scene 161, ends at a
-  // residual of 1.05e-6: a straight chain between the planes must buckle, for which the linearised
-  // gaps leave an angle of 1e-10, and rounding errors of the impulses are as large as that.
+  // There is always room: two planes that close in do so at an angle. One step, in scene 161, ends
+  // at a residual of 1.05e-6: a straight chain between the planes must buckle, for which the
+  // linearised gaps leave an angle of 1e-10, and rounding errors of the impulses are as large as
+  // that.
   EXPECT_GE(converged, steps - 1);
   EXPECT_GT(held, steps);
   EXPECT_GT(solid, steps / 10);

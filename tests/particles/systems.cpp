@@ -1,5 +1,7 @@
 #include "tests/particles/systems.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -66,7 +68,7 @@ void run(Simulation& simulation, double end, const std::function<void(const Step
   while (simulation.state().time < end - 1e-6 * h) see(simulation.step(end));
 }
 
-Film film_of(const State& state, std::int32_t first, std::int32_t second) {
+Pair pair_of(const State& state, std::int32_t first, std::int32_t second) {
   for (const auto& film : first < 0 ? state.walls : state.pairs)
     if (film.first == first && film.second == second) return film;
   return {first, second, 0, 0};
@@ -97,6 +99,18 @@ double kinetic_energy(const Particles& particles) {
   for (std::size_t k = 0; k < particles.count(); ++k)
     sum += particles.masses[k] * dot(particles.velocity(k), particles.velocity(k)) / 2;
   return sum;
+}
+
+int take_steps(Simulation& simulation, int steps) {
+  int most = 0;
+  for (int n = 0; n < steps; ++n) {
+    const auto report = simulation.step(1e300);
+    EXPECT_TRUE(report.converged) << "step " << n << ", residuals " << report.residual << ", "
+                                  << report.impulse_residual << ", iterations "
+                                  << report.iterations;
+    most = std::max(most, report.iterations);
+  }
+  return most;
 }
 
 }  // namespace viscontact::particles

@@ -1,6 +1,7 @@
 // Systems of particles that the tests share.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,9 +36,13 @@ State no_particles(int dimension);
 void add_particle(State& state, const Vector& position, double radius, double mass,
                   const Vector& velocity = {});
 
+/// The force at all times.
+inline PiecewiseConstant constant(const Vector& force) { return {{{1e300, force}}}; }
+
 Plane plane_at_rest(const Vector& point, const Vector& normal);
 
-/// Discs or spheres without a common point, at random in a cube of that width, radii by `radius`, mass of density 1.
+/// Discs or spheres without a common point, at random in a cube of that width, radii by `radius`,
+/// mass of density 1.
 State random_cloud(int dimension, std::size_t count, double width,
                    const std::function<double()>& radius, Random& random);
 
@@ -46,8 +51,9 @@ void run(
     Simulation& simulation, double end,
     const std::function<void(const StepReport&)>& see = [](const StepReport&) {});
 
-/// The film of a pair, or of plane k (first = -1 - k) and a particle; one of gamma 0 if there is none.
-Film film_of(const State& state, std::int32_t first, std::int32_t second);
+/// The film of a pair, or of plane k (first = -1 - k) and a particle; one of gamma 0 if there is
+/// none.
+Pair pair_of(const State& state, std::int32_t first, std::int32_t second);
 
 /// |x_j - x_i| - r_i - r_j now.
 double pair_gap(const State& state, std::int32_t first, std::int32_t second);
@@ -56,5 +62,8 @@ Vector momentum(const Particles& particles);
 /// About the origin.
 Vector angular_momentum(const Particles& particles);
 double kinetic_energy(const Particles& particles);
+
+/// Takes `steps` steps, each of which must converge. Returns the most iterations of a step.
+int take_steps(Simulation& simulation, int steps);
 
 }  // namespace viscontact::particles

@@ -9,6 +9,8 @@
 
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 
 namespace viscontact {
 namespace {
@@ -19,10 +21,10 @@ constexpr double kRadius = 1;
 Motion motion_with_settings(double mass, double end_time,
                             std::vector<ExternalForce::Piece> pieces) {
   Motion motion{mass, 1, 0, end_time, ExternalForce(std::move(pieces))};
-  motion.reference_time_step = 1e-3;
-  motion.inertial_relative_tolerance = 1e-9;
-  motion.contact_time_step = 1e-3;
-  motion.threshold_gap = 0.1;
+  motion.set(kReferenceTimeStep, 1e-3);
+  motion.set(kRelativeTolerance, 1e-9);
+  motion.set(kContactTimeStep, 1e-3);
+  motion.set(kThresholdGap, 0.1);
   return motion;
 }
 
@@ -84,11 +86,12 @@ RandomCase random_case(std::mt19937_64& generator) {
   if (uniform(0, 3) < 1)
     motion.external_force += ExternalForce::sinusoidal(
         {mass * decades(-2, 2), decades(-1, 1), uniform(0, 2 * std::numbers::pi)});
-  motion.contact_time_step = decades(-2, -1);
-  motion.reference_time_step = 0.1;
-  motion.inertial_relative_tolerance = 1e-9;
-  motion.threshold_gap = motion.initial_gap * uniform(0.01, 0.9);
-  if (uniform(0, 1) < 0.5) motion.roughness = {motion.threshold_gap * decades(-6, -1), 0};
+  motion.set(kContactTimeStep, decades(-2, -1));
+  motion.set(kReferenceTimeStep, 0.1);
+  motion.set(kRelativeTolerance, 1e-9);
+  motion.set(kThresholdGap, motion.initial_gap * uniform(0.01, 0.9));
+  if (uniform(0, 1) < 0.5)
+    motion.roughness = {motion.parameter(kThresholdGap) * decades(-6, -1), 0};
   return {motion, decades(-5, 5)};
 }
 

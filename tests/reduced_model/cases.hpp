@@ -5,21 +5,24 @@
 #include <random>
 #include <string_view>
 
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact {
 
-/// Exact inertialess and inertial minimal gaps of the lecture's case (docs/theory.md, section 3): half-space, exact drag.
+/// Exact inertialess and inertial minimal gaps of the lecture's case (docs/theory.md, section 3):
+/// half-space, exact drag.
 inline constexpr double kExactMinimalGap = 2.97084661e-3;
 inline constexpr double kInertialMinimalGap = 2.97845928e-3;
 inline constexpr double kInertialMinimalGapTime = 2.00072819;
 
-/// The lecture's case: m = 20, q0 = 1 at rest, pushed by -200 for 2, pulled by +200 until 4. Time steps 1e-3, tolerance 1e-9.
+/// The lecture's case: m = 20, q0 = 1 at rest, pushed by -200 for 2, pulled by +200 until 4. Time
+/// steps 1e-3, tolerance 1e-9.
 Motion lecture_motion();
 
-/// The lecture's limit case: m = 1, q0 = 1 at rest, f = -2 until t = 2 and +2 until t = 6. Time steps 1e-3, tolerance 1e-9.
+/// The lecture's limit case: m = 1, q0 = 1 at rest, f = -2 until t = 2 and +2 until t = 6. Time
+/// steps 1e-3, tolerance 1e-9.
 Motion limit_motion();
 
 /// Brenner's exact drag of the lecture's sphere (mu = 3, r = 1), fitted on 40 log-spaced gaps.
@@ -28,7 +31,8 @@ Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps);
 /// The lecture's basis on the gaps of its case: largest relative residual 4.6e-3.
 Fit lecture_fit();
 
-/// The asymptotic basis on gaps in [1e-3, 1.01], those of the lecture's motion: largest relative residual 7.1e-6. (On [1e-3, 2] it is 6.8e-5.)
+/// The asymptotic basis on gaps in [1e-3, 1.01], those of the lecture's motion: largest relative
+/// residual 7.1e-6. (On [1e-3, 2] it is 6.8e-5.)
 Fit close_fit();
 
 /// R = k/q exactly, radius 1, for gaps in [1e-200, 1e20].
@@ -43,7 +47,8 @@ struct RandomCase {
   double k;
 };
 
-/// Masses and viscosities over ten decades, up to six jumps of force over four and in every third case a sinusoid on top, half of the surfaces rough; until t = 10, steps of 0.01 to 0.1.
+/// Masses and viscosities over ten decades, up to six jumps of force over four and in every third
+/// case a sinusoid on top, half of the surfaces rough; until t = 10, steps of 0.01 to 0.1.
 RandomCase random_case(std::mt19937_64& generator);
 
 /// The first row of least gap.

@@ -16,7 +16,8 @@ using ::testing::StartsWith;
 
 using Function = std::function<double(double)>;
 
-/// q and u at these times. All numbers in these tests are dyadic: sup and L1 by hand come out to the bit.
+/// q and u at these times. All numbers in these tests are dyadic: sup and L1 by hand come out to
+/// the bit.
 Trajectory sampled(
     const std::string& model, const std::vector<double>& times, const Function& gap,
     const Function& velocity = [](double) { return 0.0; }) {
@@ -75,7 +76,8 @@ TEST(Comparison, FindsTheLargestDistanceAtARowOfTheOtherTrajectory) {
 }
 
 TEST(Comparison, SeesAParabolaAsItsChords) {
-  // 1 + t^2 by steps H and H/2: at mid-step the chord of H is H^2/4 above, so sup = H^2/4 and L1 = 2 H^2/8 over [0, 2].
+  // 1 + t^2 by steps H and H/2: at mid-step the chord of H is H^2/4 above, so sup = H^2/4 and L1 =
+  // 2 H^2/8 over [0, 2].
   const auto parabola = [](double t) { return 1 + t * t; };
   const auto coarse =
       sampled("coarse", {0, 0.5, 1, 1.5, 2}, parabola, [](double t) { return 2 * t; });

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/reduced_model/models/viscous_contact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 namespace viscontact {
 namespace {
@@ -31,9 +31,9 @@ class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
     int contacts = 0;
     for (int i = 0; i < kCases; ++i) {
       const auto [motion, k] = random_case(generator);
-      SCOPED_TRACE(::testing::Message()
-                   << "case " << i << ": m = " << motion.mass << ", k = " << k
-                   << ", h = " << motion.contact_time_step << ", s = " << motion.roughness[0]);
+      SCOPED_TRACE(::testing::Message() << "case " << i << ": m = " << motion.mass << ", k = " << k
+                                        << ", h = " << motion.parameter(kContactTimeStep)
+                                        << ", s = " << motion.roughness[0]);
       const LubricationForce force(shifted_fit(k));
       ContactModel model = GetParam()(motion, force);
       // The film may be thinner than any double; that is no matter here.
@@ -62,8 +62,9 @@ void expect_contact_law(const ContactModel& model, const TrajectoryRow& row) {
   EXPECT_TRUE(std::isfinite(row.gap) && std::isfinite(row.velocity) && std::isfinite(*row.gamma));
 }
 
-/// m (u^{n+1} - u^n) = h (f^n + F_lub + F_solid): the film gives h lambda = gamma^n - gamma^{n+1}, the resolved drag its impulse. A solid contact
-/// pushes where gamma is at its least, and never pulls.
+/// m (u^{n+1} - u^n) = h (f^n + F_lub + F_solid): the film gives h lambda = gamma^n - gamma^{n+1},
+/// the resolved drag its impulse. A solid contact pushes where gamma is at its least, and never
+/// pulls.
 void expect_momentum_balance(const Motion& motion, const ContactModel& model,
                              const TrajectoryRow& before, const TrajectoryRow& after) {
   const double m = motion.mass;
@@ -71,10 +72,12 @@ void expect_momentum_balance(const Motion& motion, const ContactModel& model,
   const double push = h * motion.external_force.mean(before.time, after.time);
   const double drag = h * *after.lubrication_force;
   const double solid = h * *after.solid_force;
-  // Times of up to 10 are subtracted and multiplied with forces of up to 100 m; drag is a difference of impulses; then some ten roundings.
+  // Times of up to 10 are subtracted and multiplied with forces of up to 100 m; drag is a
+  // difference of impulses; then some ten roundings.
   double scale = m * (std::abs(after.velocity) + std::abs(before.velocity)) + std::abs(push) +
                  std::abs(drag) + solid + std::abs(*before.gamma) + std::abs(*after.gamma);
-  // Of the gap and of the velocity that Newton's method finds, what a rounding of each does to the drag's impulse.
+  // Of the gap and of the velocity that Newton's method finds, what a rounding of each does to the
+  // drag's impulse.
   if (model.drag)
     scale +=
         std::abs(model.drag->impulse(before.gap)) + std::abs(model.drag->impulse(after.gap)) +
@@ -125,10 +128,11 @@ TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
     const double start = motion.mass * motion.initial_velocity;
     double largest = std::abs(start);
     for (const auto& row :
-         simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+         run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k))).rows) {
       const double momentum = start + motion.external_force.impulse(row.time);
       largest = std::max(largest, std::abs(momentum));
-      // Up to 3200 steps, a few roundings each at the size of the largest momentum, all of one sign at worst.
+      // Up to 3200 steps, a few roundings each at the size of the largest momentum, all of one sign
+      // at worst.
       ASSERT_NEAR(motion.mass * row.velocity + *row.gamma, momentum,
                   3200 * 4 * kEpsilon * (largest + 1e3 * motion.mass))
           << i;

@@ -1,5 +1,6 @@
-// Single steps of viscous contact, by hand. All numbers are dyadic: what is computed by hand comes out to the bit.
-#include "viscontact/reduced_model/integration/contact_step.hpp"
+// Single steps of viscous contact, by hand. All numbers are dyadic: what is computed by hand comes
+// out to the bit.
+#include "viscontact/reduced_model/models/contact/contact_step.hpp"
 
 #include <gtest/gtest.h>
 

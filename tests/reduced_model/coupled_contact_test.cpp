@@ -6,10 +6,10 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_regular_drag.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_threshold.hpp"
 
 namespace viscontact {
 namespace {
@@ -20,8 +20,9 @@ constexpr double kPush = -400;  // impulse of the lecture's push
 
 double regular_drag_film(const LubricationForce& force, double step) {
   Motion motion = lecture_motion();
-  motion.contact_time_step = step;
-  return simulate_viscous_contact_regular_drag(motion, force).recovered_minimal_gap.value();
+  motion.set(kContactTimeStep, step);
+  return run_contact_model(viscous_contact_regular_drag, motion, force)
+      .recovered_minimal_gap.value();
 }
 
 TEST(RegularDrag, RecoversTheLecturesMinimalGap) {
@@ -30,7 +31,8 @@ TEST(RegularDrag, RecoversTheLecturesMinimalGap) {
         << fit.basis;  // the bar
 }
 
-// The films below are exp of an impulse of up to 400 over k = 57, after up to 4000 steps of a few roundings each: 1e-11 at most.
+// The films below are exp of an impulse of up to 400 over k = 57, after up to 4000 steps of a few
+// roundings each: 1e-11 at most.
 constexpr double kRoundOff = 1e-11;
 
 TEST(RegularDrag, RecoversTheFilmThatTheResolvedDragLeavesWhateverItsStep) {
@@ -63,18 +65,20 @@ TEST(RegularDrag, FallsAtTheSpeedOfItsDragFarFromContact) {
   const double k = 2;
   const LubricationForce force(shifted_fit(k));
   Motion motion{1, 100, 0, 5, ExternalForce({{5, -3}})};
-  motion.contact_time_step = 0.125;
-  const auto trajectory = simulate_viscous_contact_regular_drag(motion, force);
+  motion.set(kContactTimeStep, 0.125);
+  const auto trajectory = run_contact_model(viscous_contact_regular_drag, motion, force);
   for (std::size_t n = 0; n < trajectory.rows.size(); ++n)
-    // 40 steps of a few roundings each, of velocities that are differences of impulses k q = 200, over m + h k.
+    // 40 steps of a few roundings each, of velocities that are differences of impulses k q = 200,
+    // over m + h k.
     EXPECT_NEAR(trajectory.rows[n].velocity, -1.5 * (1 - std::pow(1.25, -static_cast<double>(n))),
                 1e-13)
         << n;
 }
 
 TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
-  // All of the drag is resolved down to q_c and all of it remembered below: at rest Gamma(film) = Gamma(1) - 400 for every q_c, h and m. A drag
-  // that also acted on the sphere held at rest would make it 11.7 % off at q_c = 0.1, h = 1e-3.
+  // All of the drag is resolved down to q_c and all of it remembered below: at rest Gamma(film) =
+  // Gamma(1) - 400 for every q_c, h and m. A drag that also acted on the sphere held at rest would
+  // make it 11.7 % off at q_c = 0.1, h = 1e-3.
   for (const auto& fit : {lecture_fit(), close_fit()}) {
     const LubricationForce force(fit);
     Motion motion = lecture_motion();
@@ -83,10 +87,11 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
       for (const double step : {0.3, 0.1, 0.07, 1e-2, 3e-3, 1e-3,
                                 1e-4})  // some with the turn of the force within a step
         for (const double mass : {1e-6, 1e-3, 20.0}) {
-          motion.threshold_gap = threshold_gap;
-          motion.contact_time_step = step;
+          motion.set(kThresholdGap, threshold_gap);
+          motion.set(kContactTimeStep, step);
           motion.mass = mass;
-          const auto film = simulate_viscous_contact_threshold(motion, force).recovered_minimal_gap;
+          const auto film =
+              run_contact_model(viscous_contact_threshold, motion, force).recovered_minimal_gap;
           EXPECT_NEAR(film.value() / exact, 1, kRoundOff)
               << fit.basis << ", q_c = " << threshold_gap << ", h = " << step << ", m = " << mass;
         }
@@ -96,11 +101,11 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
 TEST(Threshold, FollowsTheInertialMotionAboveItsThresholdAtFirstOrder) {
   const LubricationForce force(close_fit());
   Motion motion = lecture_motion();
-  motion.reference_time_step = 1e-2;
+  motion.set(kReferenceTimeStep, 1e-2);
   const auto exact = simulate_inertial(motion, force);
   const auto distance = [&](double step) {
-    motion.contact_time_step = step;
-    const auto trajectory = simulate_viscous_contact_threshold(motion, force);
+    motion.set(kContactTimeStep, step);
+    const auto trajectory = run_contact_model(viscous_contact_threshold, motion, force);
     double sup = 0;
     for (double t = 0.1; t < 0.95; t += 0.05) {
       const auto at = [t](const Trajectory& of) {
@@ -117,8 +122,8 @@ TEST(Threshold, FollowsTheInertialMotionAboveItsThresholdAtFirstOrder) {
 }
 
 TEST(Threshold, StaysAtItsThresholdWhileInContact) {
-  const auto trajectory =
-      simulate_viscous_contact_threshold(lecture_motion(), LubricationForce(lecture_fit()));
+  const auto trajectory = run_contact_model(viscous_contact_threshold, lecture_motion(),
+                                            LubricationForce(lecture_fit()));
   EXPECT_EQ(lowest_row(trajectory).gap, 0.1);
   EXPECT_EQ(row_at(trajectory, 2).gap, 0.1);
   EXPECT_LT(*row_at(trajectory, 2).gamma, 0);
@@ -128,7 +133,7 @@ TEST(Threshold, StopsAtTheRoughnessHeight) {
   Motion motion = lecture_motion();
   motion.roughness = {0.01, 0.01};
   const LubricationForce force(lecture_fit());
-  const auto trajectory = simulate_viscous_contact_threshold(motion, force);
+  const auto trajectory = run_contact_model(viscous_contact_threshold, motion, force);
   // Gamma and its inverse, to round-off of Gamma's 400 over k = 57.
   EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / 0.02, 1, 1e-13);
   EXPECT_EQ(*row_at(trajectory, 2).gamma, force.impulse(0.02) - force.impulse(0.1));
@@ -137,22 +142,25 @@ TEST(Threshold, StopsAtTheRoughnessHeight) {
 TEST(Threshold, RefusesToStartBelowItsThreshold) {
   for (const double threshold_gap : {1.0, 1.5}) {
     Motion motion = lecture_motion();
-    motion.threshold_gap = threshold_gap;
-    EXPECT_THAT(
-        failure(
-            ErrorKind::kBadInput,
-            [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
-        HasSubstr("viscous_contact.threshold_gap"));
+    motion.set(kThresholdGap, threshold_gap);
+    EXPECT_THAT(failure(ErrorKind::kBadInput,
+                        [&] {
+                          run_contact_model(viscous_contact_threshold, motion,
+                                            LubricationForce(lecture_fit()));
+                        }),
+                HasSubstr("viscous_contact.threshold_gap"));
   }
 }
 
 TEST(Threshold, RefusesAThresholdOutsideTheFit) {
   Motion motion = lecture_motion();
-  motion.threshold_gap = 1e-4;
-  EXPECT_THAT(
-      failure(ErrorKind::kBadInput,
-              [&] { simulate_viscous_contact_threshold(motion, LubricationForce(lecture_fit())); }),
-      HasSubstr("[0.001, 2]"));
+  motion.set(kThresholdGap, 1e-4);
+  EXPECT_THAT(failure(ErrorKind::kBadInput,
+                      [&] {
+                        run_contact_model(viscous_contact_threshold, motion,
+                                          LubricationForce(lecture_fit()));
+                      }),
+              HasSubstr("[0.001, 2]"));
 }
 
 TEST(ContactModels, RefuseAFitWithoutAPositiveLeadingTerm) {
@@ -160,8 +168,9 @@ TEST(ContactModels, RefuseAFitWithoutAPositiveLeadingTerm) {
   fit.gap_interval = {1e-3, 10};
   fit.terms = {{"1", 1, 0}};
   const LubricationForce force(fit);
-  EXPECT_THAT(bad_input([&] { simulate_viscous_contact_regular_drag(limit_motion(), force); }),
-              HasSubstr("1/q"));
+  EXPECT_THAT(
+      bad_input([&] { run_contact_model(viscous_contact_regular_drag, limit_motion(), force); }),
+      HasSubstr("1/q"));
 }
 
 }  // namespace

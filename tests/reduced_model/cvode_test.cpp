@@ -41,7 +41,8 @@ StiffSystem oscillator() {
   return system;
 }
 
-/// Decay towards cos t at a rate of a million, from its slow solution y0 = cos t; y1 = sin t beside it.
+/// Decay towards cos t at a rate of a million, from its slow solution y0 = cos t; y1 = sin t beside
+/// it.
 StiffSystem stiff_decay() {
   constexpr double kRate = 1e6;
   StiffSystem system;

@@ -1,4 +1,4 @@
-#include "viscontact/reduced_model/external_force.hpp"
+#include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <gmock/gmock.h>
 

@@ -53,7 +53,7 @@ TEST(FewerRows, ChangeNothingThatAComparisonSaysOfOneModel) {
   motion.roughness = {2e-3, 3e-3};
   const LubricationForce force = LubricationForce::exact_plane(3, 1);
   for (const auto& model : all_models()) {
-    const auto whole = simulate(model, motion, force);
+    const auto whole = simulate(find_model(model.name), motion, force);
     auto fewer = whole;
     fewer.rows = fewer_rows(whole.rows, 50);
     EXPECT_LT(fewer.rows.size(), std::min<std::size_t>(70, whole.rows.size())) << model.name;
@@ -75,11 +75,12 @@ TEST(FewerRows, ChangeNothingThatAComparisonSaysOfOneModel) {
 
 TEST(Progress, IsToldByEveryModelInTimesThatDoNotDecrease) {
   Motion motion = lecture_motion();
-  motion.contact_time_step = motion.reference_time_step = 1e-4;
+  motion.set(kContactTimeStep, 1e-4);
+  motion.set(kReferenceTimeStep, 1e-4);
   for (const auto& model : all_models()) {
     std::vector<double> told;
     motion.progress = [&](double time) { told.push_back(time); };
-    (void)simulate(model, motion, LubricationForce::exact_plane(3, 1));
+    (void)simulate(find_model(model.name), motion, LubricationForce::exact_plane(3, 1));
     EXPECT_TRUE(std::ranges::is_sorted(told)) << model.name;
     ASSERT_FALSE(told.empty()) << model.name;
     if (model.name != "explicit_euler") {  // goes through the plane, and ends there
@@ -93,7 +94,8 @@ TEST(Progress, MayEndAModel) {
   Motion motion = lecture_motion();
   motion.progress = [](double) { throw Error(ErrorKind::kInterrupted, "enough"); };
   for (const auto& model : all_models())
-    EXPECT_THROW((void)simulate(model, motion, LubricationForce::exact_plane(3, 1)), Error)
+    EXPECT_THROW(
+        (void)simulate(find_model(model.name), motion, LubricationForce::exact_plane(3, 1)), Error)
         << model.name;
 }
 

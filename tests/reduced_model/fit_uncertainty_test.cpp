@@ -21,7 +21,8 @@ Fit uncertain_leading_term(double k, double error) {
 }
 
 TEST(FitUncertainty, OfTheLeadingTermAloneIsThatOfItsExponential) {
-  // q = exp(-400/k): the 2.5 % and 97.5 % quantiles of k are k -+ 1.96 errors. With 10^4 draws such a quantile is known to 3 % of the error.
+  // q = exp(-400/k): the 2.5 % and 97.5 % quantiles of k are k -+ 1.96 errors. With 10^4 draws such
+  // a quantile is known to 3 % of the error.
   constexpr double k = 60, kError = 0.5;
   const auto result = propagate_fit(lecture_motion(), uncertain_leading_term(k, kError), 0);
   EXPECT_EQ(result.draws, 10000U);

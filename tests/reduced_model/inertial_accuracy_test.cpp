@@ -1,5 +1,6 @@
-// simulate_inertial against an integration of the equation of motion in extended precision (tests/oracles/inertial_motion.hpp), which makes no use of the
-// first integral that simulate_inertial is made of.
+// simulate_inertial against an integration of the equation of motion in extended precision
+// (tests/oracles/inertial_motion.hpp), which makes no use of the first integral that
+// simulate_inertial is made of.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 #include "tests/oracles/inertial_motion.hpp"
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 namespace viscontact {
@@ -91,9 +92,9 @@ struct Worst {
   }
 };
 
-constexpr Real kGapBar = 1e-8L;  // what `inertial` is to reach at both tolerances, relative
-constexpr Real kVelocityBar =
-    1e-5L;  // (P - Gamma)/m has the error of ln q times k/m: three digits less than the gap in these cases
+constexpr Real kGapBar = 1e-8L;       // what `inertial` is to reach at both tolerances, relative
+constexpr Real kVelocityBar = 1e-5L;  // (P - Gamma)/m has the error of ln q times k/m: three digits
+                                      // less than the gap in these cases
 
 /// f at `time`; at a jump, before it, as the oracle has its state there.
 Real force_at(const Push& push, Real time) {
@@ -111,8 +112,8 @@ void expect_the_oracles_motion(const Start& start, const Drag& drag, const Push&
     SCOPED_TRACE(tolerance);
     Motion motion{start.mass, start.gap, start.velocity,
                   static_cast<double>(push.pieces.back().until), push.force};
-    motion.reference_time_step = 1e-3;
-    motion.inertial_relative_tolerance = tolerance;
+    motion.set(kReferenceTimeStep, 1e-3);
+    motion.set(kRelativeTolerance, tolerance);
     const auto trajectory = simulate_inertial(motion, drag.force);
     InertialMotion oracle({start.mass, start.gap, start.velocity, drag.resistance, push.pieces});
     const auto jumps = push.force.jumps();
@@ -126,16 +127,19 @@ void expect_the_oracles_motion(const Start& start, const Drag& drag, const Push&
       oracle.advance(row.time);
       gap.see(std::abs(row.gap / oracle.gap() - 1), row.time);
 
-      // A row between those asked for is where the sphere turns. After a jump a thin film turns within the rounding of its time.
+      // A row between those asked for is where the sphere turns. After a jump a thin film turns
+      // within the rounding of its time.
       if (!std::ranges::binary_search(times, row.time)) continue;
 
-      // Where the sphere turns no digit of u is left: beside u itself counts what it would be without inertia, or what it changes by until the next row,
-      // whichever is less; and what would move the sphere by a millionth of the gap in all the time there is.
+      // Where the sphere turns no digit of u is left: beside u itself counts what it would be
+      // without inertia, or what it changes by until the next row, whichever is less; and what
+      // would move the sphere by a millionth of the gap in all the time there is.
       const Real u = oracle.velocity(), r = drag.resistance(oracle.gap());
       const Real f = force_at(push, row.time), acceleration = std::abs(f - r * u) / start.mass;
-      const Real scale = std::abs(u) +
-                         std::min(std::abs(f) / r, motion.reference_time_step * acceleration) +
-                         1e-6L * oracle.gap() / motion.end_time;
+      const Real scale =
+          std::abs(u) +
+          std::min(std::abs(f) / r, motion.parameter(kReferenceTimeStep) * acceleration) +
+          1e-6L * oracle.gap() / motion.end_time;
       velocity.see(std::abs(row.velocity - u) / scale, row.time);
     }
     EXPECT_LT(gap.error, kGapBar) << "t = " << gap.time;
@@ -220,7 +224,8 @@ TEST(InertialOracle, AgreesWithTheLimitCaseStates) {
       if (row.fields[0] != k) continue;
       motion.advance(*row.fields[1]);
       const Real log_gap = *row.fields[2], velocity = *row.fields[3];
-      // The file has 14 digits of ln q, 13 of u; but its u at mu = 0.1, t = 3 is P - mu ln q in double, 6e-17 off (1.6e-9 of u).
+      // The file has 14 digits of ln q, 13 of u; but its u at mu = 0.1, t = 3 is P - mu ln q in
+      // double, 6e-17 off (1.6e-9 of u).
       EXPECT_NEAR(static_cast<double>(motion.log_gap() - log_gap), 0,
                   1e-13 * std::max(1.0, std::abs(static_cast<double>(log_gap))))
           << k << ", t = " << motion.time();

@@ -11,7 +11,7 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/common/csv.hpp"
+#include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact {
@@ -75,7 +75,8 @@ TEST(Inertial, HasARowWhereItTurns) {
   const double fastest = std::abs(std::ranges::max(trajectory.rows, {}, [](const auto& row) {
                                     return std::abs(row.velocity);
                                   }).velocity);
-  // At the turn the velocity goes through 0 at rate f/R = 0.01 per unit of time; the event is found to 1e-14 or so in time.
+  // At the turn the velocity goes through 0 at rate f/R = 0.01 per unit of time; the event is found
+  // to 1e-14 or so in time.
   EXPECT_LT(std::abs(lowest.velocity), 1e-10 * fastest);
   EXPECT_LT(lowest.gap, row_at(trajectory, 2).gap);
 }
@@ -109,7 +110,8 @@ TEST(Inertial, TendsToTheInertialessMotionAtFirstOrderInTheMass) {
     motion.mass = mass;
     return lowest_row(simulate_inertial(motion, force)).gap / massless - 1;
   };
-  // For small m the film is thicker by m |u_0| / k at t = 2 (first integral), u_0 = f q/k: 2.6e-3 at m = 20, with a next term of that size.
+  // For small m the film is thicker by m |u_0| / k at t = 2 (first integral), u_0 = f q/k: 2.6e-3
+  // at m = 20, with a next term of that size.
   const double heavy = excess(20);
   const double light = excess(2);
   EXPECT_GT(light, 0);
@@ -127,7 +129,8 @@ void expect_limit_case_states(double mu) {
     if (state.fields[0] != mu) continue;
     ++compared;
     const auto& row = row_at(trajectory, *state.fields[1]);
-    // Ten times relative_tolerance = 1e-9, in ln q and in time: where the film forms, ln q runs at u/q = -325 (mu = 0.01, t = 1).
+    // Ten times relative_tolerance = 1e-9, in ln q and in time: where the film forms, ln q runs at
+    // u/q = -325 (mu = 0.01, t = 1).
     const double rate = row.velocity / row.gap;
     EXPECT_NEAR(std::log(row.gap), *state.fields[2], 1e-8 * (1 + std::abs(rate)))
         << "t = " << row.time;
@@ -152,7 +155,7 @@ TEST(Inertial, AgreesWithTheLimitCaseDownToAFilmOfTenToTheMinus174) {
 TEST(Inertial, MeetsASharpToleranceInAThinFilm) {
   // The sphere turns within 1e-17 of the jump, less than a double tells apart from t = 2.
   Motion motion = limit_motion();
-  motion.inertial_relative_tolerance = 1e-11;
+  motion.set(kRelativeTolerance, 1e-11);
   const auto trajectory = simulate_inertial(motion, LubricationForce(leading_term_fit(0.1)));
   // limit_case_states.csv, mu = 0.1, t = 6; u/q is of order 1 there, the landing forgotten.
   EXPECT_NEAR(std::log(trajectory.rows.back().gap), 1.4043050385501, 1e-10);
@@ -163,7 +166,7 @@ TEST(Inertial, FollowsItsTolerance) {
   const double exact = 1.3040396304076;  // limit_case_states.csv, mu = 1, t = 6
   const auto error = [&](double tolerance) {
     Motion motion = limit_motion();
-    motion.inertial_relative_tolerance = tolerance;
+    motion.set(kRelativeTolerance, tolerance);
     return std::abs(std::log(simulate_inertial(motion, force).rows.back().gap) - exact);
   };
   for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11})

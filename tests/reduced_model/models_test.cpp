@@ -56,7 +56,7 @@ TEST(Models, WithGammaAreTheContactModels) {
     const bool is_viscous = model.name.starts_with("viscous_contact");
     const bool is_contact = is_viscous || model.name == "inelastic_contact";
     EXPECT_EQ(model.contact != nullptr, is_contact) << model.name;
-    const auto trajectory = simulate(model, motion, force);
+    const auto trajectory = simulate(find_model(model.name), motion, force);
     for (const auto& row : trajectory.rows)
       ASSERT_EQ(row.gamma.has_value(), is_contact) << model.name;
     EXPECT_EQ(trajectory.recovered_minimal_gap.has_value(), is_viscous) << model.name;
@@ -68,7 +68,7 @@ TEST(Models, CoverTheMotionFromItsStartToItsEnd) {
   const LubricationForce force(lecture_fit());
   for (const auto& model : all_models()) {
     if (model.name == "explicit_euler") continue;  // it ends where it goes through the plane
-    const auto trajectory = simulate(model, motion, force);
+    const auto trajectory = simulate(find_model(model.name), motion, force);
     EXPECT_EQ(trajectory.model, model.name);
     EXPECT_GE(trajectory.seconds, 0);
     EXPECT_GT(trajectory.steps, 0);
@@ -107,22 +107,22 @@ TEST(Models, HaveBooksThatBalance) {
   for (const auto& model : all_models()) {
     Motion motion = lecture_motion();
     motion.roughness = {0.05, 0};
-    const auto trajectory = simulate(model, motion, force);
-    const auto& books = trajectory.books.value();
+    const auto trajectory = simulate(find_model(model.name), motion, force);
+    const auto& budget = trajectory.budget.value();
     const auto& last = trajectory.rows.back();
     const double m = model.inertia ? motion.mass : 0;
     // Up to 4000 steps of a few roundings of impulses of up to 400 and works of up to 1000.
     EXPECT_NEAR(
-        books.external_impulse + books.film_impulse + books.drag_impulse + books.solid_impulse,
+        budget.external_impulse + budget.film_impulse + budget.drag_impulse + budget.solid_impulse,
         m * last.velocity, 1e-9)
         << model.name;
-    EXPECT_NEAR(books.external_work + books.film_work + books.drag_work + books.solid_work,
+    EXPECT_NEAR(budget.external_work + budget.film_work + budget.drag_work + budget.solid_work,
                 m / 2 * last.velocity * last.velocity, 1e-9)
         << model.name;
-    EXPECT_LE(books.drag_work, 0) << model.name;
-    EXPECT_LE(books.solid_work, 0) << model.name;
+    EXPECT_LE(budget.drag_work, 0) << model.name;
+    EXPECT_LE(budget.solid_work, 0) << model.name;
     if (model.name.starts_with("viscous_contact") && model.name != "viscous_contact_exact") {
-      EXPECT_GT(books.solid_impulse, 0) << model.name;
+      EXPECT_GT(budget.solid_impulse, 0) << model.name;
     }
   }
   // What drag takes is int R u^2: by rows, to second order in their spacing of 1e-3.
@@ -133,8 +133,8 @@ TEST(Models, HaveBooksThatBalance) {
                   (*rows[i].lubrication_force * rows[i].velocity +
                    *rows[i - 1].lubrication_force * rows[i - 1].velocity) /
                   2;
-  const auto books = simulate(find_model("inertial"), lecture_motion(), force).books.value();
-  EXPECT_NEAR(books.film_work / dissipated, 1, 1e-4);
+  const auto budget = simulate(find_model("inertial"), lecture_motion(), force).budget.value();
+  EXPECT_NEAR(budget.film_work / dissipated, 1, 1e-4);
 }
 
 TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 Motion motion_with(double end_time, double step, std::vector<ExternalForce::Piece> pieces) {
   Motion motion{1, 1, 0, end_time, ExternalForce(std::move(pieces))};
-  motion.reference_time_step = step;
+  motion.set(kReferenceTimeStep, step);
   return motion;
 }
 
@@ -31,7 +31,8 @@ TEST(StepCount, CoversTheTime) {
 TEST(StepCount, IsOneForAStepLongerThanTheTime) { EXPECT_EQ(step_count(1, 5), 1); }
 
 TEST(StepCount, IsNotRaisedByRoundOff) {
-  // 0.3 / 0.1 is 2.9999999999999996 and 0.6 / 0.2 likewise, 0.7 / 0.1 is 6.999..., 1.1 / 0.1 is 11.000000000000002.
+  // 0.3 / 0.1 is 2.9999999999999996 and 0.6 / 0.2 likewise, 0.7 / 0.1 is 6.999..., 1.1 / 0.1
+  // is 11.000000000000002.
   EXPECT_EQ(step_count(0.3, 0.1), 3);
   EXPECT_EQ(step_count(0.6, 0.2), 3);
   EXPECT_EQ(step_count(0.7, 0.1), 7);

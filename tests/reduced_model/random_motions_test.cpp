@@ -9,9 +9,9 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
 
 namespace viscontact {
 namespace {
@@ -50,23 +50,24 @@ TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
       }
       impulse_scale = std::max(impulse_scale, std::abs(motion.external_force.impulse(row.time)));
     }
-    const auto& books = trajectory.books.value();
+    const auto& budget = trajectory.budget.value();
     const double gained = motion.mass * (trajectory.rows.back().velocity - motion.initial_velocity);
     // A few roundings of the largest impulse for each event.
     const double round_off =
         kEpsilon * 64 * impulse_scale * static_cast<double>(trajectory.steps + 1);
-    EXPECT_NEAR(books.external_impulse + books.film_impulse + books.solid_impulse, gained,
+    EXPECT_NEAR(budget.external_impulse + budget.film_impulse + budget.solid_impulse, gained,
                 round_off);
-    EXPECT_GE(books.solid_impulse, -round_off);
+    EXPECT_GE(budget.solid_impulse, -round_off);
     contacts += trajectory.contact_interval ? 1 : 0;
-    solids += books.solid_impulse > round_off ? 1 : 0;
+    solids += budget.solid_impulse > round_off ? 1 : 0;
     if (HasFailure()) return;
   }
   EXPECT_GT(contacts, kCases / 2);
   EXPECT_GT(solids, kCases / 10);
 }
 
-/// Masses and viscosities over ten decades each; pushes and a start that the film can absorb within the numbers of a double, 200 k at most.
+/// Masses and viscosities over ten decades each; pushes and a start that the film can absorb within
+/// the numbers of a double, 200 k at most.
 RandomCase resolvable_case(std::mt19937_64& generator) {
   auto [motion, k] = random_case(generator);
   const auto uniform = [&](double from, double to) {
@@ -116,7 +117,8 @@ TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
 }
 
 TEST(RandomMotions, WithoutInertiaAreReversible) {
-  // The force backwards and with the other sign brings the sphere back the way it came: q(2T - t) = q(t).
+  // The force backwards and with the other sign brings the sphere back the way it came: q(2T - t) =
+  // q(t).
   std::mt19937_64 generator(3);
   std::uniform_real_distribution uniform(0.0, 1.0);
   for (int i = 0; i < kCases; ++i) {
@@ -131,12 +133,13 @@ TEST(RandomMotions, WithoutInertiaAreReversible) {
       both.push_back({static_cast<double>(count + j + 1),
                       -there[static_cast<std::size_t>(count - 1 - j)].value});
     Motion motion{1, std::pow(10, 2 * uniform(generator) - 1), 0, 2.0 * count, ExternalForce(both)};
-    motion.reference_time_step = 0.25;
+    motion.set(kReferenceTimeStep, 0.25);
     const auto rows = simulate_reference_exact(motion, force).rows;
     ASSERT_EQ(rows.size() % 2, 1U);
     for (std::size_t n = 0; n < rows.size() / 2; ++n) {
       const auto& mirrored = rows[rows.size() - 1 - n];
-      // Impulses of up to 60 k are off by some roundings; over R q >= k that is the relative error of the gap. So is the rounding of ln q, up to 60.
+      // Impulses of up to 60 k are off by some roundings; over R q >= k that is the relative error
+      // of the gap. So is the rounding of ln q, up to 60.
       EXPECT_NEAR(mirrored.gap / rows[n].gap, 1, 2e-13) << i << ", t = " << rows[n].time;
     }
     if (HasFailure()) return;

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 double euler_minimal_gap(const LubricationForce& force, double step) {
   Motion motion = lecture_motion();
-  motion.reference_time_step = step;
+  motion.set(kReferenceTimeStep, step);
   return lowest_row(simulate_reference(motion, force)).gap;
 }
 
@@ -32,7 +32,8 @@ TEST(ReferenceExact, FindsTheExactMinimalGapWithTheAsymptoticBasis) {
   const auto lowest =
       lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(close_fit())));
   EXPECT_EQ(lowest.time, 2);
-  // Residuals of 7e-6 all of one sign would move ln q by 7e-6 * 400 / k = 5e-5; they alternate, and 1e-6 is left.
+  // Residuals of 7e-6 all of one sign would move ln q by 7e-6 * 400 / k = 5e-5; they alternate, and
+  // 1e-6 is left.
   EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 1e-5);
 }
 
@@ -54,7 +55,7 @@ TEST(ReferenceExact, RunsBackwardsOnTheSamePathWhenTheForceTurns) {
   // Stokes flow is reversible: pulled as it was pushed, the sphere passes the same gaps in reverse.
   const LubricationForce force(lecture_fit());
   Motion motion = lecture_motion();
-  motion.reference_time_step = 0.0625;  // dyadic, so that times mirror to the bit
+  motion.set(kReferenceTimeStep, 0.0625);  // dyadic, so that times mirror to the bit
   const auto rows = simulate_reference_exact(motion, force).rows;
   ASSERT_EQ(rows.size(), 65U);
   for (std::size_t i = 0; i < 32; ++i) {
@@ -94,7 +95,7 @@ TEST(Reference, IsAPowerOfItsStepWhereTheDragIsKOverQ) {
   // u^n = f q^n / k, so q^n = (1 + h f / k)^n.
   const double k = 4;
   Motion motion{1, 1, 0, 2, ExternalForce({{1, -2}, {2, 3}})};
-  motion.reference_time_step = 0.125;
+  motion.set(kReferenceTimeStep, 0.125);
   const auto trajectory = simulate_reference(motion, LubricationForce(leading_term_fit(k)));
   ASSERT_EQ(trajectory.rows.size(), 17U);
   EXPECT_EQ(trajectory.steps, 16);
@@ -115,7 +116,8 @@ TEST(Reference, ConvergesToTheExactSolutionAtFirstOrderInItsStep) {
   const double coarse = euler_minimal_gap(force, 1e-2) / exact - 1;
   const double middle = euler_minimal_gap(force, 1e-3) / exact - 1;
   const double fine = euler_minimal_gap(force, 1e-4) / exact - 1;
-  // docs/theory.md prints two digits: half a unit of the last one. Below the exact film at every step.
+  // docs/theory.md prints two digits: half a unit of the last one. Below the exact film at every
+  // step.
   EXPECT_NEAR(coarse, -0.087, 5e-4);
   EXPECT_NEAR(middle, -8.9e-3, 5e-5);
   EXPECT_NEAR(fine, -8.9e-4, 5e-6);
@@ -126,7 +128,7 @@ TEST(Reference, ConvergesToTheExactSolutionAtFirstOrderInItsStep) {
 
 TEST(Reference, TakesTheMeanForceOfAStepThatHoldsAJump) {
   Motion motion{1, 1, 0, 1, ExternalForce({{0.25, -2}, {1, 2}})};
-  motion.reference_time_step = 0.5;
+  motion.set(kReferenceTimeStep, 0.5);
   const auto trajectory = simulate_reference(motion, LubricationForce(leading_term_fit(1)));
   EXPECT_EQ(trajectory.rows[0].velocity, 0);
   EXPECT_EQ(trajectory.rows[1].gap, 1);
@@ -135,7 +137,7 @@ TEST(Reference, TakesTheMeanForceOfAStepThatHoldsAJump) {
 
 TEST(Reference, SaysWhenAStepGoesThroughThePlane) {
   Motion motion = lecture_motion();
-  motion.reference_time_step = 1;
+  motion.set(kReferenceTimeStep, 1);
   const LubricationForce force(lecture_fit(), BelowInterval::kLubricationLimit);
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { simulate_reference(motion, force); }),
               HasSubstr("smaller reference.time_step"));

@@ -1,4 +1,5 @@
-// The studies that are shipped as cases (docs/studies.md) show what they say: each is read as `viscontact run` reads it.
+// The studies that are shipped as cases (docs/studies.md) show what they say: each is read as
+// `viscontact run` reads it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,6 +15,7 @@
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
@@ -66,20 +68,22 @@ TEST(NoContact, ThePushThinsTheFilmForEver) {
   for (const auto& row : trajectory.rows) EXPECT_GT(row.gap, 0) << row.time;
   const auto& end = trajectory.rows.back();
   EXPECT_EQ(end.time, 20);
-  // m u = -2 m q/k, 3e-17, is nothing beside Gamma = -40; relative_tolerance 1e-9 bounds the error of ln q.
+  // m u = -2 m q/k, 3e-17, is nothing beside Gamma = -40; relative_tolerance 1e-9 bounds the error
+  // of ln q.
   EXPECT_NEAR(std::log(end.gap), std::log(s.force.gap_of_impulse(-40)), 1e-8);
   EXPECT_NEAR(std::log(end.gap), -38.7384, 5e-5);  // as printed
-  // ln q = -2 t/k + C as soon as the drag is k/q and the velocity nothing: at t = 10 to 1e-8, q (ln q) being 7e-9 x 19.
+  // ln q = -2 t/k + C as soon as the drag is k/q and the velocity nothing: at t = 10 to 1e-8, q (ln
+  // q) being 7e-9 x 19.
   EXPECT_NEAR(std::log(row_at(trajectory, 10).gap), std::log(end.gap) + 20, 1e-6);
 }
 
 TEST(NoContact, ExplicitEulerGoesThroughThePlaneWhenItsStepSaysSo) {
   const Study s = study("no_contact.toml");
   Motion motion = s.motion();
-  EXPECT_EQ(motion.contact_time_step, 1e-3);
+  EXPECT_EQ(motion.parameter(kContactTimeStep), 1e-3);
   const std::array times = {std::pair(1e-2, 3.76), std::pair(1e-3, 4.58), std::pair(1e-4, 5.63)};
   for (const auto& [step, time] : times) {
-    motion.contact_time_step = step;
+    motion.set(kContactTimeStep, step);
     const auto trajectory = s.run("explicit_euler", motion);
     const auto& last = trajectory.rows.back();
     EXPECT_EQ(last.gap, 0) << step;
@@ -92,7 +96,7 @@ TEST(NoContact, ExplicitEulerGoesThroughThePlaneWhenItsStepSaysSo) {
 
 TEST(ViscousOrNot, ThePlainOneLeavesWhenItIsPulledTheViscousOneWhenAllIsGivenBack) {
   const Study s = study("viscous_or_not.toml");
-  const double h = s.motion().contact_time_step;
+  const double h = s.motion().parameter(kContactTimeStep);
   const auto viscous = s.run("viscous_contact");
   const auto plain = s.run("inelastic_contact");
   EXPECT_NEAR(landing(viscous), 1, h);
@@ -136,11 +140,12 @@ TEST(Roughness, StopsGammaAndTheSolidCarriesTheRest) {
   EXPECT_NEAR(release(smooth), 4, kRoundOff);
   EXPECT_NEAR(rough.recovered_minimal_gap.value(), 0.01, 1e-15);
   EXPECT_NEAR(smooth.recovered_minimal_gap.value(), std::exp(-400 / k), 1e-15);
-  // Of the push's 400 the film takes -gamma_min, the solid the rest; the film gives back what it took.
-  EXPECT_NEAR(rough.books->solid_impulse, 400 + gamma_min, 1e-10);
-  EXPECT_NEAR(rough.books->solid_impulse, 139.5838, 5e-5);
-  EXPECT_NEAR(rough.books->film_impulse, 0, 1e-10);
-  EXPECT_EQ(smooth.books->solid_impulse, 0);
+  // Of the push's 400 the film takes -gamma_min, the solid the rest; the film gives back what it
+  // took.
+  EXPECT_NEAR(rough.budget->solid_impulse, 400 + gamma_min, 1e-10);
+  EXPECT_NEAR(rough.budget->solid_impulse, 139.5838, 5e-5);
+  EXPECT_NEAR(rough.budget->film_impulse, 0, 1e-10);
+  EXPECT_EQ(smooth.budget->solid_impulse, 0);
 }
 
 TEST(Roughness, DoesTheSameWhereTheDragIsResolvedDownToAThreshold) {
@@ -148,17 +153,18 @@ TEST(Roughness, DoesTheSameWhereTheDragIsResolvedDownToAThreshold) {
   const auto rough = s.run("viscous_contact_threshold");
   const auto smooth = s.run("viscous_contact_threshold_smooth");
   const double at_solid = s.force.impulse(0.01);
-  const double h = s.motion().contact_time_step;
-  // By the first integral the film is 0.01 thick when the push has brought -Gamma(0.01) = 330.6: the solid carries the rest of 400.
+  const double h = s.motion().parameter(kContactTimeStep);
+  // By the first integral the film is 0.01 thick when the push has brought -Gamma(0.01) = 330.6:
+  // the solid carries the rest of 400.
   EXPECT_NEAR(touch(rough).time, -at_solid / 200, h);
-  EXPECT_NEAR(rough.books->solid_impulse, 400 + at_solid, 1e-9);
-  EXPECT_NEAR(rough.books->solid_impulse, 69.4272, 5e-5);
-  const double from_threshold = s.force.impulse(s.motion().threshold_gap) - at_solid;
+  EXPECT_NEAR(rough.budget->solid_impulse, 400 + at_solid, 1e-9);
+  EXPECT_NEAR(rough.budget->solid_impulse, 69.4272, 5e-5);
+  const double from_threshold = s.force.impulse(s.motion().parameter(kThresholdGap)) - at_solid;
   EXPECT_NEAR(release(rough), 2 + from_threshold / 200, 1e-9);
   EXPECT_NEAR(rough.recovered_minimal_gap.value(), 0.01, 1e-14);
   EXPECT_NEAR(smooth.recovered_minimal_gap.value(), kExactMinimalGap, 5e-12);  // its digits
   EXPECT_GT(release(smooth), release(rough) + 0.3);
-  EXPECT_EQ(smooth.books->solid_impulse, 0);
+  EXPECT_EQ(smooth.budget->solid_impulse, 0);
 }
 
 TEST(Release, TheRoughSphereForgetsThePushTheSmoothOneDoesNot) {
@@ -168,7 +174,7 @@ TEST(Release, TheRoughSphereForgetsThePushTheSmoothOneDoesNot) {
     Motion motion = s.motion();
     motion.end_time = 2 * push + 2;
     motion.external_force = ExternalForce({{push, -2}, {motion.end_time, 2}});
-    motion.contact_time_step = motion.end_time / 1000;  // of rows, not of the answer
+    motion.set(kContactTimeStep, motion.end_time / 1000);  // of rows, not of the answer
     const auto rough = s.run("viscous_contact_exact", motion);
     const auto smooth = s.run("viscous_contact_exact_smooth", motion);
     // Times of size 2 push, impulses of twice that.
@@ -181,7 +187,7 @@ TEST(Release, TheRoughSphereForgetsThePushTheSmoothOneDoesNot) {
     };
     EXPECT_NEAR(pull(release(rough)), 2, 2 * round_off) << push;
     EXPECT_NEAR(pull(release(smooth)), 2 * push, 2 * round_off) << push;
-    EXPECT_NEAR(rough.books->solid_impulse, 2 * push - 2, 4 * round_off) << push;
+    EXPECT_NEAR(rough.budget->solid_impulse, 2 * push - 2, 4 * round_off) << push;
   }
 }
 
@@ -198,7 +204,8 @@ TEST(Splitting, TheThresholdHasTheFilmOfTheFirstIntegral) {
   for (const std::string suffix : {"", "_brenner"}) {
     const auto exact = s.run("reference_exact" + suffix);
     const auto threshold = s.run("viscous_contact_threshold" + suffix);
-    // Relative 1e-11: round-off of 2000 sums of impulses of 400 is 1e-13 to 1e-12 of them, 7 times that in ln q.
+    // Relative 1e-11: round-off of 2000 sums of impulses of 400 is 1e-13 to 1e-12 of them, 7 times
+    // that in ln q.
     EXPECT_NEAR(threshold.recovered_minimal_gap.value() / lowest_row(exact).gap, 1, 1e-11)
         << suffix;
   }
@@ -210,7 +217,8 @@ TEST(Splitting, TheRegularDragLeavesOutWhatItHasNotTaken) {
   const Study s = study("splitting.toml");
   const auto brenner = s.run("viscous_contact_regular_drag_brenner");
   const auto force = LubricationForce::exact_plane(s.c.viscosity, s.c.radius);
-  // m u + G(q) + gamma = P with G(1) - G(0) taken on the way: q = r exp((G(1) - 400)/k), where (I) has G(1) - G(q_min).
+  // m u + G(q) + gamma = P with G(1) - G(0) taken on the way: q = r exp((G(1) - 400)/k), where (I)
+  // has G(1) - G(q_min).
   const double expected = std::exp((force.regular_impulse(1) - 400) / force.leading_coefficient());
   EXPECT_NEAR(brenner.recovered_minimal_gap.value() / expected, 1, 1e-11);
   EXPECT_NEAR(expected, 2.9915e-3, 5e-8);
@@ -244,7 +252,8 @@ TEST(AnyForce, MakesAndLosesContactWhereItsImpulsesSaySo) {
   const std::array<double, 7> printed = {0.8938, 1.9168, 4.4535, 6.9328, 8.3795, 10.9681, 12.5381};
   ASSERT_EQ(times.size(), printed.size());
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], printed[i], 5e-5) << i;
-  // Without solids m u + gamma is the impulse of f: 0 at a release. From there to the next landing the way sums up to 0; to the first it is -q0.
+  // Without solids m u + gamma is the impulse of f: 0 at a release. From there to the next landing
+  // the way sums up to 0; to the first it is -q0.
   EXPECT_NEAR(f.impulse_integral(times[0]), -s.motion().initial_gap, 1e-12);
   for (std::size_t i = 1; i < times.size(); i += 2) {
     EXPECT_NEAR(f.impulse(times[i]), 0, 1e-12) << i;
@@ -258,8 +267,9 @@ TEST(AnyForce, TheSchemeFindsTheSameContacts) {
   const auto scheme = contact_times(s.run("viscous_contact"));
   ASSERT_EQ(scheme.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i)
-    // A flight of 2.6 with an error of h in its velocity, divided by that of the landing, of size 1; and a step.
-    EXPECT_NEAR(scheme[i], exact[i], 4 * s.motion().contact_time_step) << i;
+    // A flight of 2.6 with an error of h in its velocity, divided by that of the landing, of size
+    // 1; and a step.
+    EXPECT_NEAR(scheme[i], exact[i], 4 * s.motion().parameter(kContactTimeStep)) << i;
 }
 
 TEST(AnyForce, TheSphereWithInertiaTendsToItAsTheDragVanishes) {
@@ -279,7 +289,8 @@ TEST(AnyForce, TheSphereWithInertiaTendsToItAsTheDragVanishes) {
   };
   const double here = distance(s.c.viscosity);
   EXPECT_NEAR(here, 0.072, 0.002);
-  // As k ln k: by ln 0.01/(2 ln 0.02) = 0.59. (Films at a tenth of k are thinner than a double can hold.)
+  // As k ln k: by ln 0.01/(2 ln 0.02) = 0.59. (Films at a tenth of k are thinner than a double can
+  // hold.)
   EXPECT_LT(distance(s.c.viscosity / 2), 0.6 * here);
 }
 

@@ -10,6 +10,8 @@
 #include "tests/oracles/brenner.hpp"
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
+#include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact {
@@ -33,7 +35,8 @@ constexpr Units kDecimal[] = {{1e-6, 1, 1},       {1e3, 1, 1},         {1, 1e-6,
 constexpr Units kBinary[] = {
     {0x1p-20, 1, 1}, {0x1p10, 1, 1}, {0x1p-20, 0x1p-50, 0x1p-10}, {0x1p10, 0x1p-20, 0x1p10}};
 
-/// The lubrication force on the lecture's sphere in these units: `kind` is a basis, fitted to the exact drag, or "exact".
+/// The lubrication force on the lecture's sphere in these units: `kind` is a basis, fitted to the
+/// exact drag, or "exact".
 LubricationForce force_in(const Units& units, const std::string& kind) {
   const double viscosity = 3 * units.viscosity();
   const double radius = units.length;
@@ -67,10 +70,10 @@ Motion motion_in(const Units& units, const Push& push) {
                 4 * units.time,
                 ExternalForce({{2 * units.time, -push.force * units.force()},
                                {4 * units.time, push.force * units.force()}})};
-  motion.reference_time_step = 1e-3 * units.time;
-  motion.inertial_relative_tolerance = 1e-9;
-  motion.contact_time_step = 1e-3 * units.time;
-  motion.threshold_gap = 0.1 * units.length;
+  motion.set(kReferenceTimeStep, 1e-3 * units.time);
+  motion.set(kRelativeTolerance, 1e-9);
+  motion.set(kContactTimeStep, 1e-3 * units.time);
+  motion.set(kThresholdGap, 0.1 * units.length);
   motion.roughness = {1e-3 * units.length, 1e-3 * units.length};
   return motion;
 }
@@ -125,15 +128,18 @@ TEST(Units, ThatArePowersOfTwoChangeNoBitOfAnyModelWithTheExactDrag) {
   for (const Push& push : kPushes)
     for (const auto& units : kBinary)
       for (const auto& model : all_models()) {
-        const auto old_one = simulate(model, motion_in(kOld, push), force_in(kOld, "exact"));
-        const auto other = simulate(model, motion_in(units, push), force_in(units, "exact"));
+        const auto old_one =
+            simulate(find_model(model.name), motion_in(kOld, push), force_in(kOld, "exact"));
+        const auto other =
+            simulate(find_model(model.name), motion_in(units, push), force_in(units, "exact"));
         EXPECT_EQ(old_one.steps, other.steps) << model.name;
         expect_twins(old_one, other, units, 0);
       }
 }
 
 TEST(Units, ChangeTheModelsOfFixedStepsByRoundingOnly) {
-  // A rounding, multiplied by thousands of steps; the force in the step of a landing is the most sensitive column.
+  // A rounding, multiplied by thousands of steps; the force in the step of a landing is the most
+  // sensitive column.
   constexpr double kRounding = 1e-10;
   for (const auto* kind : {"exact", "lecture", "asymptotic"})
     for (const Push& push : kPushes)
@@ -141,13 +147,16 @@ TEST(Units, ChangeTheModelsOfFixedStepsByRoundingOnly) {
         for (const auto& model : all_models()) {
           if (model.name == "inertial") continue;  // its steps are chosen: below
           SCOPED_TRACE(kind);
-          const auto old_one = simulate(model, motion_in(kOld, push), force_in(kOld, kind));
-          const auto other = simulate(model, motion_in(units, push), force_in(units, kind));
+          const auto old_one =
+              simulate(find_model(model.name), motion_in(kOld, push), force_in(kOld, kind));
+          const auto other =
+              simulate(find_model(model.name), motion_in(units, push), force_in(units, kind));
           if (model.name != "viscous_contact_exact") {
             expect_twins(old_one, other, units, kRounding);
             continue;
           }
-          // An event that rounding alone sets apart from the time of a row has a row of its own, so rows are not compared.
+          // An event that rounding alone sets apart from the time of a row has a row of its own, so
+          // rows are not compared.
           for (const std::size_t i : {0U, 1U})
             EXPECT_NEAR((*other.contact_interval)[i] / units.time, (*old_one.contact_interval)[i],
                         1e-12);
@@ -162,7 +171,7 @@ double inertial_gap_difference(const std::string& kind, double tolerance) {
   for (const auto& units : kDecimal) {
     const auto gaps_in = [&](const Units& in) {
       Motion motion = motion_in(in, kPushes[0]);
-      motion.inertial_relative_tolerance = tolerance;
+      motion.set(kRelativeTolerance, tolerance);
       return simulate(find_model("inertial"), motion, force_in(in, kind)).rows;
     };
     const auto old_rows = gaps_in(kOld), rows = gaps_in(units);
@@ -174,7 +183,8 @@ double inertial_gap_difference(const std::string& kind, double tolerance) {
 }
 
 TEST(Units, ChangeTheInertialGapByLessThanItsTolerance) {
-  // A rounding of an input, by another unit, makes CVODE take other steps, each within the tolerance.
+  // A rounding of an input, by another unit, makes CVODE take other steps, each within the
+  // tolerance.
   for (const auto* kind : {"exact", "lecture", "asymptotic"}) {
     EXPECT_LT(inertial_gap_difference(kind, 1e-9), 2e-9) << kind;
     EXPECT_LT(inertial_gap_difference(kind, 1e-13), 1e-12) << kind;

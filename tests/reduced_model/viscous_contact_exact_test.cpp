@@ -1,5 +1,5 @@
 // Viscous contact from event to event, against motions known in closed form and against the scheme.
-#include "viscontact/reduced_model/models/viscous_contact_exact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tests/reduced_model/cases.hpp"
-#include "viscontact/reduced_model/models/inelastic_contact.hpp"
-#include "viscontact/reduced_model/models/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 namespace viscontact {
 namespace {
@@ -37,10 +37,11 @@ TEST(ViscousContactExact, SolvesTheLimitCase) {
 }
 
 TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
-  // Lands at t = 0.5 with gamma = -1 (q0 = 1/4, f = -2); gamma_min = -2 is reached at t = 1; the pull of 2 from t = 3 on frees it at t = 4.
+  // Lands at t = 0.5 with gamma = -1 (q0 = 1/4, f = -2); gamma_min = -2 is reached at t = 1; the
+  // pull of 2 from t = 3 on frees it at t = 4.
   const double k = 1;
   Motion motion{1, 0.25, 0, 6, ExternalForce({{3, -2}, {6, 2}})};
-  motion.contact_time_step = 0.01;
+  motion.set(kContactTimeStep, 0.01);
   motion.roughness = {std::exp(-2.0), 0};
   const auto trajectory =
       simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(k)));
@@ -52,30 +53,34 @@ TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
   EXPECT_NEAR(touches->time, 1, 1e-14);
   EXPECT_EQ(*touches->solid_force, 2);
   EXPECT_EQ(*touches->lubrication_force, 0);
-  // Books: the push gives -6 until t = 3, the film takes 2 of it and gives them back, the solid carries the rest.
-  EXPECT_NEAR(trajectory.books->solid_impulse, 4, 1e-14);
-  EXPECT_NEAR(trajectory.books->film_impulse, 0, 1e-14);
-  // All that the fall has gained, 1/2, is lost in the film's impact; the flight after t = 4 gains 8.
-  EXPECT_NEAR(trajectory.books->film_work, -0.5, 1e-14);
-  EXPECT_NEAR(trajectory.books->external_work, 8.5, 1e-13);
+  // Books: the push gives -6 until t = 3, the film takes 2 of it and gives them back, the solid
+  // carries the rest.
+  EXPECT_NEAR(trajectory.budget->solid_impulse, 4, 1e-14);
+  EXPECT_NEAR(trajectory.budget->film_impulse, 0, 1e-14);
+  // All that the fall has gained, 1/2, is lost in the film's impact; the flight after t = 4
+  // gains 8.
+  EXPECT_NEAR(trajectory.budget->film_work, -0.5, 1e-14);
+  EXPECT_NEAR(trajectory.budget->external_work, 8.5, 1e-13);
 }
 
 TEST(ViscousContactExact, SharesAHardImpactBetweenFilmAndSolid) {
-  // Arrives with momentum -10 where the film can take 4: of the energy 50 the film takes its share of the impulse, 20.
+  // Arrives with momentum -10 where the film can take 4: of the energy 50 the film takes its share
+  // of the impulse, 20.
   Motion motion{1, 1, -10, 1, ExternalForce({{1, 0}})};
-  motion.contact_time_step = 0.01;
+  motion.set(kContactTimeStep, 0.01);
   motion.roughness = {std::exp(-4.0), 0};
-  const auto books =
-      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(1))).books.value();
-  EXPECT_NEAR(books.film_impulse, 4, 1e-13);
-  EXPECT_NEAR(books.solid_impulse, 6, 1e-13);
-  EXPECT_NEAR(books.film_work, -20, 1e-12);
-  EXPECT_NEAR(books.solid_work, -30, 1e-12);
+  const auto budget =
+      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(1))).budget.value();
+  EXPECT_NEAR(budget.film_impulse, 4, 1e-13);
+  EXPECT_NEAR(budget.solid_impulse, 6, 1e-13);
+  EXPECT_NEAR(budget.film_work, -20, 1e-12);
+  EXPECT_NEAR(budget.solid_work, -30, 1e-12);
 }
 
 TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
-  // Random pushes that jump; the scheme's error in gap, velocity and gamma is of first order where the contact times are not shifted by a landing
-  // that one has and the other not; the sup over a whole motion is bounded by C h with C from the forces.
+  // Random pushes that jump; the scheme's error in gap, velocity and gamma is of first order where
+  // the contact times are not shifted by a landing that one has and the other not; the sup over a
+  // whole motion is bounded by C h with C from the forces.
   std::mt19937_64 generator(5);
   const auto uniform = [&](double from, double to) {
     return std::uniform_real_distribution(from, to)(generator);
@@ -91,11 +96,11 @@ TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
     if (i % 2 == 0) motion.roughness = {std::exp(-uniform(0.2, 2)), 0};
     const LubricationForce force(leading_term_fit(1));
     const auto distance = [&](double h) {
-      motion.contact_time_step = h;
+      motion.set(kContactTimeStep, h);
       const auto exact = simulate_viscous_contact_exact(motion, force);
       double sup = 0;
       auto row = exact.rows.begin();
-      for (const auto& step : simulate_viscous_contact(motion, force).rows) {
+      for (const auto& step : run_contact_model(viscous_contact, motion, force).rows) {
         while (row->time < step.time - 1e-9) ++row;
         sup = std::max(sup, std::abs(step.gap - row->gap));
       }
@@ -111,9 +116,10 @@ TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
 }
 
 TEST(ViscousContactExact, IsReleasedByAForceThatTouchesZeroInTheMiddleOfItsPiece) {
-  // Pulled by (t - 4)^2 on [2, 6]: the impulse since t = 2 is ((t - 4)^3 + 8)/3, and 4 is given back at (t - 4)^3 = 4.
+  // Pulled by (t - 4)^2 on [2, 6]: the impulse since t = 2 is ((t - 4)^3 + 8)/3, and 4 is given
+  // back at (t - 4)^3 = 4.
   Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, 4, {-4, 1}}})};
-  motion.contact_time_step = 0.01;
+  motion.set(kContactTimeStep, 0.01);
   const auto trajectory =
       simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)));
   EXPECT_NEAR((*trajectory.contact_interval)[1], 4 + std::cbrt(4.0), 1e-13);
@@ -123,21 +129,22 @@ TEST(ViscousContactExact, IsReleasedByAForceThatTouchesZeroInTheMiddleOfItsPiece
 TEST(ViscousContactExact, SeesContactsOfAForceWhoseSignChangesTwiceInAMoment) {
   // 1000 (t - 0.002)(t - 0.028) pushes for 0.026 of its 1: two roots closer than a 32nd.
   Motion motion{1, 1e-9, 0, 1, ExternalForce({{1, 0.056, {-30, 1000}}})};
-  motion.contact_time_step = 1e-6;
+  motion.set(kContactTimeStep, 1e-6);
   const LubricationForce force(leading_term_fit(1e-9));
   const auto exact = simulate_viscous_contact_exact(motion, force).contact_interval.value();
-  const auto scheme = simulate_viscous_contact(motion, force).contact_interval.value();
+  const auto scheme = run_contact_model(viscous_contact, motion, force).contact_interval.value();
   // First order: some steps of 1e-6.
   EXPECT_NEAR(exact[0], scheme[0], 1e-5);
   EXPECT_NEAR(exact[1], scheme[1], 1e-5);
 }
 
 TEST(ViscousContactExact, RecoversAFilmThatDoesNotDependOnItsRows) {
-  // Pushed by -2 cos t until pi/2, where gamma is least between two rows: m u + gamma = -2 sin t = -2.
+  // Pushed by -2 cos t until pi/2, where gamma is least between two rows: m u + gamma = -2 sin t =
+  // -2.
   ExternalForce force = ExternalForce::sinusoidal({-2, 1, std::acos(0.0)});
   for (const double spacing : {1e-3, 0.03, 0.1}) {
     Motion motion{1, 0.1, 0, 2, force};
-    motion.contact_time_step = spacing;
+    motion.set(kContactTimeStep, spacing);
     const auto film =
         simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)))
             .recovered_minimal_gap;
@@ -149,16 +156,16 @@ TEST(ContactInterval, LastsWhileNothingPullsTheSphere) {
   // No force from t = 2 on: gamma stays, and so does the sphere.
   for (const double later : {0.0, -0.0}) {
     Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, later}})};
-    motion.contact_time_step = 1e-3;
+    motion.set(kContactTimeStep, 1e-3);
     const LubricationForce force(leading_term_fit(0.1));
-    EXPECT_EQ((*simulate_viscous_contact(motion, force).contact_interval)[1], 6);
+    EXPECT_EQ((*run_contact_model(viscous_contact, motion, force).contact_interval)[1], 6);
     EXPECT_EQ((*simulate_viscous_contact_exact(motion, force).contact_interval)[1], 6);
   }
 }
 
 TEST(InelasticContact, LeavesAsSoonAsItIsPulled) {
   const auto trajectory =
-      simulate_inelastic_contact(limit_motion(), LubricationForce(leading_term_fit(0.1)));
+      run_contact_model(inelastic_contact, limit_motion(), LubricationForce(leading_term_fit(0.1)));
   // It lands within a step of t = 1, as the viscous one does, and leaves at t = 2.
   EXPECT_NEAR((*trajectory.contact_interval)[0], 1, 1e-3);
   EXPECT_NEAR((*trajectory.contact_interval)[1], 2, 1e-9);
@@ -169,8 +176,8 @@ TEST(InelasticContact, LeavesAsSoonAsItIsPulled) {
       EXPECT_NEAR(row.gap, std::pow(row.time - 2, 2), 1.01e-3 * (row.time - 2) + 1e-9);
     }
   }
-  EXPECT_NEAR(trajectory.books->solid_impulse, 4, 1e-9);  // 2 of the fall, 2 of the push after it
-  EXPECT_EQ(trajectory.books->film_impulse, 0);
+  EXPECT_NEAR(trajectory.budget->solid_impulse, 4, 1e-9);  // 2 of the fall, 2 of the push after it
+  EXPECT_EQ(trajectory.budget->film_impulse, 0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The viscous contact model on motions whose limit is known in closed form.
-#include "viscontact/reduced_model/models/viscous_contact.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,9 @@ double limit_gap(double t) { return t < 1 ? 1 - t * t : t < 4 ? 0 : (t - 4) * (t
 
 Trajectory limit_trajectory(double step) {
   Motion motion = limit_motion();
-  motion.contact_time_step = step;
-  Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1)));
+  motion.set(kContactTimeStep, step);
+  Trajectory trajectory =
+      run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(0.1)));
   trajectory.model = "viscous_contact";
   return trajectory;
 }
@@ -50,8 +51,8 @@ TEST(ViscousContact, IsInContactFromOneToFourInTheLimitCase) {
 }
 
 TEST(ViscousContact, FollowsTheParabolasOfTheLimitCaseToFirstOrder) {
-  // Before landing q^n = 1 - h^2 n (n+1) = 1 - t^2 - h t; the error after leaving is that of the velocity and of the release, to one step
-  // each: 2 h (t - 4) + h (t - 4) <= 6 h at t = 6.
+  // Before landing q^n = 1 - h^2 n (n+1) = 1 - t^2 - h t; the error after leaving is that of the
+  // velocity and of the release, to one step each: 2 h (t - 4) + h (t - 4) <= 6 h at t = 6.
   for (const double step : {1e-2, 1e-3, 1e-4})
     for (const auto& row : limit_trajectory(step).rows)
       EXPECT_NEAR(row.gap, limit_gap(row.time), row.time < 4 ? 1.001 * step : 6.1 * step)
@@ -78,7 +79,8 @@ TEST(ViscousContact, RemembersExactlyTheImpulseItHasTaken) {
 }
 
 TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
-  // gamma is -4 at its lowest, where mu = 0.1: the film is exp(-40) (limit_case_states.csv has the same to 14 digits).
+  // gamma is -4 at its lowest, where mu = 0.1: the film is exp(-40) (limit_case_states.csv has the
+  // same to 14 digits).
   const auto recovered = limit_trajectory(1e-3).recovered_minimal_gap;
   ASSERT_TRUE(recovered.has_value());
   EXPECT_NEAR(std::log(*recovered), -40, 1e-10);  // round-off of gamma over mu
@@ -87,19 +89,20 @@ TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
 TEST(ViscousContact, HasNoFilmToRecoverWithoutContact) {
   Motion motion = limit_motion();
   motion.external_force = ExternalForce({{6, 2}});
-  EXPECT_FALSE(simulate_viscous_contact(motion, LubricationForce(leading_term_fit(0.1)))
+  EXPECT_FALSE(run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(0.1)))
                    .recovered_minimal_gap);
 }
 
 TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
-  // From 1e-6 above the plane, pushed by F for 1 and pulled by G after: off at 1 + F/G. The fall takes sqrt(2e-6 m / F), at most 0.02.
+  // From 1e-6 above the plane, pushed by F for 1 and pulled by G after: off at 1 + F/G. The fall
+  // takes sqrt(2e-6 m / F), at most 0.02.
   for (const double mass : {1e-3, 1.0, 50.0})
     for (const double push : {0.3, 4.0, 1000.0})
       for (const double ratio : {0.5, 1.0, 3.7}) {
         Motion motion{mass, 1e-6, 0, 1.1 + ratio, ExternalForce({{1, -push}, {10, push / ratio}})};
-        motion.contact_time_step = 1e-3;
+        motion.set(kContactTimeStep, 1e-3);
         Trajectory trajectory =
-            simulate_viscous_contact(motion, LubricationForce(leading_term_fit(1)));
+            run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(1)));
         trajectory.model = "viscous_contact";
         EXPECT_NEAR(contact_interval(trajectory)[1], 1 + ratio, 1e-3 * (1 + 1e-6))
             << "m = " << mass << ", F = " << push << ", F/G = " << ratio;
@@ -114,9 +117,10 @@ TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
   const double pull = 3;
   for (const double push : {5.0, 50.0, 5000.0}) {
     Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -push}, {4, pull}})};
-    motion.contact_time_step = 1e-3;
+    motion.set(kContactTimeStep, 1e-3);
     motion.roughness = {0.004, 0.006};
-    Trajectory trajectory = simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k)));
+    Trajectory trajectory =
+        run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k)));
     trajectory.model = "viscous_contact";
     EXPECT_NEAR(contact_interval(trajectory)[1], 2 - gamma_min / pull, 1e-3 * (1 + 1e-6)) << push;
     // exp and log of the same number: a few roundings at the size of ln s.
@@ -127,12 +131,12 @@ TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
 TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
   const double k = 0.5;
   Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -40}, {4, 3}})};
-  motion.contact_time_step = 1e-3;
+  motion.set(kContactTimeStep, 1e-3);
   motion.roughness = {0.004, 0.006};
   const double gamma_min = k * std::log(motion.roughness[0] + motion.roughness[1]);
   bool reached = false;
   for (const auto& row :
-       simulate_viscous_contact(motion, LubricationForce(leading_term_fit(k))).rows) {
+       run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k))).rows) {
     reached = reached || *row.gamma == gamma_min;
     if (reached && row.time <= 2) {
       EXPECT_EQ(*row.gamma, gamma_min) << row.time;
@@ -160,7 +164,8 @@ TEST(ViscousContact, TakesItsViscosityFromTheFit) {
 }
 
 TEST(RecoveredFilm, IsThatOfTheFirstIntegralWhereverTheSphereStarts) {
-  // R = k/q with k = 1 and radius 1: the push takes the film from q0 to q0 exp(-4), with or without contact models.
+  // R = k/q with k = 1 and radius 1: the push takes the film from q0 to q0 exp(-4), with or without
+  // contact models.
   const LubricationForce force(leading_term_fit(1));
   for (const double initial_gap : {1e-9, 1e-3, 0.1, 1.0, 3.0}) {
     Motion motion = limit_motion();
@@ -198,7 +203,7 @@ TEST(RecoveredFilm, IsNeverThinnerThanTheRoughness) {
     motion.mass = 1e-3;
     motion.initial_gap = initial_gap;
     motion.roughness = {0.03, 0.02};  // exp(-4) = 0.018
-    const auto film = simulate_viscous_contact(motion, force).recovered_minimal_gap;
+    const auto film = run_contact_model(viscous_contact, motion, force).recovered_minimal_gap;
     EXPECT_EQ(film.value(), 0.05) << initial_gap;
   }
 }

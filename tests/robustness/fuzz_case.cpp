@@ -38,8 +38,8 @@ void ask(const ExternalForce& force, double end) {
 void move(const Case& c) {
   const Motion& motion = *c.motion;
   constexpr int kManySteps = 500;  // of them a fuzzer learns nothing more
-  if (step_count(motion.end_time, motion.contact_time_step) > kManySteps ||
-      step_count(motion.end_time, motion.reference_time_step) > kManySteps)
+  if (step_count(motion.end_time, motion.parameter(kContactTimeStep)) > kManySteps ||
+      step_count(motion.end_time, motion.parameter(kReferenceTimeStep)) > kManySteps)
     return;
   const auto force = LubricationForce::exact_plane(c.viscosity, c.radius);
   for (const char* model : {"reference", "viscous_contact", "viscous_contact_exact_smooth",

@@ -4,7 +4,7 @@
 
 #include "tests/robustness/fuzz_target.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
@@ -36,14 +36,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_let_in([&] { table = read_force_table(hostile_file(data, size, "table.csv")); }))
     return 0;
   check_round_trip(table);
-  // A fit costs as much as some hundred readings: a sixteenth of the tables are fitted, chosen by their bytes.
+  // A fit costs as much as some hundred readings: a sixteenth of the tables are fitted, chosen by
+  // their bytes.
   if (std::accumulate(data, data + size, 0U) % 16 != 0) return 0;
   fit(table, {});
   FitSettings other;
   other.basis = find_basis("asymptotic");
   other.weights = Weights::kAbsolute;
   other.loss = Loss::kHuber;
-  other.hold_leading = table.leading_coefficient.has_value();
+  other.fix_leading = table.leading_coefficient.has_value();
   fit(table, other);
   return 0;
 }

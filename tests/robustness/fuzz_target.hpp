@@ -1,4 +1,5 @@
-// What the fuzz targets share. A target is a program's whole way of dealing with a file of any bytes: read it, and if it is let in, use it.
+// What the fuzz targets share. A target is a program's whole way of dealing with a file of any
+// bytes: read it, and if it is let in, use it.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace viscontact {
 
-/// A file with these bytes, in a folder of this process alone that lies in memory where there is such a place; the next call replaces it. Beside it are
-/// the files that shipped cases name.
+/// A file with these bytes, in a folder of this process alone that lies in memory where there is
+/// such a place; the next call replaces it. Beside it are the files that shipped cases name.
 std::filesystem::path hostile_file(const std::uint8_t* data, std::size_t size,
                                    std::string_view name);
 
@@ -33,7 +34,8 @@ bool is_let_in(const Read& read) {
   }
 }
 
-/// Does something with what was let in. False if that could not be done, which must be said as an Error.
+/// Does something with what was let in. False if that could not be done, which must be said as an
+/// Error.
 template <class Use>
 bool can_be(const Use& use) {
   try {

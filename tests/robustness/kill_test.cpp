@@ -1,5 +1,6 @@
-// SIGKILL at any moment: outputs are absent or whole, and the same command then finishes with the numbers of an undisturbed run.
-// The suite kills a few times; scripts/kill_test kills VISCONTACT_KILLS times, with FreeFEM itself (VISCONTACT_KILL_FREEFEM).
+// SIGKILL at any moment: outputs are absent or whole, and the same command then finishes with the
+// numbers of an undisturbed run. The suite kills a few times; scripts/kill_test kills
+// VISCONTACT_KILLS times, with FreeFEM itself (VISCONTACT_KILL_FREEFEM).
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,10 +17,10 @@
 #include <thread>
 #include <vector>
 
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/robustness/whole_outputs.hpp"
 #include "viscontact/common/files/file.hpp"
 
@@ -51,7 +52,8 @@ class Kill : public ::testing::Test {
 
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
-  /// Starts the command and kills it after that time, if it is not done before. Children are not killed: they have to end with it.
+  /// Starts the command and kills it after that time, if it is not done before. Children are not
+  /// killed: they have to end with it.
   void run_and_kill(const std::vector<std::string>& arguments, Clock::duration after) const {
     std::vector<const char*> argv = {VISCONTACT_EXECUTABLE};
     for (const auto& argument : arguments) argv.push_back(argument.c_str());
@@ -72,8 +74,9 @@ class Kill : public ::testing::Test {
     killed_ += WIFSIGNALED(status) ? 1 : 0;
   }
 
-  /// Kills the command again and again, each time from an empty folder `out`, where all of its outputs go. A run that was done
-  /// before its moment came counts for nothing: another moment is drawn, before the end of the fastest run seen.
+  /// Kills the command again and again, each time from an empty folder `out`, where all of its
+  /// outputs go. A run that was done before its moment came counts for nothing: another moment is
+  /// drawn, before the end of the fastest run seen.
   void kill_again_and_again(const std::vector<std::string>& arguments) {
     auto whole_run = time_of_whole_run(arguments);
     const std::string undisturbed = numbers_below(path("out"));

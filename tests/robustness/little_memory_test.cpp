@@ -1,12 +1,13 @@
-// Little memory, played by the shell's limit on the size of a process: the work is done, or refused in a line. Limits from too little to begin to enough.
+// Little memory, played by the shell's limit on the size of a process: the work is done, or refused
+// in a line. Limits from too little to begin to enough.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/robustness/whole_outputs.hpp"
 #include "viscontact/common/files/file.hpp"
 
@@ -42,7 +43,8 @@ class LittleMemory : public ::testing::Test {
         ++refused;
         EXPECT_LE(result.exit_status, 5) << result.errors;
       } else {
-        // Before main: the loader found no room for the libraries, or the shell none for the program.
+        // Before main: the loader found no room for the libraries, or the shell none for the
+        // program.
         EXPECT_THAT(result.errors, ::testing::AnyOf(HasSubstr("error while loading"),
                                                     HasSubstr("Cannot allocate memory"),
                                                     HasSubstr("Cannot fork"), HasSubstr("alloc")))

@@ -4,9 +4,9 @@
 
 #include <sstream>
 
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/robustness/whole_outputs.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"

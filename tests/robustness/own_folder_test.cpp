@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/robustness/whole_outputs.hpp"
 #include "viscontact/common/files/file.hpp"
 
@@ -66,7 +66,7 @@ TEST_F(OwnFolder, AnOutputInPlaceOfItsOwnInputIsRefused) {
       {"fit", path("table.csv"), "-o",
        path("../") + scratch_.path().filename().string() + "/table.csv"}};
   for (const auto& command : commands) {
-    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr("is there and is no "));
+    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr("is not a "));
     expect_given_untouched();
   }
 }
@@ -75,7 +75,7 @@ TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherCaseOrFit) {
   given("other.toml", quick_case_text());
   given("case.toml", lecture_case_text());
   expect_refusal(run({"run", path("other.toml"), "-o", scratch_.path().string()}),
-                 ErrorKind::kBadInput, HasSubstr("case.toml: is there and is another case"));
+                 ErrorKind::kBadInput, HasSubstr("case.toml: is another case"));
   expect_given_untouched();
   std::filesystem::remove(path("case.toml"));
   given_.erase("case.toml");
@@ -88,7 +88,7 @@ TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherCaseOrFit) {
     return run({"simulate", path("other.toml"), "--fit", path("used.json"), "-o", folder});
   };
   expect_refusal(simulate(scratch_.path().string()), ErrorKind::kBadInput,
-                 HasSubstr("fit.json: is there and is another fit"));
+                 HasSubstr("fit.json: is another fit"));
   expect_given_untouched();
 
   // A copy of an earlier run is replaced when the case has been edited.
@@ -105,7 +105,7 @@ TEST_F(OwnFolder, ACopyNeverTakesThePlaceOfAnotherForce) {
   given("push.csv", "time,force\n0,-1\n9,-1\n");
   given("other.toml", replaced(quick_case_text(), forces, "[ { file = \"sub/push.csv\" } ]"));
   expect_refusal(run({"run", path("other.toml"), "-o", scratch_.path().string()}),
-                 ErrorKind::kBadInput, HasSubstr("push.csv: is there and is another force"));
+                 ErrorKind::kBadInput, HasSubstr("push.csv: is another force"));
   expect_given_untouched();
 }
 
@@ -132,7 +132,7 @@ class UsersFile : public OwnFolder {
     put_text(path(name), text);
     const auto before = files_below(scratch_.path());
     const auto answered = fake_.answered();
-    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr(name + ": is there and is no "));
+    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr(name + ": is not a "));
     EXPECT_TRUE(files_below(scratch_.path()) == before) << "something was written or deleted";
     EXPECT_EQ(fake_.answered(), answered);
     std::filesystem::remove(path(name));
@@ -217,7 +217,7 @@ TEST_F(UsersFile, OfACasesNameBesideTrajectoriesOfTheUsersOwnIsNotReplaced) {
   put_text(path("out/case.toml"), "title = \"mine\"\n");
   const auto before = files_below(path("out"));
   expect_refusal(run({"run", path("exact.toml"), "-o", path("out")}), ErrorKind::kBadInput,
-                 HasSubstr("case.toml: is there and is another case"));
+                 HasSubstr("case.toml: is another case"));
   EXPECT_TRUE(files_below(path("out")) == before);
 }
 

@@ -1,10 +1,11 @@
-// The whole pipeline, FreeFEM and gnuplot too, in places that programs are not tried in: names that a shell takes apart, no home, no temporary folder.
+// The whole pipeline, FreeFEM and gnuplot too, in places that programs are not tried in: names that
+// a shell takes apart, no home, no temporary folder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/app/program.hpp"
-#include "tests/app/sample_files.hpp"
 #include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "tests/robustness/whole_outputs.hpp"
 #include "viscontact/common/files/file.hpp"
 

@@ -1,12 +1,14 @@
-// A fuzz target without a fuzzer: every file of its corpus, and some thousand inputs made of them, the same ones at each run.
+// A fuzz target without a fuzzer: every file of its corpus, and inputs that are made from them by
+// the same random changes at each run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/robustness/fuzz_target.hpp"
@@ -17,22 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> corpus() {
+/// The files of the corpus in the order of their names.
+std::vector<fs::path> corpus() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(VISCONTACT_CORPUS)) files.push_back(entry.path());
   std::ranges::sort(files);
-  std::vector<std::string> inputs;
-  for (const auto& file : files) inputs.push_back(read_file(file));
-  return inputs;
+  return files;
 }
 
-void run(const std::string& input) {
+/// `origin` says in a failure where the input comes from.
+void run(const std::string& input, const std::string& origin) {
   EXPECT_NO_THROW(
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size()))
-      << ::testing::PrintToString(input);
+      << origin << ": " << ::testing::PrintToString(input);
 }
 
-/// What numbers, words and brackets are tried to become.
+/// What parts of an input are replaced by.
 constexpr std::array<std::string_view, 24> kTokens = {
     "0",     "-1",   "1e308", "1e-308", "5e-324",
     "1e400", "nan",  "inf",   "-0",     "99999999999999999999",
@@ -72,17 +74,18 @@ std::string mutated(std::string text, const std::vector<std::string>& inputs,
 }
 
 TEST(Replay, TheCorpusIsReadOrRefused) {
-  const auto inputs = corpus();
-  ASSERT_FALSE(inputs.empty());
-  for (const auto& input : inputs) run(input);
+  const auto files = corpus();
+  ASSERT_FALSE(files.empty());
+  for (const auto& file : files) run(read_file(file), file.filename().string());
 }
 
 TEST(Replay, InputsMadeOfTheCorpusAreReadOrRefused) {
-  const auto inputs = corpus();
+  std::vector<std::string> inputs;
+  for (const auto& file : corpus()) inputs.push_back(read_file(file));
   ASSERT_FALSE(inputs.empty());
   std::mt19937_64 random(20080131);
   for (int n = 0; n < 1500 && !HasFailure(); ++n)
-    run(mutated(inputs[random() % inputs.size()], inputs, random));
+    run(mutated(inputs[random() % inputs.size()], inputs, random), "changed input");
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/app/sample_files.hpp"
+#include "tests/program/sample_files.hpp"
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/lubrication/fit.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/reduced_model/comparison.hpp"

@@ -11,9 +11,9 @@
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/common/csv.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
 namespace {

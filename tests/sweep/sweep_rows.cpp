@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 
 namespace viscontact {
 

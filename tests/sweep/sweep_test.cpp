@@ -1,21 +1,18 @@
 // Rows of a sweep, one by one and on several threads.
 #include "viscontact/sweep/sweep.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <stdexcept>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/sweep/sweep_rows.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/number.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
@@ -24,7 +21,6 @@ namespace viscontact {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -114,7 +110,8 @@ TEST(SweepRow, ViscosityScalesTheFit) {
   const auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.25,0.5,1,2"});
   for (std::uint64_t i = 0; i < 4; ++i) {
     const auto row = row_of(plan, i);
-    // gamma = -4 to round-off at the end of the push, k = mu, q0 = 1: exp(-4/mu), 4/mu being 16 at most.
+    // gamma = -4 to round-off at the end of the push, k = mu, q0 = 1: exp(-4/mu), 4/mu being 16 at
+    // most.
     EXPECT_NEAR(
         number(row, "viscous_contact_exact.film") / std::exp(-4 / number(row, "fluid.viscosity")),
         1, 64 * kEpsilon);
@@ -217,117 +214,6 @@ TEST(SweepRow, HasNumbersThatAreFiniteOrNothing) {
     if (name != "failure") {
       EXPECT_TRUE(value.empty() || parse_number(value)) << name << " is " << value;
     }
-  }
-}
-
-TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
-  for (const std::string values : {"-1,1", "1,-1"})
-    EXPECT_THAT(bad_input([&] {
-                  Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}));
-                }),
-                AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
-                      HasSubstr("must be a number > 0"), HasSubstr("with fluid.viscosity = -1")));
-  EXPECT_THAT(
-      bad_input([] { Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"})); }),
-      HasSubstr("fluid.viscosty"));
-}
-
-TEST(SweepPlanCheck, CaseNeedsAMotion) {
-  const TemporaryFolder folder;
-  auto text = read_file(data("cases/vanishing_viscosity.toml"));
-  text.erase(text.find("[motion]"));
-  auto plan = shipped("vanishing_viscosity.toml");
-  plan.case_path = folder.file("case.toml", text);
-  EXPECT_THAT(bad_input([&] { Sweep sweep(plan); }), HasSubstr("[motion]"));
-}
-
-TEST(SweepPlanCheck, RadiusIsThatOfTheFitUnlessTheDragIsExact) {
-  EXPECT_THAT(bad_input([] {
-                Sweep(varied(shipped("vanishing_viscosity.toml"), {"sphere.radius=0.3:0.4:3"}));
-              }),
-              AllOf(HasSubstr("sphere.radius is 0.3"),
-                    HasSubstr("the fit's radius is 0.23032943298089034"), HasSubstr("exact drag")));
-  EXPECT_THAT(bad_input([] {
-                Sweep(varied(shipped("vanishing_viscosity.toml"),
-                             {"sphere.radius=0.23032943298089034,0.4"}));
-              }),
-              HasSubstr("sphere.radius is 0.4"));
-  // k = 6 pi mu r^2 = 4, and gamma is -1 at the end of the push, q0 = 1: exp(gamma/k), to the round-off of 1000 sums.
-  const auto row =
-      row_of(varied(shipped("regime_map.toml"), {"sphere.radius=1,2", "sphere.mass=0.1"}), 1);
-  EXPECT_NEAR(number(row, "viscous_contact.film") / std::exp(-0.25), 1, 1e-12);
-}
-
-TEST(SweepPlanCheck, RadiusInTheMiddleIsThatOfTheFitToo) {
-  // Refused at once or as a row: not run with the drag of another sphere.
-  auto plan = varied(shipped("vanishing_viscosity.toml"),
-                     {"sphere.radius=0.23032943298089034,1,0.23032943298089034"});
-  try {
-    EXPECT_THAT(row_of(plan, 1).at("failure"), HasSubstr("sphere.radius"));
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("sphere.radius is 1"));
-  }
-}
-
-TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
-  const auto plan = shipped("vanishing_viscosity.toml");
-  const auto wrong = [](const SweepPlan& p) {
-    return failure(ErrorKind::kWrongUsage, [&] { Sweep sweep(p); });
-  };
-  EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
-              HasSubstr("the key sphere.mass is given twice"));
-  EXPECT_THAT(wrong(with_models(plan, {"inertial", "inertial"}, "inertial")),
-              HasSubstr("the model inertial is given twice"));
-  EXPECT_THAT(
-      wrong(with_models(plan, {"inertial"}, "viscous_contact")),
-      AllOf(HasSubstr("'viscous_contact' is not one of the models"), HasSubstr("inertial")));
-  EXPECT_THAT(bad_input([&] { Sweep sweep(with_models(plan, {"inertia"}, "inertia")); }),
-              HasSubstr("inertia"));
-}
-
-class RunSweep : public ::testing::Test {
- protected:
-  using Taken = std::vector<std::pair<std::uint64_t, std::string>>;
-  /// The first rows take a hundred times as long as the last, which so are done first; more of them than any thread may run ahead.
-  const Sweep sweep_{
-      varied(shipped("time_step.toml"), {"viscous_contact.time_step=1e-3:1e-1:log:200"})};
-  Taken run(std::uint64_t begin, int jobs) const {
-    Taken taken;
-    const auto end = run_sweep(
-        sweep_, begin, jobs,
-        [&](std::uint64_t index, const std::string& row) { taken.emplace_back(index, row); });
-    EXPECT_EQ(end, 200U);
-    return taken;
-  }
-};
-
-TEST_F(RunSweep, HandsTheSameRowsOverInOrderOnAnyNumberOfThreads) {
-  const auto one = run(0, 1);
-  ASSERT_EQ(one.size(), 200U);
-  for (std::uint64_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].first, i);
-  for (const std::uint64_t i : {0U, 7U, 199U}) EXPECT_EQ(one[i].second, sweep_.row(i));
-  for (const int jobs : {2, 5}) EXPECT_EQ(run(0, jobs), one) << jobs;
-}
-
-TEST_F(RunSweep, BeginsWhereItIsTold) {
-  const auto taken = run(197, 2);
-  ASSERT_EQ(taken.size(), 3U);
-  for (std::uint64_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(taken[i].first, 197 + i);
-    EXPECT_EQ(taken[i].second, sweep_.row(197 + i));
-  }
-  EXPECT_TRUE(run(200, 2).empty());
-}
-
-TEST_F(RunSweep, StopsWhenARowIsNotTaken) {
-  for (const int jobs : {1, 2, 5}) {
-    std::vector<std::uint64_t> offered;
-    const auto take = [&](std::uint64_t index, const std::string&) {
-      offered.push_back(index);
-      if (index == 5) throw std::domain_error("full");
-    };
-    EXPECT_THROW(run_sweep(sweep_, 0, jobs, take), std::domain_error) << jobs;
-    EXPECT_THAT(offered, ElementsAre(0, 1, 2, 3, 4, 5)) << jobs;
   }
 }
 

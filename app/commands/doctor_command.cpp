@@ -1,0 +1,111 @@
+// The command `doctor`: checks which programs are installed, says how to install missing ones, and
+// compares a small problem that FreeFEM solves with its exact value.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/interrupt.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+namespace {
+
+struct Finding {
+  bool good;
+  std::string what;
+};
+
+using Report = std::function<void(const Finding&)>;
+
+/// Solves a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so wide
+/// that it changes the drag factor by less than 1e-4. kBrenner is the drag factor by the series of
+/// Brenner (1961).
+Finding solve_known_row(const FreeFem& freefem) {
+  constexpr double kBrenner = 11.45915720340955722964;
+  constexpr double kTolerance = 1e-4;
+  Tabulation tabulation;
+  tabulation.viscosity = tabulation.radius = 1;
+  tabulation.container = Container{40, 80};
+  tabulation.relative_accuracy = kTolerance;
+  const auto row = solve_row(freefem, tabulation, 0.1, -1);
+  const double error = std::abs(row.drag_factor / kBrenner - 1);
+  return {error < kTolerance,
+          fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
+                      row.drag_factor, error, row.seconds)};
+}
+
+void examine_freefem(const Report& report) {
+  try {
+    auto freefem = default_freefem(interrupt_token());
+    // The row takes about a second, so the shorter time limit is enough.
+    freefem.row_limit = freefem.version_limit;
+    report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
+                              freefem.executable, freefem.script_folder.string())});
+    report(solve_known_row(freefem));
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
+    report({false, error.what()});
+  }
+}
+
+Finding examine_gnuplot() {
+  constexpr auto kLongest = std::chrono::minutes(1);  // gnuplot answers within a second
+  const auto gnuplot =
+      run_process({"gnuplot", "--version"}, {}, {}, {}, kLongest, interrupt_token());
+  if (!gnuplot.started || gnuplot.exit_status != 0)
+    return {false,
+            "gnuplot, for --plot and for the report's still pictures; apt-get install gnuplot-nox"};
+  return {true, gnuplot.output.substr(0, gnuplot.output.find('\n'))};
+}
+
+void print_line(const Finding& finding) {
+  const auto word = finding.good ? coloured("ok     ", Colour::kGreen, STDOUT_FILENO)
+                                 : coloured("MISSING", Colour::kRed, STDOUT_FILENO);
+  fmt::print("{} {}\n", word, finding.what);
+}
+
+/// Prints the findings to standard output, one line each or as JSON. True if nothing is missing or
+/// wrong.
+bool examine(bool json) {
+  std::vector<Finding> findings;
+  const Report report = [&](const Finding& finding) {
+    findings.push_back(finding);
+    if (!json) print_line(finding);
+  };
+  for (const auto& [program, version] : library_versions())
+    report({true, fmt::format("{} {}", program, version)});
+  report(examine_gnuplot());
+  examine_freefem(report);
+  if (json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& finding : findings)
+      all.push_back({{"ok", finding.good}, {"what", finding.what}});
+    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+  return std::ranges::all_of(findings, &Finding::good);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, bool& healthy) {
+  auto* command =
+      app.add_subcommand("doctor", "say what is installed, and how to install what is missing");
+  auto json = std::make_shared<bool>(false);
+  add_json(*command, *json);
+  command->callback([&healthy, json] { healthy = examine(*json); });
+}
+
+}  // namespace viscontact

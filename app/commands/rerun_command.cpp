@@ -1,0 +1,240 @@
+// Repeats a recorded command. The record comes from a file that anybody may have written, so
+// check_command decides which commands and options are run; a change must keep this check before
+// execv.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/commands/commands.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RerunOptions {
+  std::string file, output, folder;
+  bool changed_inputs = false, dry_run = false;
+};
+
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. `rerun`
+/// itself is refused, and so are the options by which a file could make this program run other
+/// programs (--launcher, --slurm-options).
+void check_command(const std::string& file, const std::vector<std::string>& command) {
+  constexpr std::string_view kWriting[] = {"run",    "tabulate", "fit",   "export",
+                                           "shift",  "simulate", "sweep", "compare",
+                                           "report", "particles"};
+  const bool known =
+      command.size() > 1 && std::ranges::find(kWriting, command[1]) != std::end(kWriting);
+  const auto is_refused = [](const std::string& word) {
+    return word.find('\0') != std::string::npos || word.starts_with("--launcher") ||
+           word.starts_with("--slurm-options");
+  };
+  if (!known || std::ranges::any_of(command, is_refused))
+    throw_bad_input({file}, "its line 'provenance' contains a command that 'rerun' does not run");
+}
+
+/// Where the value of an option stands in a command: index of the word, and position in this word
+/// at which the value begins.
+struct ValuePlace {
+  std::size_t word = 0, begin = 0;
+};
+
+/// The place of an option's value, which is written as "-o VALUE", "-oVALUE", "--output VALUE" or
+/// "--output=VALUE". `letter` is '\0' for an option without a short name.
+std::optional<ValuePlace> value_of(const std::vector<std::string>& command, char letter,
+                                   const std::string& name) {
+  const std::string shorter = letter == '\0' ? "" : std::string("-") + letter;
+  for (std::size_t i = 2; i < command.size(); ++i) {
+    const auto& word = command[i];
+    if ((word == name || (!shorter.empty() && word == shorter)) && i + 1 < command.size())
+      return ValuePlace{i + 1, 0};
+    if (word.starts_with(name + "=")) return ValuePlace{i, name.size() + 1};
+    if (!shorter.empty() && word.size() > shorter.size() && word.starts_with(shorter))
+      return ValuePlace{i, shorter.size()};
+  }
+  return {};
+}
+
+std::string value_at(const std::vector<std::string>& command, const ValuePlace& place) {
+  return command[place.word].substr(place.begin);
+}
+
+/// The command of the provenance, changed so that it writes to `o.output`. Throws
+/// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder and
+/// is not.
+std::vector<std::string> with_output(const RerunOptions& o, const Provenance& provenance) {
+  auto command = provenance.command;
+  const auto put = [&](const ValuePlace& place) {
+    auto& word = command[place.word];
+    word = word.substr(0, place.begin) + fs::absolute(o.output).string();
+    return command;
+  };
+  // The file is the picture that --plot names: only its path is changed. The command's main output
+  // stays at its place, and is not written again if nothing has changed.
+  if (const auto plot = value_of(command, '\0', "--plot");
+      plot && value_at(command, *plot) == provenance.output)
+    return put(*plot);
+  const auto output = value_of(command, 'o', "--output");
+  // The file is the picture of --compare-bases, whose name the command chose by itself.
+  if (command[1] == "fit" && (!output || value_at(command, *output) != provenance.output)) {
+    command.insert(command.end(), {"--plot", fs::absolute(o.output).string()});
+    return command;
+  }
+  if (!output) {
+    if (command[1] == "compare") {
+      command.insert(command.end(), {"-o", fs::absolute(o.output).string()});
+      return command;
+    }
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("the command that made {} ('{}') can write only to its own place; leave out -o",
+                    o.file, command[1]));
+  }
+  const bool one_of_many = value_at(command, *output) != provenance.output;
+  if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format(
+            "{} is a picture that was drawn beside a table; rerun the table with -o TABLE, and "
+            "its pictures are drawn beside it",
+            o.file));
+  if (one_of_many && (fs::is_regular_file(o.output) || fs::path(o.output).has_extension()))
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("{} is one of the files that the command ('{}') wrote into {}; -o must be "
+                    "a folder for all of them, but it is '{}'",
+                    o.file, command[1], value_at(command, *output), o.output));
+  put(*output);
+  // The picture of --plot would replace the earlier picture, so the option is left out.
+  if (const auto plot = value_of(command, '\0', "--plot"); plot && command[1] != "tabulate") {
+    const auto begin = command.begin() + static_cast<std::ptrdiff_t>(plot->word);
+    command.erase(plot->begin == 0 ? begin - 1 : begin, begin + 1);
+  }
+  return command;
+}
+
+/// Changes the provenance for files that have moved to the folder `to`. Absolute paths below the
+/// folder in which the command ran become paths below `to`, so that nothing is read or written in
+/// the old folder.
+void move_to(Provenance& provenance, const fs::path& to) {
+  const std::string from = provenance.folder + "/";
+  // A provenance without a folder has no absolute paths either (without_folders).
+  const bool tells_folder = !provenance.folder.empty();
+  const auto move = [&](std::string& word, std::size_t begin) {
+    if (tells_folder && word.compare(begin, from.size(), from) == 0)
+      word.replace(begin, from.size(), (to / "").string());
+  };
+  for (std::size_t i = 2; i < provenance.command.size(); ++i)
+    move(provenance.command[i], path_in_word(provenance.command[i]));
+  for (auto& input : provenance.inputs) move(input.file, 0);
+  move(provenance.output, 0);
+  provenance.folder = to.string();
+}
+
+/// The folder in which the command ran that made `file`, for a provenance without a folder. It is
+/// the folder from which the relative path `output` leads to `file`; if there is none, it is the
+/// folder of `file`.
+fs::path folder_around(const fs::path& file, const std::string& output) {
+  const auto path = fs::weakly_canonical(file);
+  auto folder = path;
+  for ([[maybe_unused]] const auto& part : fs::path(output)) folder = folder.parent_path();
+  return folder / output == path ? folder : path.parent_path();
+}
+
+std::string in_words(const std::vector<std::string>& command) {
+  std::string text = "viscontact";
+  for (std::size_t i = 1; i < command.size(); ++i) text += " " + shell_word(command[i]);
+  return text;
+}
+
+void rerun(const RerunOptions& o) {
+  auto provenance = read_provenance(o.file);
+  if (!provenance || provenance->command.empty())
+    throw_bad_input({o.file},
+                    "does not say how it was made, because it has no line 'provenance'; every file "
+                    "that Viscontact writes has one, but copies of your own files have none");
+  const std::string made_in = provenance->folder;
+  if (made_in.empty() && o.folder.empty())
+    provenance->folder = folder_around(o.file, provenance->output).string();
+  if (!o.folder.empty()) move_to(*provenance, fs::weakly_canonical(o.folder));
+  const fs::path folder = provenance->folder;
+  if (!fs::is_directory(folder))
+    throw_bad_input(
+        {folder.string()},
+        fmt::format("is not a folder; the command that made {} ran in {}, and '--folder DIR' "
+                    "names another folder to run it in",
+                    o.file, made_in));
+  std::vector<std::string> changes;
+  for (const auto& input : provenance->inputs)
+    if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())
+      changes.push_back(change);
+  const std::string list = fmt::format("{}", fmt::join(changes, "; "));
+  if (!changes.empty() && !o.changed_inputs && !o.dry_run)
+    throw_bad_input({o.file},
+                    fmt::format("was made from other inputs: {}; give --changed-inputs to "
+                                "use the inputs as they are now",
+                                list));
+  check_command(o.file, provenance->command);
+  auto command = o.output.empty() ? provenance->command : with_output(o, *provenance);
+  // Rows that were computed elsewhere may have been deleted since: without --gather, the command
+  // computes the rows that are missing.
+  std::erase(command, "--gather");
+  if (const auto ours = provenance->versions.find("Viscontact");
+      ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
+    warn(fmt::format("rerun: warning: the file was made by Viscontact {}, and this is {}",
+                     ours->second, VISCONTACT_VERSION));
+  if (!changes.empty()) warn("rerun: warning: " + list);
+  const std::string words =
+      fmt::format("cd {} && {}", shell_word(folder.string()), in_words(command));
+  if (o.dry_run) {
+    fmt::print("{}\n", words);
+    return;
+  }
+  say("rerun: " + words);
+  if (::chdir(folder.c_str()) != 0)
+    throw_bad_input({folder.string()}, fmt::format("the folder in which it was made cannot be "
+                                                   "entered ({})",
+                                                   std::strerror(errno)));
+  // The program that runs is started again, whatever name the recorded command has for it.
+  std::vector<char*> arguments;
+  for (auto& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ::execv("/proc/self/exe", arguments.data());
+  throw Error(ErrorKind::kExternalProgram,
+              fmt::format("viscontact cannot be started again ({})", std::strerror(errno)));
+}
+
+}  // namespace
+
+void add_rerun(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "rerun", "repeat the command that made a file, if its inputs are the same");
+  auto o = std::make_shared<RerunOptions>();
+  add_value(*command, "FILE", o->file, kFile,
+            "a file that Viscontact wrote: table, fit, trajectory, report, picture, ...")
+      ->required();
+  add_value(*command, "-o,--output", o->output, kFile,
+            "where to write everything anew; for one of the files of a run, a folder for all of "
+            "them; default: where the command wrote, and what is up to date there stays");
+  add_value(*command, "--folder", o->folder, kFolder,
+            "folder to run it in, for files that have moved; default: the folder it ran in");
+  command->add_flag("--changed-inputs", o->changed_inputs,
+                    "run the command although inputs have changed since");
+  command->add_flag("--dry-run", o->dry_run, "print the command and do not run it");
+  command->callback([o] { rerun(*o); });
+}
+
+}  // namespace viscontact

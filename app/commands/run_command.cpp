@@ -1,0 +1,134 @@
+// Options of `run` (the main job) and of its last stages: `simulate`, `compare` and `report`.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/interrupt.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/named.hpp"
+#include "viscontact/pipeline/compare_stage.hpp"
+#include "viscontact/pipeline/run_stages.hpp"
+#include "viscontact/pipeline/simulate/simulate_stage.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/report.hpp"
+#include "viscontact/results/run_folder.hpp"
+
+namespace viscontact {
+
+void add_run(CLI::App& app) {
+  struct Options {
+    std::string case_file, folder;
+    int jobs = default_jobs();
+    bool json = false;
+  };
+  auto* command =
+      app.add_subcommand("run", "run the main job: tabulate, fit, simulate, compare, report");
+  auto o = std::make_shared<Options>();
+  add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
+  add_value(*command, "-o,--output", o->folder, kFolder,
+            "folder for the results; what is up to date there is not made again")
+      ->required();
+  add_jobs(*command, o->jobs, "FreeFEM processes at once");
+  add_json(*command, o->json);
+  command->callback([o] {
+    check_outputs({o->folder});
+    const Case c = read_case(o->case_file);
+    const LockedFolder ours(o->folder, kFolderIsHeld);
+    run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
+  });
+}
+
+void add_simulate(CLI::App& app) {
+  struct Options {
+    std::string case_file, fit, folder;
+    std::vector<std::string> models;
+    std::string lubrication_limit;
+    bool stokes_limit = false;
+  };
+  auto* command = app.add_subcommand("simulate", "compute one trajectory for each model of motion");
+  auto o = std::make_shared<Options>();
+  add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
+  add_value(*command, "--fit", o->fit, kFile,
+            "fit of the lubrication force (JSON); default: the case's [fit] file or exact "
+            "drag, else DIR/fit.json");
+  add_value(*command, "-o,--output", o->folder, kFolder,
+            "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
+      ->required();
+  add_value(*command, "--models", o->models, kModels,
+            "comma-separated; default: those of the case, else " + names_of(default_models()) +
+                "; on request: " + names_of(models_on_request()))
+      ->delimiter(',');
+  auto* limit = add_value(*command, "--lubrication-limit", o->lubrication_limit, "fitted|theory",
+                          "below the fit's smallest gap, let the drag grow as k/q instead "
+                          "of ending with an error; k is the fitted value (default) or that "
+                          "of theory; default: what the key below in the case's [fit] says")
+                    ->check(one_of({"fitted", "theory"}))
+                    ->expected(0, 1);
+  command->add_flag(
+      "--stokes-limit", o->stokes_limit,
+      "above the fit's largest gap, let the drag fall to Stokes' drag instead of ending "
+      "with an error; default: what the key above in the case's [fit] says");
+  command->callback([o, limit] {
+    check_outputs({o->folder});
+    check_models("--models", o->models);
+    const Case c = read_case(o->case_file);
+    // Options that are not given are as in the case.
+    const FitRequest request = c.fit.value_or(FitRequest{});
+    OutsideFit outside{request.below, request.above};
+    if (limit->count() > 0)
+      outside.below = o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
+                                                       : BelowInterval::kLubricationLimit;
+    if (o->stokes_limit) outside.above = AboveInterval::kStokesLimit;
+    const LockedFolder ours(o->folder, kFolderIsHeld);
+    simulate_stage(c, {o->fit, o->folder, o->models, outside, interrupt_token()});
+  });
+}
+
+void add_compare(CLI::App& app) {
+  struct Options {
+    std::string folder, reference, output;
+    std::vector<std::string> others;
+    bool json = false;
+  };
+  auto* command = app.add_subcommand(
+      "compare", "compare trajectories: distances, smallest gaps, times of contact");
+  auto o = std::make_shared<Options>();
+  add_value(*command, "DIR", o->folder, kFolder, "folder of a run, or with trajectory files in it")
+      ->required();
+  add_value(*command, "TRAJECTORY", o->others, kFile,
+            "further trajectory files (CSV with columns time, gap, velocity)");
+  add_value(*command, "--reference", o->reference, kModel,
+            "model that the others are compared with")
+      ->default_str("inertial");
+  add_value(*command, "-o,--output", o->output, kFile,
+            "comparison to write (JSON); default: DIR/comparison.json");
+  add_json(*command, o->json);
+  command->callback([o] {
+    const std::filesystem::path output =
+        o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
+    refuse_other_kind(output, "\"reference_model\"", "comparison");
+    std::optional<LockedFolder> ours;
+    if (o->output.empty() && std::filesystem::is_directory(o->folder))
+      ours.emplace(o->folder, kFolderIsHeld);
+    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output, {},
+                  o->json);
+  });
+}
+
+void add_report(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("report", "write report.html, one self-contained page with the plots");
+  auto folder = std::make_shared<std::string>();
+  add_value(*command, "DIR", *folder, kFolder, "folder of a run")->required();
+  command->callback([folder] {
+    std::optional<LockedFolder> ours;
+    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, kFolderIsHeld);
+    write_report(*folder, {}, interrupt_token());
+  });
+}
+
+}  // namespace viscontact

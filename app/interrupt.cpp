@@ -1,0 +1,35 @@
+// Signal handling with sigaction (interrupt.hpp).
+#include "viscontact/app/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace viscontact {
+namespace {
+
+// A signal handler can use only a global variable. It must be atomic without a lock, because other
+// threads read it.
+std::atomic<bool> signal_came = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void remember_signal(int) { signal_came = true; }
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = remember_signal;  // without SA_RESTART system calls that wait end at once
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before = {};
+  if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
+  // With SIGXFSZ ignored, a limit on the size of files makes a write fail with an error, which is
+  // reported, instead of ending the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+StopToken interrupt_token() { return StopToken(signal_came); }
+
+}  // namespace viscontact

@@ -1,0 +1,47 @@
+// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket.
+// Boost.Math 1.74 is not used: its iterations take other points and stop elsewhere, so that
+// trajectories would differ in their last digits, and its header takes 1.2 s to compile.
+#pragma once
+
+#include <utility>
+
+namespace viscontact {
+
+/// Returns the smallest double at which a condition is true, where the condition is false at `from`
+/// and true at `to`; `to` if it is true only there. If the condition changes more than once in
+/// between, returns one of the places where it becomes true.
+template <class Condition>
+double bisect_first_true(double from, double to, const Condition& holds) {
+  for (double middle = from + (to - from) / 2; from < middle && middle < to;
+       middle = from + (to - from) / 2)
+    (holds(middle) ? to : from) = middle;
+  return to;
+}
+
+/// Whether Newton's method may step onto an end of the bracket. If not, such a step is bisected.
+enum class Bracket { kOpen, kClosed };
+
+/// The root in [low, high] of an increasing function, by Newton's method from x. A step that leaves
+/// the bracket is replaced by bisection. `excess_and_slope(x)` returns the function and its
+/// derivative. The search ends at excess 0, or if `settled(x, next)` says that the step from x to
+/// next is round-off.
+template <class ExcessAndSlope, class Settled>
+double bracketed_newton(double x, double low, double high, Bracket bracket,
+                        const ExcessAndSlope& excess_and_slope, const Settled& settled) {
+  // A safety limit: bisection alone needs about 60 steps for each factor of 1e18.
+  constexpr int kMaxSteps = 200;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const auto [excess, slope] = excess_and_slope(x);
+    if (excess == 0) break;
+    (excess > 0 ? high : low) = x;
+    double next = x - excess / slope;
+    if (bracket == Bracket::kOpen ? !(next > low && next < high) : !(next >= low && next <= high))
+      next = low + (high - low) / 2;
+    const bool done = settled(x, next);
+    x = next;
+    if (done) break;
+  }
+  return x;
+}
+
+}  // namespace viscontact

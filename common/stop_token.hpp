@@ -1,0 +1,31 @@
+// How a long computation is told to stop. Libraries are handed a StopToken and ask it between two
+// pieces of work; they do not know who requests the stop.
+#pragma once
+
+#include <atomic>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact {
+
+/// A view of a flag that requests a stop. A copy views the same flag, which must outlive it. A
+/// default token never requests a stop. This class takes the place of std::stop_token, because a
+/// signal handler must not call std::stop_source::request_stop, but may set a lock-free atomic.
+class StopToken {
+ public:
+  StopToken() = default;
+  explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
+
+  bool stop_requested() const { return flag_ != nullptr && *flag_; }
+
+  /// Throws Error(kInterrupted) if stop_requested().
+  void throw_if_stop_requested() const {
+    if (stop_requested())
+      throw Error(ErrorKind::kInterrupted, "interrupted; everything finished so far is kept");
+  }
+
+ private:
+  const std::atomic<bool>* flag_ = nullptr;
+};
+
+}  // namespace viscontact

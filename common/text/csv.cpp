@@ -1,0 +1,179 @@
+// Reads CSV files by fast-cpp-csv-parser (csv.hpp).
+#include "viscontact/common/text/csv.hpp"
+
+#include <fmt/format.h>
+
+// The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
+// all the same.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-truncation"
+#include <libfccp/csv.h>
+#pragma GCC diagnostic pop
+
+#include <sstream>
+#include <tuple>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/number.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some spreadsheets write it
+
+/// Text to be added to a message about missing columns: ", 'the header line'", or the probable
+/// reason why its columns were not found (quotes, another separator, UTF-16).
+std::string hint_of_separator(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    if (line.find('"') != std::string::npos)
+      return ", '" + shortened(line) + "'; the names of columns must stand without quotes";
+    if (line.find(',') != std::string::npos) return ", '" + shortened(line) + "'";
+    if (line.find('\0') != std::string::npos)
+      return "; the file seems to be UTF-16, it must be UTF-8";
+    if (line.find(';') != std::string::npos)
+      return ", whose fields are separated by semicolons; they must be separated by commas, with "
+             "decimal points";
+    if (line.find('\t') != std::string::npos)
+      return ", whose fields are separated by tabs; they must be separated by commas";
+    return "";
+  }
+  return "";
+}
+
+/// Removes the lines at the end of `text` that contain only spaces, tabs and commas, which editors
+/// and spreadsheets leave. Blank lines above the last row stay.
+void remove_trailing_blank_lines(std::string& text) {
+  const auto last = text.find_last_not_of(" \t\r\n,");
+  if (last == std::string::npos) return;
+  // Empty fields at the end of the last row belong to it.
+  const auto end_of_row = text.find('\n', last);
+  if (end_of_row != std::string::npos) text.erase(end_of_row + 1);
+}
+
+/// The number in a field, or nothing if the field is empty or missing.
+std::optional<double> number_of(const char* field, const std::string& column,
+                                const std::string& file, int line) {
+  if (field == nullptr || *field == '\0') return {};
+  const auto number = parse_number(field);
+  if (!number)
+    throw_bad_input({file, line}, column + " is not a finite number ('" + shortened(field) + "')");
+  return number;
+}
+
+/// Throws Error(kBadInput) if the header states another number of rows, or states one and the last
+/// line has no end: a cut within the last field can leave a number.
+void check_not_truncated(const CsvComments& comments, std::size_t rows, const std::string& text,
+                         const std::string& file) {
+  const auto stated = comments.find("rows");
+  if (stated == comments.end() || (stated->second == std::to_string(rows) && text.back() == '\n'))
+    return;
+  throw_bad_input({file},
+                  fmt::format("has {} rows where its header says {}, or its last line has no "
+                              "end; is it truncated?",
+                              rows, stated->second));
+}
+
+}  // namespace
+
+CsvComments read_csv_comments(const std::string& text, std::set<std::string>* contradictions) {
+  CsvComments comments;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+    if (line.empty() || line[0] != '#') continue;
+    // The '#' at the begin of the line ends this loop at the latest.
+    while (line.back() == '\r' || line.back() == ',') line.pop_back();
+    const auto colon = line.find(": ");
+    const auto start = line.find_first_not_of("# \t");
+    if (colon == std::string::npos || start >= colon) continue;
+    const auto [place, is_new] =
+        comments.insert({line.substr(start, colon - start), line.substr(colon + 2)});
+    if (is_new || place->second == line.substr(colon + 2)) continue;
+    place->second = line.substr(colon + 2);
+    if (contradictions != nullptr) contradictions->insert(place->first);
+  }
+  return comments;
+}
+
+std::string write_csv_comments(const CsvComments& comments) {
+  std::string text;
+  for (const auto& [key, value] : comments) text += fmt::format("# {}: {}\n", key, value);
+  return text;
+}
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 60;
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+double csv_comment_number(const CsvComments& comments, const std::string& key,
+                          const std::string& file) {
+  const auto found = comments.find(key);
+  if (found == comments.end())
+    throw_bad_input({file}, fmt::format("the line '# {}: NUMBER' is missing", key));
+  const auto value = parse_number(found->second);
+  if (!value)
+    throw_bad_input(
+        {file}, fmt::format("the line '# {}: {}' must give a finite number", key, found->second));
+  return *value;
+}
+
+void read_csv_rows(
+    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
+    CsvComments& comments, std::set<std::string>& contradictions,
+    const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row) {
+  const std::string file = path.string();
+  std::string text = read_file(path);
+  remove_trailing_blank_lines(text);
+  comments = read_csv_comments(text, &contradictions);
+  // Columns that are not asked for have names that no header line can have.
+  std::array<std::string, kMostCsvColumns> all_names;
+  all_names.fill("\n");
+  std::ranges::copy(names, all_names.begin());
+  std::istringstream stream(text);
+  // Fields are taken as text: the library's own conversion to double does not round-trip.
+  using Reader = io::CSVReader<kMostCsvColumns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
+                               io::throw_on_overflow, io::single_line_comment<'#'>>;
+  std::size_t count = 0;
+  try {
+    // Without a file name, which it would cut if it is long: the errors below name the file.
+    Reader reader("", stream);
+    std::apply(
+        [&](const auto&... name) {
+          reader.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
+        },
+        all_names);
+    for (std::size_t i = 0; i < required; ++i)
+      if (!reader.has_column(names[i]))
+        throw_bad_input({file}, "column '" + names[i] + "' is missing from the header line" +
+                                    hint_of_separator(text));
+    std::array<char*, kMostCsvColumns> fields{};
+    std::array<std::optional<double>, kMostCsvColumns> numbers;
+    while (std::apply([&](auto&... field) { return reader.read_row(field...); }, fields)) {
+      const int line = static_cast<int>(reader.get_file_line());
+      for (std::size_t i = 0; i < names.size(); ++i)
+        numbers[i] = number_of(fields[i], names[i], file, line);
+      add_row(std::span(numbers).first(names.size()), line);
+      ++count;
+    }
+  } catch (const io::error::duplicated_column_in_header& e) {
+    throw_bad_input({file},
+                    std::string("column '") + e.column_name + "' stands twice in the header line");
+  } catch (const io::error::header_missing&) {
+    throw_bad_input({file},
+                    "has no header line; it must name the columns, such as '" + names[0] + "'");
+  } catch (const io::error::too_few_columns& e) {
+    throw_bad_input({file, e.file_line}, "has fewer fields than the header line");
+  } catch (const io::error::too_many_columns& e) {
+    throw_bad_input({file, e.file_line}, "has more fields than the header line");
+  } catch (const io::error::line_length_limit_exceeded& e) {
+    throw_bad_input({file, e.file_line}, "this line is too long for a CSV file");
+  } catch (const io::error::base& e) {
+    throw_bad_input({file}, e.what());
+  }
+  check_not_truncated(comments, count, text, file);
+}
+
+}  // namespace viscontact

@@ -1,0 +1,96 @@
+// CSV files as Viscontact writes them: lines "# key: value", a header line, and rows of numbers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact {
+
+/// The lines "# key: value" at the head of a file, sorted by key.
+using CsvComments = std::map<std::string, std::string>;
+
+/// A row: the fields of the requested columns as numbers (nothing for an empty field), and the
+/// number of its line in the file.
+template <std::size_t columns>
+struct CsvRow {
+  std::array<std::optional<double>, columns> fields;
+  int line = 0;
+};
+
+template <std::size_t columns>
+struct CsvFile {
+  CsvComments comments;
+  std::set<std::string> contradictions;  ///< keys that occur twice with different values
+  std::vector<CsvRow<columns>> rows;
+};
+
+/// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add.
+/// If a key occurs twice, the last value counts; if the values differ, the key is added to
+/// `contradictions`.
+CsvComments read_csv_comments(const std::string& text,
+                              std::set<std::string>* contradictions = nullptr);
+
+/// The lines "# key: value" for `comments`.
+std::string write_csv_comments(const CsvComments& comments);
+
+/// The value of a comment that must be a finite number. Throws Error(kBadInput), which names the
+/// file and the key, if it is missing or is no number.
+double csv_comment_number(const CsvComments& comments, const std::string& key,
+                          const std::string& file);
+
+/// A text for a message: its first 60 characters and "..." if it is longer.
+std::string shortened(const std::string& text);
+
+/// Most columns that can be asked of a file.
+constexpr std::size_t kMostCsvColumns = 16;
+
+/// What read_csv does, for any number of columns: calls `add_row` with the fields of each row and its
+/// line in the file. The library is instantiated in csv.cpp alone, because each number of columns
+/// costs seconds to compile.
+void read_csv_rows(
+    const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
+    CsvComments& comments, std::set<std::string>& contradictions,
+    const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row);
+
+/// Reads the columns `names` of a CSV file, in this order. The file may have its columns in another
+/// order, and further columns. The first `required` columns must exist; the fields of others are
+/// empty if their column is missing. Blank lines after the last row are ignored.
+///
+/// Throws Error(kBadInput) with file and line for a missing column, a row with more or fewer fields
+/// than the header line, a field that is neither empty nor a finite number, and a number of rows
+/// that differs from a line "# rows: N" (which shows that the file was cut short).
+template <std::size_t columns>
+CsvFile<columns> read_csv(const std::filesystem::path& path,
+                          const std::array<std::string, columns>& names, std::size_t required) {
+  static_assert(columns <= kMostCsvColumns);
+  CsvFile<columns> result;
+  read_csv_rows(path, names, required, result.comments, result.contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  auto& row = result.rows.emplace_back();
+                  std::copy_n(fields.begin(), columns, row.fields.begin());
+                  row.line = line;
+                });
+  return result;
+}
+
+/// The number in column `i` of a row. Throws Error(kBadInput) with file and line if the field is
+/// empty.
+template <std::size_t columns>
+double required_field(const CsvRow<columns>& row, const std::array<std::string, columns>& names,
+                      std::size_t i, const std::string& file) {
+  if (!row.fields[i])
+    throw_bad_input({file, row.line}, names[i] + " is empty; it must be a number");
+  return *row.fields[i];
+}
+
+}  // namespace viscontact

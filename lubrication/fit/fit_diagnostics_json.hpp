@@ -1,0 +1,14 @@
+// Reads and writes the object "diagnostics" of a fit file (docs/fit.schema.json).
+#pragma once
+
+#include "viscontact/lubrication/fit/fit_diagnostics.hpp"
+#include "viscontact/lubrication/fit/json_object.hpp"
+
+namespace viscontact {
+
+/// Throws Error(kBadInput), which names the key, for a missing, unknown or wrong value.
+FitDiagnostics read_diagnostics(const JsonObject& json);
+
+Json write_diagnostics(const FitDiagnostics& diagnostics);
+
+}  // namespace viscontact

@@ -1,0 +1,138 @@
+// Reads a JSON object key by key. Every error message names the file, the line, the key and what is
+// allowed there.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/json.hpp"
+
+namespace viscontact {
+
+/// A value as text for a message. An array or object is only called that, because a file may nest
+/// it deeper than the stack allows dump() to go.
+inline std::string shown(const Json& value) {
+  return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
+}
+
+/// A JSON object and its place in the document, for messages such as "FILE:LINE: terms[2].name is
+/// ...". Every function that reads throws Error(kBadInput) if the key is missing, or if its value
+/// has another type or is not allowed. The document must outlive the object.
+class JsonObject {
+ public:
+  explicit JsonObject(const JsonDocument& document) : JsonObject(document, document.root(), "") {}
+
+  /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object
+  /// itself.
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    const std::string where = path_ + (path_.empty() || key.empty() ? "" : ".") + key;
+    throw_bad_input({document_.file(), document_.line_of(where)},
+                    fmt::format("{} {}", where.empty() ? "the file" : where, what));
+  }
+
+  const Json& at(const std::string& key) const {
+    if (!has(key)) fail(key, "is missing; a fit file must have this key");
+    return json_.at(key);
+  }
+
+  double number(const std::string& key) const { return finite(key, at(key)); }
+
+  /// `value` as a finite number. `key` is its name in messages.
+  double finite(const std::string& key, const Json& value) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      fail(key, fmt::format("is {}; it must be a finite number", shown(value)));
+    return value.get<double>();
+  }
+
+  /// A number > `bound`, or >= `bound` if `bound_allowed`.
+  double number_above(const std::string& key, double bound, bool bound_allowed) const {
+    const double value = number(key);
+    if (value < bound || (value == bound && !bound_allowed))
+      fail(key, fmt::format("is {}; it must be {} {}", value, bound_allowed ? ">=" : ">", bound));
+    return value;
+  }
+
+  std::string text(const std::string& key) const {
+    if (!at(key).is_string())
+      fail(key, fmt::format("is {}; it must be a text in quotes", shown(at(key))));
+    return at(key).get<std::string>();
+  }
+
+  /// A number, or nothing if the value is null.
+  std::optional<double> number_or_null(const std::string& key) const {
+    return at(key).is_null() ? std::nullopt : std::optional(number(key));
+  }
+
+  std::size_t count(const std::string& key) const {
+    if (!at(key).is_number_unsigned())
+      fail(key, fmt::format("is {}; it must be a whole number >= 0", shown(at(key))));
+    return at(key).get<std::size_t>();
+  }
+
+  bool boolean(const std::string& key) const {
+    if (!at(key).is_boolean())
+      fail(key, fmt::format("is {}; it must be true or false", shown(at(key))));
+    return at(key).get<bool>();
+  }
+
+  /// A text that `parse` translates. `parse` throws Error("...; what is allowed") for other texts;
+  /// the part from the semicolon on becomes that of the message about this key.
+  template <class Parse>
+  auto word(const std::string& key, const Parse& parse) const {
+    try {
+      return parse(text(key));
+    } catch (const Error& error) {
+      const std::string said = error.what();
+      const auto allowed = said.find("; ");
+      fail(key, fmt::format("is '{}'{}", text(key),
+                            allowed == std::string::npos ? "" : said.substr(allowed)));
+    }
+  }
+
+  bool has(const std::string& key) const { return json_.contains(key); }
+
+  const Json& array(const std::string& key) const {
+    if (!at(key).is_array()) fail(key, fmt::format("is {}; it must be an array", shown(at(key))));
+    return at(key);
+  }
+
+  /// The element `index` of the array at `key`, which must be an object.
+  JsonObject element(const std::string& key, std::size_t index) const {
+    const std::string inner =
+        fmt::format("{}{}{}[{}]", path_, path_.empty() ? "" : ".", key, index);
+    return {document_, array(key).at(index), inner};
+  }
+
+  /// The object at `key`.
+  JsonObject object(const std::string& key) const {
+    return {document_, at(key), fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key)};
+  }
+
+  /// Throws Error(kBadInput) if the object has a key that is not among `keys`, which blanks
+  /// separate.
+  void allow_only(const std::string& keys) const {
+    std::istringstream words(keys);
+    const std::set<std::string> allowed{std::istream_iterator<std::string>(words), {}};
+    for (const auto& [key, value] : json_.items())
+      if (!allowed.contains(key)) fail(key, "is not a key of a fit file");
+  }
+
+ private:
+  JsonObject(const JsonDocument& document, const Json& json, std::string path)
+      : document_(document), json_(json), path_(std::move(path)) {
+    if (!json_.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json_)));
+  }
+
+  const JsonDocument& document_;
+  const Json& json_;
+  std::string path_;
+};
+
+}  // namespace viscontact

@@ -1,0 +1,114 @@
+// Builds the arrays of a ContactGraph and combines displacements (contact_graph.hpp).
+#include "viscontact/particles/dual_problem/contact_graph.hpp"
+
+#include <Eigen/Core>
+
+namespace viscontact::particles {
+
+template <int D>
+ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
+                              std::span<const double> displacements,
+                              std::span<const double> mobilities, ThreadPool& pool)
+    : z(contacts.size()),
+      bound(contacts.size()),
+      linear_term(contacts.size()),
+      scale(contacts.size()),
+      per_allowed(contacts.size()),
+      rows_(contacts.size()),
+      gamma_(contacts.size()),
+      in_block_(contacts.size()),
+      offsets_(mobilities.size() + 2, 0),
+      inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
+      pool_(&pool) {
+  const auto wall = static_cast<std::int32_t>(mobilities.size());
+  for (std::size_t b = 0; b < mobilities.size(); ++b)
+    for (std::size_t d = 0; d < D; ++d) inverse_mobilities_[b * D + d] = 1 / mobilities[b];
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& contact = contacts[c];
+    const bool particles = contact.first >= 0;
+    const auto i = index_of(particles ? contact.first : wall), j = index_of(contact.second);
+    const double of_first = particles ? mobilities[i] : 0;
+    const double root = std::sqrt(of_first + mobilities[j]);
+    rows_[c] = {
+        static_cast<std::int32_t>(i), contact.second, contact.normal, 1 / root, of_first / root,
+        mobilities[j] / root};
+    scale[c] = root;
+    per_allowed[c] = root / contact.allowed;
+    z[c] = std::max(contact.impulse, contact.gamma) * root;
+    bound[c] = contact.gamma * root;
+    gamma_[c] = contact.gamma;
+    double gradient = contact.gap;
+    for (std::size_t d = 0; d < D; ++d)
+      gradient += contact.normal[d] *
+                  (displacements[j * D + d] - (particles ? displacements[i * D + d] : 0));
+    linear_term[c] = gradient / root;
+    if (particles) ++offsets_[i + 1];
+    ++offsets_[j + 1];
+  }
+  list_shares();
+  number_bodies_of_blocks();
+}
+
+/// Lists the shares of each body. At the call offsets_[b + 1] is the number of contacts of body b.
+template <int D>
+void ContactGraph<D>::list_shares() {
+  const auto wall = static_cast<std::int32_t>(bodies() - 1);
+  for (std::size_t b = 0; b + 1 < offsets_.size(); ++b) offsets_[b + 1] += offsets_[b];
+  shares_.resize(static_cast<std::size_t>(offsets_.back()));
+  auto next = offsets_;
+  const auto share = [&](std::int32_t body, std::size_t c, double factor) {
+    auto& s = shares_[index_of(next[index_of(body)]++)];
+    s.contact = static_cast<std::int32_t>(c);
+    for (std::size_t d = 0; d < D; ++d) s.push[d] = factor * rows_[c].normal[d];
+  };
+  for (std::size_t c = 0; c < rows_.size(); ++c) {
+    if (rows_[c].first != wall) share(rows_[c].first, c, -rows_[c].of_first);
+    share(rows_[c].second, c, rows_[c].of_second);
+  }
+}
+
+/// Numbers the bodies of each block in the order in which its contacts name them.
+template <int D>
+void ContactGraph<D>::number_bodies_of_blocks() {
+  const bool is_single = rows_.size() <= ThreadPool::kBlock;  // the only block has all bodies
+  std::vector<std::int32_t> number(bodies());
+  std::vector<std::size_t> numbered_in(bodies(), 0);
+  for (std::size_t begin = 0, block = 1; begin < rows_.size();
+       begin += ThreadPool::kBlock, ++block) {
+    std::int32_t named = 0;
+    const auto local = [&](std::int32_t body) {
+      const auto b = index_of(body);
+      if (is_single) return body;
+      if (numbered_in[b] != block) {
+        numbered_in[b] = block;
+        number[b] = named++;
+      }
+      return number[b];
+    };
+    for (std::size_t c = begin; c < std::min(begin + ThreadPool::kBlock, rows_.size()); ++c)
+      in_block_[c] = {local(rows_[c].first), local(rows_[c].second)};
+    block_bodies_.push_back(is_single ? bodies() : index_of(named));
+  }
+}
+
+template <int D>
+double ContactGraph<D>::combine(std::span<const double> y, double factor,
+                                std::span<double> into) const {
+  return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin * D);
+    const auto size = static_cast<Eigen::Index>((end - begin) * D);
+    // Eigen adds to several partial sums at once. In a single sum each addition would wait for the
+    // last.
+    const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
+    const auto per_mobility =
+        Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);
+    auto sum = Eigen::Map<Eigen::ArrayXd>(into.data() + first, size);
+    sum = from + factor * sum;
+    return (sum.square() * per_mobility).sum();
+  });
+}
+
+template class ContactGraph<2>;
+template class ContactGraph<3>;
+
+}  // namespace viscontact::particles

@@ -1,0 +1,189 @@
+// The dual problem (5.4) of docs/physics.md for one time step, in flat arrays of contacts and
+// bodies, and the two products with W that all methods use. Lengths, masses and times are in the
+// units of the case. A change must keep the order of all sums, because the results must not depend
+// on the threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact.hpp"
+
+namespace viscontact::particles {
+
+/// The dual problem (5.4) of docs/physics.md, in impulses p = h lambda. With u* = u^n + h f^n, the
+/// displacements are h v = h u* + h M^-1 G^T p, and the problem is
+///
+///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
+///     W = h G M^-1 G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.
+///
+/// If gamma_ij^n = 0, the solution has p_ij >= 0 and D_ij + h G_ij v >= 0, and one of them is 0. If
+/// gamma_ij^n < 0, a pull of at most -gamma_ij^n keeps D_ij + h G_ij v = 0. If more would be
+/// needed, the pair separates within the step. All contacts are decided together.
+///
+/// The code scales the problem so that W has the diagonal 1. With w = W_cc = h/m_i + h/m_j of
+/// contact c, the unknowns are z = sqrt(w) p. B z denotes the displacements y = h M^-1 G^T p that
+/// the scaled impulses z cause. The gradient of contact c and the quadratic form are then
+///
+///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
+template <int D>
+class ContactGraph {
+ public:
+  using Vec = std::array<double, D>;
+
+  /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
+  /// All planes together are one additional body, which does not move.
+  ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
+               std::span<const double> mobilities, ThreadPool& pool);
+
+  std::size_t count() const { return rows_.size(); }
+  std::size_t bodies() const { return offsets_.size() - 1; }
+  ThreadPool& pool() const { return *pool_; }
+
+  std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
+  std::vector<double> bound;        ///< lower bound of z: sqrt(w) gamma^n
+  std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
+  std::vector<double> scale;        ///< sqrt(w)
+  std::vector<double> per_allowed;  ///< `scale` divided by the allowed residual of the contact
+  std::size_t largest_island = 0;   ///< number of bodies of the largest island
+  bool is_rough = false;  ///< the solution serves only to find which other contacts take part
+
+  /// Computes y = B z, D numbers for each body [L]. Returns z^T W z.
+  double to_bodies(std::span<const double> values, std::span<double> y) const {
+    return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
+      double form = 0;
+      for (std::size_t b = begin; b < end; ++b) {
+        Vec sum{};
+        for (auto k = offsets_[b]; k < offsets_[b + 1]; ++k) {
+          const auto& share = shares_[index_of(k)];
+          const double value = values[index_of(share.contact)];
+          for (std::size_t d = 0; d < D; ++d) sum[d] += share.push[d] * value;
+        }
+        double square = 0;
+        for (std::size_t d = 0; d < D; ++d) {
+          y[b * D + d] = sum[d];
+          square += sum[d] * sum[d];
+        }
+        form += square * inverse_mobilities_[b * D];
+      }
+      return form;
+    });
+  }
+
+  /// Replaces `into` by y + factor * into, both displacements of the form B z. Returns z^T W z of
+  /// the sum.
+  double combine(std::span<const double> y, double factor, std::span<double> into) const;
+
+  /// Returns (W z)_c for y = B z: the part of the gradient of contact c that the displacements
+  /// cause.
+  double to_contact(std::size_t c, const double* y) const {
+    const auto& row = rows_[c];
+    return product(row, y + index_of(row.first) * D, y + index_of(row.second) * D);
+  }
+
+  // Within one block of the thread pool, on the bodies of this block only, the same product and the
+  // addition of B (change of z_c) to y. They do not see the contacts of other blocks.
+
+  /// Returns zeros, D numbers for each body of the block that begins at contact `begin`.
+  std::vector<double> block_bodies(std::size_t begin) const {
+    return std::vector<double>(block_bodies_[begin / ThreadPool::kBlock] * D);
+  }
+  double to_contact_in_block(std::size_t c, const double* y) const {
+    return product(rows_[c], y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
+  }
+  void add_in_block(std::size_t c, double change, double* y) const {
+    add(rows_[c], change, y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
+  }
+
+  bool is_free(std::size_t c) const { return z[c] > bound[c]; }
+
+  /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. W_cc is
+  /// 1. If two contacts share both particles, `visit` is called twice.
+  template <class Visit>
+  void visit_neighbours(std::size_t c, const Visit& visit) const {
+    const auto& row = rows_[c];
+    const auto visit_at = [&](std::int32_t body, double of_body) {
+      const auto b = index_of(body);
+      for (auto k = offsets_[b]; k < offsets_[b + 1]; ++k) {
+        const auto& share = shares_[index_of(k)];
+        const auto other = index_of(share.contact);
+        if (other == c) continue;
+        double entry = 0;
+        for (std::size_t d = 0; d < D; ++d) entry += row.normal[d] * share.push[d];
+        visit(other, of_body * inverse_mobilities_[b * D] * entry);
+      }
+    };
+    visit_at(row.first, -row.of_first);
+    visit_at(row.second, row.of_second);
+  }
+
+  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c, divided by the residual that is
+  /// allowed of it, for impulse z_c and gradient g_c. The contact has converged if this is at most
+  /// 1.
+  double residual(std::size_t c, double z_c, double gradient) const {
+    return per_allowed[c] * std::abs(std::min(gradient, z_c - bound[c]));
+  }
+
+  /// Sets `impulses` to h lambda of the contacts [M L/T], in the order in which they were given.
+  void impulses(std::span<double> impulses) const {
+    // A contact at its bound returns exactly gamma, so that no rounding error of z/scale remains in
+    // the new gamma.
+    for (std::size_t c = 0; c < count(); ++c)
+      impulses[c] = z[c] == bound[c] ? gamma_[c] : z[c] / scale[c];
+  }
+
+ private:
+  struct Row {
+    // The number of a plane is that of the last body, which does not move.
+    std::int32_t first, second;
+    Vec normal;
+    double per_root;             // 1/sqrt(w)
+    double of_first, of_second;  // (h/m)/sqrt(w)
+  };
+  struct Share {
+    std::int32_t contact;
+    Vec push;  // displacement of the body for z = 1
+  };
+  // The vectors of discs fit into one register, but GCC 12 does not use it without this type.
+  using Double2 [[gnu::vector_size(16)]] = double;
+  static Double2 load(const double* from) { return Double2{from[0], from[1]}; }
+
+  static double product(const Row& row, const double* yi, const double* yj) {
+    if constexpr (D == 2) {
+      const Double2 parts = load(row.normal.data()) * (load(yj) - load(yi));
+      return (parts[0] + parts[1]) * row.per_root;
+    } else {
+      double sum = 0;
+      for (std::size_t d = 0; d < D; ++d) sum += row.normal[d] * (yj[d] - yi[d]);
+      return sum * row.per_root;
+    }
+  }
+  static void add(const Row& row, double change, double* yi, double* yj) {
+    const Vec normal = row.normal;
+    const double of_first = change * row.of_first, of_second = change * row.of_second;
+    for (std::size_t d = 0; d < D; ++d) yi[d] -= normal[d] * of_first;
+    for (std::size_t d = 0; d < D; ++d) yj[d] += normal[d] * of_second;
+  }
+
+  void list_shares();
+  void number_bodies_of_blocks();
+
+  std::vector<Row> rows_;
+  std::vector<double> gamma_;  // gamma of the contacts, as given
+  // Numbers of first and second among the bodies of the contact's block.
+  std::vector<std::array<std::int32_t, 2>> in_block_;
+  std::vector<std::size_t> block_bodies_;  // number of bodies of each block
+  std::vector<std::int32_t> offsets_;      // begin of the shares of each body
+  std::vector<Share> shares_;              // for each body, in the order of its contacts
+  // m/h of each displacement [M/T], D equal numbers for each body; 0 for the body of the planes.
+  std::vector<double> inverse_mobilities_;
+  ThreadPool* pool_;
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,29 @@
+// Solves the dual problem (5.4) of docs/physics.md for a time step. Impulses and residuals are
+// scaled as contact_graph.hpp says.
+#pragma once
+
+#include "viscontact/particles/dual_problem/contact_graph.hpp"
+#include "viscontact/particles/dual_problem/free_set_factor.hpp"
+
+namespace viscontact::particles {
+
+struct SolverResult {
+  int iterations = 0;
+  /// Largest ContactGraph::residual. All contacts have converged if it is at most 1.
+  double residual = 0;
+};
+
+/// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
+/// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a sparse factor of W
+/// (free_set_factor.hpp). Newton's method (active_set_newton.hpp) solves chains of contacts and
+/// helps if all else takes long.
+///
+/// Improves graph.z, which begins as a guess, until all residuals are at most 1 or `max_iterations`
+/// are done. Redundant contacts have impulses of which the velocities determine only sums; their
+/// values depend on the guess. `factor` belongs to earlier solves of the same step, whose graph may
+/// have had fewer contacts. It is used and replaced.
+template <int D>
+SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
+                                FreeSetFactor<D>& factor);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,119 @@
+// Builds and applies the sparse Cholesky factor of W (free_set_factor.hpp), with Eigen.
+#include "viscontact/particles/dual_problem/free_set_factor.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace viscontact::particles {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Lower triangle of W + epsilon between the `free` contacts. The rows of all other contacts are
+/// those of the identity, so that the pattern does not depend on which contacts are free.
+template <int D>
+SparseMatrix lower_triangle(const ContactGraph<D>& graph, const std::vector<char>& free,
+                            double epsilon) {
+  const auto count = static_cast<Eigen::Index>(graph.count());
+  SparseMatrix w(count, count);
+  std::vector<std::pair<Eigen::Index, double>> column;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const auto c = static_cast<std::size_t>(j);
+    column.clear();
+    graph.visit_neighbours(c, [&](std::size_t other, double entry) {
+      const bool both = free[c] != 0 && free[other] != 0;
+      if (other > c) column.emplace_back(other, both ? entry : 0.0);
+    });
+    std::ranges::sort(column);
+    w.startVec(j);
+    w.insertBack(j, j) = 1 + epsilon;
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      const auto [i, entry] = column[k];
+      // Two contacts that share both of their particles give two entries for one place.
+      if (k > 0 && column[k - 1].first == i)
+        w.coeffRef(i, j) += entry;
+      else
+        w.insertBack(i, j) = entry;
+    }
+  }
+  w.finalize();
+  return w;
+}
+
+}  // namespace
+
+template <int D>
+struct FreeSetFactor<D>::Factor {
+  /// Eigen's factorisation, extended by the number of entries of the factor, which is known after
+  /// the analysis of the pattern and before the computation.
+  class Cholesky : public Eigen::SimplicialLLT<SparseMatrix> {
+   public:
+    Eigen::Index symbolic_entries() const { return m_nonZerosPerCol.sum(); }
+  };
+
+  std::vector<char> free;  // 1 for the contacts that were factorised
+  Cholesky cholesky;
+  bool pays = false;
+  bool complete = false;  // the factor has been computed, not only its pattern
+};
+
+template <int D>
+FreeSetFactor<D>::FreeSetFactor(double epsilon) : epsilon_(epsilon) {}
+template <int D>
+FreeSetFactor<D>::~FreeSetFactor() = default;
+
+template <int D>
+bool FreeSetFactor<D>::exists() const {
+  return factor_ != nullptr && factor_->complete;
+}
+
+template <int D>
+bool FreeSetFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector<char>& free) {
+  const auto w = lower_triangle(graph, free, epsilon_);
+  if (factor_ == nullptr || factor_->free.size() != graph.count()) {
+    factor_ = std::make_unique<Factor>();
+    factor_->cholesky.analyzePattern(w);
+    // Chains have 2 entries a contact, packings of discs about 20 (at 20 000 contacts). For 1000
+    // spheres that come to rest, a run with the factor took 1.2 times as long as with sweeps.
+    constexpr Eigen::Index kMostEntries = 40;
+    factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
+  }
+  factor_->free = free;
+  factor_->complete = false;
+  if (!factor_->pays) return false;
+  factor_->cholesky.factorize(w);
+  factor_->complete = factor_->cholesky.info() == Eigen::Success;
+  return factor_->complete;
+}
+
+template <int D>
+void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double> solved) const {
+  const auto count = static_cast<Eigen::Index>(gradient.size());
+  Eigen::Map<Eigen::VectorXd> values(solved.data(), count);
+  for (std::size_t c = 0; c < gradient.size(); ++c)
+    solved[c] = factor_->free[c] != 0 ? gradient[c] : 0.0;
+  values = factor_->cholesky.solve(values);
+}
+
+template <int D>
+double FreeSetFactor<D>::precondition(const ContactGraph<D>& graph,
+                                      std::span<const double> gradient,
+                                      std::span<double> solved) const {
+  const std::size_t factored = factor_->free.size();
+  Eigen::Map<Eigen::VectorXd> values(solved.data(), static_cast<Eigen::Index>(factored));
+  for (std::size_t c = 0; c < graph.count(); ++c) solved[c] = graph.is_free(c) ? gradient[c] : 0.0;
+  values = factor_->cholesky.solve(values);
+  double product = 0;
+  for (std::size_t c = 0; c < graph.count(); ++c) {
+    if (!graph.is_free(c)) solved[c] = 0;
+    product += solved[c] * gradient[c];
+  }
+  return product;
+}
+
+template class FreeSetFactor<2>;
+template class FreeSetFactor<3>;
+
+}  // namespace viscontact::particles

@@ -1,0 +1,217 @@
+// Cell lists, one grid for each factor of 2 in the extents (close_pairs.hpp). Lengths are in one
+// unit. A change must keep the order of the pairs, on which the results of a simulation depend.
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace viscontact::particles {
+namespace {
+
+/// A particle in a grid, with the number of its cell.
+struct Entry {
+  std::uint64_t cell;
+  std::int32_t particle;
+};
+
+/// Sorts entries by cell and keeps the order of entries with equal cells: a radix sort with 11 bits
+/// in a pass. `most` is the largest cell number.
+void sort_by_cell(std::vector<Entry>& entries, std::uint64_t most) {
+  constexpr int kBits = 11;
+  std::vector<Entry> sorted(entries.size());
+  for (int shift = 0; shift < 64 && (most >> shift) > 0; shift += kBits) {
+    std::array<std::size_t, (1 << kBits) + 1> begin{};
+    const auto digit = [&](const Entry& entry) {
+      return static_cast<std::size_t>((entry.cell >> shift) & ((1U << kBits) - 1));
+    };
+    for (const auto& entry : entries) ++begin[digit(entry) + 1];
+    for (std::size_t d = 1; d < begin.size(); ++d) begin[d] += begin[d - 1];
+    for (const auto& entry : entries) sorted[begin[digit(entry)]++] = entry;
+    std::swap(entries, sorted);
+  }
+}
+
+/// Cells of one size that cover all particles, numbered row by row, and the chosen particles in
+/// them.
+template <int D>
+class Grid {
+ public:
+  Grid(double cell, std::span<const double> positions) : per_cell_(1 / cell) {
+    const std::size_t count = positions.size() / D;
+    for (std::size_t d = 0; d < D; ++d) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t k = 0; k < count; ++k) {
+        low = std::min(low, positions[k * D + d]);
+        high = std::max(high, positions[k * D + d]);
+      }
+      // Particles further than half a million cells from the middle share the cells at the border.
+      // Cells that are next to each other stay so, hence no pair is missed.
+      middle_[d] = middle(positions, d);
+      half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
+                          kMostCells / 2);
+      cells_[d] = static_cast<std::uint64_t>(2 * half_[d]) + 3;  // one spare cell on each side
+    }
+  }
+
+  std::uint64_t last_cell() const {
+    std::uint64_t product = 1;
+    for (const auto cells : cells_) product *= cells;
+    return product;
+  }
+
+  std::uint64_t cell_of(const double* position) const {
+    std::uint64_t cell = 0;
+    for (std::size_t d = D; d-- > 0;) {
+      const double offset =
+          std::clamp(std::floor((position[d] - middle_[d]) * per_cell_), -half_[d], half_[d]);
+      cell = cell * cells_[d] + static_cast<std::uint64_t>(offset + half_[d]) + 1;
+    }
+    return cell;
+  }
+
+  /// Calls see(first cell, number of the run) for each run of three cells along the first axis;
+  /// together these runs are the cells around `cell`.
+  template <class See>
+  void for_rows_around(std::uint64_t cell, const See& see) const {
+    constexpr std::uint64_t kLayers = D == 2 ? 1 : 3;
+    const std::uint64_t row = cells_[0], layer = D == 2 ? 0 : row * cells_[1];
+    for (std::uint64_t z = 0; z < kLayers; ++z)
+      for (std::uint64_t y = 0; y < 3; ++y)
+        see(cell - 1 - row - layer + y * row + z * layer, y + 3 * z);
+  }
+
+  std::vector<Entry> entries;  ///< in order of cell
+
+ private:
+  /// The median of a sample, which a few particles far away do not change.
+  static double middle(std::span<const double> positions, std::size_t d) {
+    constexpr std::size_t kSample = 1001;
+    const std::size_t count = positions.size() / D, stride = count / kSample + 1;
+    std::vector<double> sample;
+    for (std::size_t k = 0; k < count; k += stride) sample.push_back(positions[k * D + d]);
+    const auto half = sample.begin() + std::ssize(sample) / 2;
+    std::ranges::nth_element(sample, half);
+    return *half;
+  }
+
+  // Largest number of cells along an axis: the cell numbers of three axes fit into 64 bits.
+  static constexpr double kMostCells = 1 << 20;
+  double per_cell_;
+  std::array<double, D> middle_{}, half_{};
+  std::array<std::uint64_t, D> cells_{};
+};
+
+template <int D>
+class Search {
+ public:
+  Search(std::span<const double> positions, std::span<const double> extents, ThreadPool& pool)
+      : positions_(positions), extents_(extents), pool_(pool) {}
+
+  std::vector<ClosePair> pairs() {
+    std::vector<int> levels(extents_.size());
+    for (std::size_t k = 0; k < extents_.size(); ++k) levels[k] = std::ilogb(extents_[k]);
+    auto present = levels;
+    std::ranges::sort(present);
+    present.erase(std::unique(present.begin(), present.end()), present.end());
+    for (const int level : present) {
+      double largest = 0;
+      for (std::size_t k = 0; k < extents_.size(); ++k)
+        if (levels[k] == level) largest = std::max(largest, extents_[k]);
+      Grid<D> grid(2 * largest, positions_);
+      // Pairs within the grid, then pairs of its particles with particles of smaller extent.
+      grid.entries = entries_of(grid, [&](std::size_t k) { return levels[k] == level; });
+      look(grid, grid.entries, true);
+      if (level != present.front())
+        look(grid, entries_of(grid, [&](std::size_t k) { return levels[k] < level; }), false);
+    }
+    return sorted();
+  }
+
+ private:
+  template <class Test>
+  std::vector<Entry> entries_of(const Grid<D>& grid, const Test& test) const {
+    std::vector<Entry> entries;
+    for (std::size_t k = 0; k < extents_.size(); ++k)
+      if (test(k))
+        entries.push_back({grid.cell_of(&positions_[k * D]), static_cast<std::int32_t>(k)});
+    sort_by_cell(entries, grid.last_cell());
+    return entries;
+  }
+
+  bool close(std::int32_t i, std::int32_t j) const {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    double square = 0;
+    for (std::size_t d = 0; d < D; ++d) {
+      const double x = positions_[b * D + d] - positions_[a * D + d];
+      square += x * x;
+    }
+    const double reach = extents_[a] + extents_[b];
+    return square < reach * reach;
+  }
+
+  /// Finds the pairs of `seekers` with the particles in the grid. The seekers are in order of cell,
+  /// so that the runs of cells around them only move forward.
+  void look(const Grid<D>& grid, const std::vector<Entry>& seekers, bool same) {
+    const auto& in_grid = grid.entries;
+    found_ += pool_.sum_of_blocks<ConcatenatedBlocks<ClosePair>>(
+        seekers.size(), [&](std::size_t begin, std::size_t end) {
+          ConcatenatedBlocks<ClosePair> pairs;
+          constexpr std::size_t kRows = D == 2 ? 3 : 9;
+          std::array<std::size_t, kRows> run_begin{};
+          grid.for_rows_around(seekers[begin].cell, [&](std::uint64_t first, std::uint64_t row) {
+            run_begin[row] = static_cast<std::size_t>(
+                std::ranges::lower_bound(in_grid, first, {}, &Entry::cell) - in_grid.begin());
+          });
+          for (std::size_t s = begin; s < end; ++s) {
+            const auto& seeker = seekers[s];
+            grid.for_rows_around(seeker.cell, [&](std::uint64_t first, std::uint64_t row) {
+              std::size_t k = run_begin[row];
+              while (k < in_grid.size() && in_grid[k].cell < first) ++k;
+              run_begin[row] = k;
+              for (; k < in_grid.size() && in_grid[k].cell < first + 3; ++k) {
+                const auto other = in_grid[k].particle;
+                if (same && other <= seeker.particle) continue;  // each pair once
+                if (close(seeker.particle, other))
+                  pairs.values.push_back(
+                      {std::min(seeker.particle, other), std::max(seeker.particle, other)});
+              }
+            });
+          }
+          return pairs;
+        });
+  }
+
+  /// The pairs in order: by counting for `first`, then by sorting the few pairs with the same
+  /// `first`.
+  std::vector<ClosePair> sorted() const {
+    std::vector<std::size_t> begin(extents_.size() + 1, 0);
+    for (const auto& pair : found_.values) ++begin[static_cast<std::size_t>(pair.first) + 1];
+    for (std::size_t k = 0; k + 1 < begin.size(); ++k) begin[k + 1] += begin[k];
+    std::vector<ClosePair> pairs(found_.values.size());
+    auto next = begin;
+    for (const auto& pair : found_.values)
+      pairs[next[static_cast<std::size_t>(pair.first)]++] = pair;
+    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
+      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]),
+                pairs.begin() + static_cast<std::ptrdiff_t>(begin[k + 1]),
+                [](const ClosePair& a, const ClosePair& b) { return a.second < b.second; });
+    return pairs;
+  }
+
+  std::span<const double> positions_, extents_;
+  ThreadPool& pool_;
+  ConcatenatedBlocks<ClosePair> found_;
+};
+
+}  // namespace
+
+std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
+                                   std::span<const double> extents, ThreadPool& pool) {
+  if (extents.empty()) return {};
+  return dimension == 2 ? Search<2>(positions, extents, pool).pairs()
+                        : Search<3>(positions, extents, pool).pairs();
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,121 @@
+// When the list of close pairs is valid, and how it is made again (neighbour_list.hpp).
+#include "viscontact/particles/neighbours/neighbour_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+auto place_of(const Pair& pair) { return std::tuple(pair.first, pair.second); }
+
+/// Sum of vectors, from which a mean is computed.
+struct VectorSum {
+  Vector value{};
+  VectorSum& operator+=(const VectorSum& other) {
+    value = value + other.value;
+    return *this;
+  }
+};
+
+/// Mean over all particles k of `vector(k)`.
+template <class Of>
+Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
+  const auto sum = pool.sum_of_blocks<VectorSum>(count, [&](std::size_t begin, std::size_t end) {
+    VectorSum part;
+    for (std::size_t k = begin; k < end; ++k) part.value = part.value + vector(k);
+    return part;
+  });
+  return (1 / static_cast<double>(count)) * sum.value;
+}
+
+}  // namespace
+
+bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
+                             ThreadPool& pool) {
+  const auto& p = state.particles;
+  if (state.positions_at_listing.empty()) return p.count() == 0;
+  const auto moved = [&](std::size_t k) {
+    return p.position(k) + point_of(displacements.data(), k, p.dimension) -
+           point_of(state.positions_at_listing.data(), k, p.dimension);
+  };
+  const Vector common = mean_of(p.count(), pool, moved);
+  const auto beyond_skin = [&](std::size_t begin, std::size_t end) {
+    MaximumOfBlocks largest;
+    for (std::size_t k = begin; k < end; ++k)
+      largest.value = std::max(largest.value, norm(moved(k) - common) - state.skins[k]);
+    return largest;
+  };
+  return pool.sum_of_blocks<MaximumOfBlocks>(p.count(), beyond_skin).value <= 0;
+}
+
+void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
+  const auto& p = state.particles;
+  // Skin in radii and in displacements of a step. Measured on box2d: with shorter skins the list is
+  // made too often, with longer skins it is too long.
+  constexpr double kOfRadius = 0.25, kSteps = 3;
+  const auto displacement = [&](std::size_t k) {
+    return point_of(displacements.data(), k, p.dimension);
+  };
+  const Vector common = mean_of(p.count(), pool, displacement);
+  state.positions_at_listing = p.positions;
+  state.skins.resize(p.count(), 0.0);
+  std::vector<double> extents(p.count());
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    state.skins[k] =
+        std::max({state.skins[k], kOfRadius * p.radii[k], kSteps * norm(displacement(k) - common)});
+    extents[k] = p.radii[k] + state.skins[k];
+  }
+  const auto close = close_pairs(p.dimension, p.positions, extents, pool);
+  std::vector<Pair> pairs;
+  pairs.reserve(close.size());
+  auto old = state.pairs.begin();
+  const auto keep_until = [&](const std::tuple<std::int32_t, std::int32_t>& place) {
+    for (; old != state.pairs.end() && place_of(*old) < place; ++old)
+      if (old->gamma < 0) pairs.push_back(*old);
+  };
+  for (const auto& pair : close) {
+    keep_until({pair.first, pair.second});
+    if (old != state.pairs.end() && place_of(*old) == std::tuple(pair.first, pair.second))
+      pairs.push_back(*old++);
+    else
+      pairs.push_back({pair.first, pair.second, 0, 0});
+  }
+  keep_until({std::numeric_limits<std::int32_t>::max(), 0});
+  state.pairs = std::move(pairs);
+}
+
+void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
+                       ThreadPool& pool) {
+  const auto& p = state.particles;
+  ConcatenatedBlocks<Pair> walls;
+  for (std::size_t w = 0; w < planes.size(); ++w) {
+    const auto plane = -1 - static_cast<std::int32_t>(w);
+    const auto in_block = [&](std::size_t begin, std::size_t end) {
+      ConcatenatedBlocks<Pair> pairs;
+      // state.walls is in falling order of first = -1 - k, which is the order of the planes.
+      auto old = std::ranges::partition_point(state.walls, [&](const Pair& pair) {
+        return pair.first > plane || (pair.first == plane && index_of(pair.second) < begin);
+      });
+      for (std::size_t k = begin; k < end; ++k) {
+        const bool known =
+            old != state.walls.end() && old->first == plane && index_of(old->second) == k;
+        if ((known && old->gamma < 0) || gap(planes[w], p.position(k), p.radii[k]) < margin)
+          pairs.values.push_back(known ? *old : Pair{plane, static_cast<std::int32_t>(k)});
+        if (known) ++old;
+      }
+      return pairs;
+    };
+    walls += pool.sum_of_blocks<ConcatenatedBlocks<Pair>>(p.count(), in_block);
+  }
+  state.walls = std::move(walls.values);
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,29 @@
+// The neighbour list: pairs of particles that may touch soon, which are kept over many steps, and
+// the particles near planes. All lengths are in the unit of the case.
+#pragma once
+
+#include <span>
+
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/plane.hpp"
+#include "viscontact/particles/state.hpp"
+
+namespace viscontact::particles {
+
+/// True as long as no pair outside state.pairs can touch after the particles have moved by
+/// `displacements`, a flat array [L]. The mean displacement of all particles does not count,
+/// because it brings no two particles closer together.
+bool neighbour_list_is_valid(const State& state, std::span<const double> displacements,
+                             ThreadPool& pool);
+
+/// Makes state.pairs again for the present positions. The skin of each particle (state.skins)
+/// becomes at least three times its displacement, so that the list lasts, and never shrinks. Pairs
+/// keep their memory, and glued pairs stay in the list wherever their particles are.
+void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool);
+
+/// Makes state.walls again: the particles closer than `margin` [L] to a plane, and those that are
+/// glued to it. `planes` are positions at the end of the step. Pairs keep their memory.
+void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
+                       ThreadPool& pool);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,77 @@
+// Numbers the bodies, joins islands, and hands both to the solver (contact_system.hpp).
+#include "viscontact/particles/projection/contact_system.hpp"
+
+#include <algorithm>
+
+namespace viscontact::particles {
+
+template <int D>
+std::int32_t ContactSystem<D>::number(std::int32_t particle) {
+  const auto k = index_of(particle);
+  if (body_of_[k] < 0) {
+    body_of_[k] = static_cast<std::int32_t>(bodies_.size());
+    bodies_.push_back(particle);
+    free_.insert(free_.end(), &displacements_[k * D], &displacements_[k * D] + D);
+    body_mobilities_.push_back(mobilities_[k]);
+    island_of_.push_back(body_of_[k]);
+    island_sizes_.push_back(1);
+  }
+  return body_of_[k];
+}
+
+template <int D>
+void ContactSystem<D>::add(const Contact<D>& contact) {
+  contacts.push_back(contact);
+  if (contact.first < 0) {
+    number(contact.second);
+    return;
+  }
+  const auto first = number(contact.first);
+  const auto second = number(contact.second);
+  join(island(first), island(second));
+}
+
+template <int D>
+std::int32_t ContactSystem<D>::island(std::int32_t body) {
+  for (;;) {
+    auto& of = island_of_[index_of(body)];
+    if (of == body) return body;
+    of = island_of_[index_of(of)];  // path halving
+    body = of;
+  }
+}
+
+template <int D>
+void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
+  if (island == other) return;
+  auto& size = island_sizes_[index_of(other)];
+  size += island_sizes_[index_of(island)];
+  island_of_[index_of(island)] = other;
+  largest_island_ = std::max(largest_island_, size);
+}
+
+template <int D>
+SolverResult ContactSystem<D>::solve(bool is_rough, int max_iterations, ThreadPool& pool) {
+  auto numbered = contacts;
+  for (auto& contact : numbered) {
+    if (contact.first >= 0) contact.first = body_of(contact.first);
+    contact.second = body_of(contact.second);
+  }
+  ContactGraph<D> graph(numbered, free_, body_mobilities_, pool);
+  graph.largest_island = largest_island_;
+  graph.is_rough = is_rough;
+  const auto solved = solve_dual_problem(graph, max_iterations, factor_);
+  std::vector<double> moved(graph.bodies() * D), impulses(contacts.size());
+  graph.to_bodies(graph.z, moved);
+  graph.impulses(impulses);
+  for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c].impulse = impulses[c];
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    for (std::size_t d = 0; d < D; ++d)
+      displacements_[index_of(bodies_[b]) * D + d] = free_[b * D + d] + moved[b * D + d];
+  return solved;
+}
+
+template class ContactSystem<2>;
+template class ContactSystem<3>;
+
+}  // namespace viscontact::particles

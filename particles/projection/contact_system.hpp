@@ -1,0 +1,58 @@
+// The contacts and particles that take part in the projection of a step, as the dual problem (5.4)
+// of docs/physics.md needs them. Units are those of the case.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/dual_problem/dual_solver.hpp"
+
+namespace viscontact::particles {
+
+/// Particles that take part are called bodies; they are numbered in the order in which the contacts
+/// name them. Contacts are only added, never removed.
+template <int D>
+class ContactSystem {
+ public:
+  /// `displacements`: h u* of all particles, a flat array [L]. `mobilities`: h/m of all particles
+  /// [T/M]. Both must outlive this object.
+  ContactSystem(std::span<double> displacements, std::span<const double> mobilities)
+      : displacements_(displacements), mobilities_(mobilities), body_of_(mobilities.size(), -1) {}
+
+  void add(const Contact<D>& contact);
+
+  /// Solves the dual problem; the impulses are the guess. Sets the impulses, and the displacements
+  /// h v of the bodies.
+  SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
+
+  /// The contacts between particles; `impulse` and `allowed` may be changed.
+  std::vector<Contact<D>> contacts;
+
+  const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
+  /// Body of a particle; -1 if the particle does not take part.
+  std::int32_t body_of(std::int32_t particle) const { return body_of_[index_of(particle)]; }
+  /// Displacement h u* of a body: D numbers [L].
+  const double* free_displacement(std::size_t body) const { return &free_[body * D]; }
+  /// The body that stands for all bodies that contacts connect with `body` (union-find).
+  std::int32_t island(std::int32_t body);
+
+ private:
+  std::int32_t number(std::int32_t particle);
+  void join(std::int32_t island, std::int32_t other);
+
+  std::span<double> displacements_;
+  std::span<const double> mobilities_;
+  std::vector<std::int32_t> bodies_, body_of_;
+  std::vector<double> free_, body_mobilities_;
+  // Islands as a forest: of each body, another body of its island, or itself at the root.
+  std::vector<std::int32_t> island_of_;
+  std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
+  std::size_t largest_island_ = 1;
+  FreeSetFactor<D> factor_;  // of the last solve that needed it
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,98 @@
+// Finding the trajectory files of a folder, and comparing them.
+#include "viscontact/pipeline/compare_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/summaries.hpp"
+#include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Warns if the trajectories were made from different cases or fits, because the distances between
+/// them then have two causes. Trajectories that the user wrote have no such record and are skipped.
+void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
+  for (const auto* key : {"case", "fit"}) {
+    const Trajectory* first = nullptr;
+    for (const auto& trajectory : trajectories) {
+      if (!trajectory.provenance.contains(key)) continue;
+      if (first == nullptr) first = &trajectory;
+      if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
+      warn(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
+                       trajectory.model, key));
+      break;
+    }
+  }
+}
+
+/// The index of a trajectory's model in the registry of models; the size of the registry if the
+/// file is not named after a model.
+std::ptrdiff_t rank_of(const fs::path& file) {
+  const auto choice = known_model(file.stem().string());
+  return choice ? choice->model - all_models().data() : std::ssize(all_models());
+}
+
+/// The trajectory files of a folder: those in its trajectories/ if it is a run's folder, otherwise
+/// the .csv files in the folder itself. Throws Error(kBadInput) if the folder does not exist.
+std::vector<fs::path> trajectory_files(const fs::path& folder) {
+  const auto inner = RunFolder{folder}.trajectories();
+  const fs::path place = fs::is_directory(inner) ? inner : folder;
+  if (!fs::is_directory(place))
+    throw_bad_input({folder.string()}, "is not a folder with trajectories");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(place))
+    if (entry.path().extension() == ".csv" && entry.path().filename() != "table.csv")
+      files.push_back(entry.path());
+  // First the models in the order of the registry, then the user's files by name.
+  std::ranges::sort(files, {},
+                    [&](const fs::path& file) { return std::pair(rank_of(file), file); });
+  return files;
+}
+
+}  // namespace
+
+std::vector<fs::path> files_of_models(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".csv" && rank_of(entry.path()) < std::ssize(all_models()))
+      files.push_back(entry.path());
+  return files;
+}
+
+void print_comparison(const Comparison& comparison, bool json) {
+  fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
+}
+
+void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
+                   const std::string& reference_model, const fs::path& comparison_path,
+                   const std::vector<fs::path>& given, bool json) {
+  auto files = trajectory_files(folder);
+  files.insert(files.end(), others.begin(), others.end());
+  if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
+  auto inputs = files;
+  if (const auto failed = RunFolder{folder}.failed_models(); fs::is_regular_file(failed))
+    inputs.push_back(failed);
+  const auto provenance = provenance_of(given.empty() ? Inputs{inputs, {}} : Inputs{given, inputs});
+  std::vector<Trajectory> trajectories;
+  for (const auto& file : files) trajectories.push_back(read_trajectory(file));
+  warn_of_different_inputs(trajectories);
+  const auto failed = failures_without(trajectories, RunFolder{folder});
+  auto comparison =
+      compare_trajectories(trajectories, reference_among(trajectories, failed, reference_model));
+  comparison.failed_models = failed;
+  write_output(comparison_path, TextKind::kJson, write_comparison(comparison), provenance);
+  print_comparison(comparison, json);
+}
+
+}  // namespace viscontact

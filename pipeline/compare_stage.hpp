@@ -1,0 +1,28 @@
+// The stage compare: the distances between the trajectories of a folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/reduced_model/comparison.hpp"
+
+namespace viscontact {
+
+/// The CSV files of a folder that are named after models; none if the folder does not exist.
+std::vector<std::filesystem::path> files_of_models(const std::filesystem::path& folder);
+
+/// Prints a comparison to standard output, as a table or as JSON.
+void print_comparison(const Comparison& comparison, bool json);
+
+/// Compares the trajectories of a folder, and those in the files `others`, and writes the
+/// comparison to `comparison_path`. `given` are the files of the user from which the same command
+/// made the trajectories; it is empty if the user gave the trajectories themselves. If
+/// `reference_model` is empty, the reference is `inertial`, or the first model with a trajectory if
+/// `inertial` failed. The comparison is printed, as JSON if `json` is true.
+void compare_stage(const std::filesystem::path& folder,
+                   const std::vector<std::filesystem::path>& others,
+                   const std::string& reference_model, const std::filesystem::path& comparison_path,
+                   const std::vector<std::filesystem::path>& given, bool json);
+
+}  // namespace viscontact

@@ -1,0 +1,94 @@
+// Checks that need no table: number of gaps, parameters of models, interval of the motion.
+#include "viscontact/pipeline/simulate/run_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/reached_gaps.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+
+void check_parameters(const Case& c, const std::vector<std::string>& models) {
+  const auto exact = LubricationForce::exact_plane(c.viscosity, c.radius);
+  with_place(c.path.string(), [&] {
+    for (const auto& name : models) check_model(find_model(name), required_motion(c), exact);
+  });
+}
+
+void check_run(const Case& c, const std::vector<std::string>& models) {
+  const auto& gaps = required_tabulation(c).gaps;
+  const auto& request = required_fit(c);
+  const auto& motion = required_motion(c);
+  const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
+  const std::size_t terms =
+      request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
+  if (different < terms)
+    throw_bad_input({c.path.string()},
+                    fmt::format("tabulation.gaps has {} gap(s); the basis {} needs at least {}",
+                                different, request.settings.basis.name, terms));
+  const auto [smallest, largest] = std::ranges::minmax(gaps);
+  const auto refuse = [&](const std::string& model, const char* what, double bound,
+                          const char* remedy) {
+    throw_bad_input({c.path.string()},
+                    fmt::format("motion.initial_gap is {}, which is {} gap of tabulation.gaps, {}; "
+                                "the model {} needs the drag there: tabulate further, or write {} "
+                                "into the section [fit]",
+                                motion.initial_gap, what, bound, model, remedy));
+  };
+  check_parameters(c, models);
+  for (const auto& name : models) {
+    const auto choice = find_model(name);
+    if (choice.exact_drag || choice.model->contact != nullptr) continue;
+    if (motion.initial_gap < smallest && request.below == BelowInterval::kError)
+      refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
+    if (motion.initial_gap > largest && request.above == AboveInterval::kError)
+      refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
+  }
+}
+
+void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models,
+                          const StopToken& stop) {
+  constexpr double kMostSteps = 1e6;  // about a second for each model
+  const auto& tabulation = required_tabulation(c);
+  const auto& request = required_fit(c);
+  Motion motion = required_motion(c);
+  motion.stop = stop;
+  if (tabulation.geometry != Tabulation().geometry) return;
+  for (const auto& parameter : model_parameters())
+    if (parameter.is_time_step && motion.end_time > kMostSteps * motion.parameter(parameter))
+      return;
+  const auto [smallest, largest] = std::ranges::minmax(tabulation.gaps);
+  const auto exact = LubricationForce::exact_plane(c.viscosity, c.radius);
+  std::string below, above;
+  double lowest = smallest, highest = largest;
+  const auto add = [](std::string& names, const std::string& name) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  };
+  for (const auto& name : models) {
+    const auto choice = find_model(name);
+    if (choice.exact_drag) continue;
+    const auto reached = reached_gaps(choice, motion, exact);
+    if (!reached) continue;
+    if (reached->smallest && *reached->smallest < smallest) add(below, name);
+    if (reached->largest > largest) add(above, name);
+    lowest = std::min(lowest, reached->smallest.value_or(smallest));
+    highest = std::max(highest, reached->largest);
+  }
+  constexpr std::string_view kWarning =
+      "simulate: warning: the motion will leave tabulation.gaps, and these models will fail: {}. "
+      "With the exact drag of a plane the gap {} to {:.3g}, the {} of tabulation.gaps is {:.3g}. "
+      "Tabulate further, or write {} into the section [fit]";
+  if (!below.empty() && request.below == BelowInterval::kError)
+    warn(fmt::format(kWarning, below, "falls", lowest, "smallest", smallest,
+                     "below = \"lubrication_limit\""));
+  if (!above.empty() && request.above == AboveInterval::kError)
+    warn(fmt::format(kWarning, above, "rises", highest, "largest", largest,
+                     "above = \"stokes_limit\""));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,75 @@
+// The stage simulate: runs the models of motion on a case with a fit, and writes trajectories and
+// the record of failed models into a run's folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/pipeline/simulate/made_from.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+#include "viscontact/results/failed_models.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
+
+namespace viscontact {
+
+/// A fit file: its path for messages, and its text.
+struct FitFile {
+  std::filesystem::path path;
+  std::string text;
+};
+
+/// The case file and the files of sampled forces that its motion reads.
+std::vector<std::filesystem::path> files_of_motion(const Case& c);
+
+/// The models of a run: `asked`, or if this is empty those that the case names, or if the case
+/// names none, the default models of the registry.
+std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
+
+/// The results of a simulation, before they are written.
+struct Simulated {
+  std::string fit_text;   ///< text of the fit file
+  CsvComments made_from;  ///< what identifies case, fit and version in the files that are written
+  std::vector<Trajectory> trajectories;
+  std::vector<FailedModel> failed;  ///< models without a trajectory
+  /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or
+  /// the effect cannot be computed.
+  std::string uncertainty;
+};
+
+/// Runs the models and writes no file. A model that fails, because it leaves the fit's interval or
+/// does not converge, does not stop the others. Throws Error(kBadInput) that names the case or the
+/// fit if the fit has another viscosity or radius than the case, or if a parameter of a model is
+/// wrong. Throws the error of the first model if all models fail, and Error(kInterrupted) if `stop`
+/// requests a stop.
+Simulated simulate_case(const Case& c, const FitFile& fit_file,
+                        const std::vector<std::string>& models, const OutsideFit& outside,
+                        const StopToken& stop);
+
+/// Writes the trajectories, the record of failed models, uncertainty.json and the copies of case
+/// and fit. An earlier trajectory of a model that failed is removed, because it was made from other
+/// inputs.
+void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
+                     const Provenance& provenance);
+
+/// The inputs of a simulation besides the case.
+struct SimulateRequest {
+  /// Path of the fit. If it is empty, the fit is that which the case names, or the exact drag if
+  /// the case asks for it, or fit.json in `folder`.
+  std::string fit;
+  std::filesystem::path folder;     ///< the run's folder
+  std::vector<std::string> models;  ///< names of models; empty: see models_to_run
+  OutsideFit outside;
+  StopToken stop{};
+};
+
+/// Runs the models and writes their trajectories and the copies of case and fit into the run's
+/// folder. Before anything is written, throws as simulate_case does, Error(kWrongUsage) if there is
+/// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, throws
+/// error_of() them after the results of the others are written.
+void simulate_stage(const Case& c, const SimulateRequest& request);
+
+}  // namespace viscontact

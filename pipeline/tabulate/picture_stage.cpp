@@ -1,0 +1,102 @@
+// Choice of gaps, names of files and order of writing for the pictures of a tabulation.
+#include "viscontact/pipeline/tabulate/picture_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/report/flow/flow_plots.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+namespace {
+
+/// One of the files that are written for each gap.
+struct PictureFile {
+  std::string_view end;     ///< end of the file's name
+  std::string_view marker;  ///< text that every file of this kind contains
+  std::string_view kind;    ///< name of the kind in messages
+};
+constexpr PictureFile kMesh{"_mesh.svg", "<svg", "picture"};
+constexpr PictureFile kFlow{"_flow.svg", "<svg", "picture"};
+constexpr PictureFile kFilm{"_film.svg", "<svg", "picture"};
+constexpr PictureFile kVtu{".vtu", "<VTKFile", "VTK file"};
+
+/// The path of a file for one gap. The name has seven digits of the gap, so that gaps_to_picture
+/// (relative tolerance 1e-6) accepts the number in the name.
+std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
+                              const PictureFile& file) {
+  return folder / fmt::format("gap_{:.7g}{}", gap, file.end);
+}
+
+}  // namespace
+
+void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder) {
+  for (const double gap : gaps)
+    for (const auto& file : {kMesh, kFlow, kFilm, kVtu})
+      refuse_other_kind(path_of(folder, gap, file), file.marker, file.kind);
+}
+
+std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
+  constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
+  auto sorted = tabulation.gaps;
+  std::ranges::sort(sorted);
+  std::vector<double> gaps;
+  if (asked.empty()) {
+    gaps = {sorted.front(), sorted[sorted.size() / 2], sorted.back()};
+    gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
+    return gaps;
+  }
+  std::istringstream words(asked);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto gap = parse_number(word);
+    if (!gap)
+      throw Error(
+          ErrorKind::kWrongUsage,
+          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
+                      word));
+    const double nearest =
+        *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
+    if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("--plot: {} is not one of the case's gaps; the nearest of them is {}",
+                              word, format_number(nearest)));
+    gaps.push_back(nearest);
+  }
+  return gaps;
+}
+
+std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
+  auto folder = table_path;
+  return folder.replace_extension(".plots");
+}
+
+void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
+                   const std::filesystem::path& folder, const std::filesystem::path& case_file,
+                   const StopToken& stop) {
+  const auto freefem = default_freefem(stop);
+  const auto provenance = provenance_of({{case_file}, {}});
+  for (const double gap : gaps) {
+    stop.throw_if_stop_requested();
+    show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
+    const auto picture =
+        solve_row_for_picture(freefem, tabulation, gap, tabulation.reference_velocities.front());
+    const auto path = [&](const PictureFile& file) { return path_of(folder, gap, file); };
+    // The VTK file comes first because it needs no gnuplot, which may be missing.
+    write_output(path(kVtu), TextKind::kXml, write_vtu(picture.flow), provenance);
+    write_output(path(kMesh), TextKind::kSvg, plot_mesh(picture, tabulation, stop), provenance);
+    write_output(path(kFlow), TextKind::kSvg, plot_flow(picture, tabulation, stop), provenance);
+    write_output(path(kFilm), TextKind::kSvg, plot_gap_flow(picture, tabulation, stop), provenance);
+    clear_progress();
+    say(fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));
+  }
+}
+
+}  // namespace viscontact

@@ -1,0 +1,215 @@
+// Tabulation of several cases in one process, in shares, and gathering. Journals of finished rows
+// are removed only after their table is written.
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/freefem_axi/tabulate.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
+  for (const auto& row : table.rows)
+    if (row.relative_error_estimate > asked)
+      warn(
+          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
+                      "{:.2g}, {:.2g} was asked",
+                      row.gap, row.reference_velocity, row.relative_error_estimate, asked));
+}
+
+/// True if the table of this case exists; then a message says so, and journals that a process wrote
+/// after the table was finished are removed.
+bool is_up_to_date(const CaseTable& one) {
+  const auto table = find_table(one.table, one.hash());
+  if (!table) return false;
+  say(fmt::format("tabulate: {} is up to date", one.table.string()));
+  remove_journals(one.table, one.hash());
+  warn_of_unmet_accuracy(*table, one.tabulation().relative_accuracy);
+  return true;
+}
+
+void write_table(const CaseTable& one, ForceTable table, const Provenance& provenance) {
+  table.versions["Viscontact"] = VISCONTACT_VERSION;
+  write_output(one.table, TextKind::kHashComment, write_force_table(table), provenance);
+  remove_journals(one.table, one.hash());
+  warn_of_unmet_accuracy(table, one.tabulation().relative_accuracy);
+}
+
+void show_rows(const TabulateProgress& progress) {
+  show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
+                            progress.rows, progress.seconds_left));
+}
+
+/// Says in words how many rows there are and how many of them an earlier call has finished.
+std::string rows_in_words(const CaseTable& one, const std::vector<GridPoint>& points) {
+  const auto missing = missing_points(read_row_record(one.table, one.hash()), points);
+  const auto kept = points.size() - missing.size();
+  return fmt::format("{} rows{}", points.size(),
+                     kept > 0 ? fmt::format(" ({} of them from before)", kept) : "");
+}
+
+void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
+  if (is_up_to_date(one)) return;
+  check_output_file(one.table);
+  say(fmt::format("tabulate: {} on {} processes", rows_in_words(one, grid_of(one.tabulation())),
+                  jobs));
+  const auto provenance = provenance_of({{one.c.path}, {}});
+  auto table = tabulate(default_freefem(stop), one.tabulation(), jobs, one.table, show_rows);
+  clear_progress();
+  write_table(one, std::move(table), provenance);
+}
+
+/// The name of the process that writes a journal. It contains share, host and process id, so that
+/// no two processes that run at the same time have the same name.
+std::string writer_name(const Share& share) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}-of-{}.{}.{}", share.number, share.count, host.data(), ::getpid());
+}
+
+[[noreturn]] void throw_missing(const CaseTable& one, const RowRecord& record,
+                                const std::vector<GridPoint>& missing,
+                                const fs::path& slurm_folder) {
+  constexpr std::size_t kNamed = 3;  // rows that the message names
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
+    named.push_back(fmt::format("gap {}, velocity {}", format_number(missing[i].gap),
+                                format_number(missing[i].reference_velocity)));
+  if (missing.size() > kNamed) named.emplace_back("...");
+  std::vector<std::string> reasons;
+  for (const auto& point : missing)
+    if (const auto failed = record.failed.find(point); failed != record.failed.end())
+      reasons.push_back(failed->second);
+  std::string text = fmt::format(
+      "{} of {} rows are missing ({}); the finished ones are kept, and the same command "
+      "without --gather computes the rest here, or with --launcher slurm or --task elsewhere",
+      missing.size(), grid_of(one.tabulation()).size(), fmt::join(named, "; "));
+  if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
+  if (const auto submitted = slurm_folder / one.c.path.filename();
+      fs::exists(submitted) && read_file(submitted) != one.c.text)
+    text += fmt::format("; the case was edited since {} was submitted", submitted.string());
+  if (reasons.empty()) throw Error(ErrorKind::kNotConverged, text);
+  throw Error(ErrorKind::kExternalProgram,
+              fmt::format("{}:\n{} failed: {}", text, reasons.size(), fmt::join(reasons, "; ")));
+}
+
+void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
+  if (is_up_to_date(one)) return;
+  const auto record = read_row_record(one.table, one.hash());
+  const auto missing = missing_points(record, grid_of(one.tabulation()));
+  if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
+  write_table(one, assemble_table(one.tabulation(), record), provenance_of({{one.c.path}, {}}));
+  say(fmt::format("tabulate: {} is gathered", one.table.string()));
+}
+
+/// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
+/// which comes from rows, does not stop the other tables; such errors are thrown together at the
+/// end. Any other error stops the work.
+template <class Work>
+void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop, const Work& work) {
+  if (tables.size() == 1) return work(0);
+  // A FreeFEM that fails is the more serious of the two kinds, so it decides.
+  auto kind = ErrorKind::kNotConverged;
+  std::vector<std::string> failures;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    stop.throw_if_stop_requested();
+    try {
+      work(i);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kExternalProgram && error.kind() != ErrorKind::kNotConverged)
+        throw;
+      clear_progress();
+      if (error.kind() == ErrorKind::kExternalProgram) kind = error.kind();
+      failures.push_back(
+          fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
+    }
+  }
+  if (!failures.empty())
+    throw Error(kind, fmt::format("{} of {} tables are not finished:\n{}", failures.size(),
+                                  tables.size(), fmt::join(failures, "; ")));
+}
+
+}  // namespace
+
+std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
+                                        const fs::path& output) {
+  std::map<fs::path, std::string> case_of;
+  std::vector<fs::path> names;
+  for (const auto& file : case_files) {
+    names.push_back(case_files.size() == 1 ? output
+                                           : output / (fs::path(file).stem().string() + ".csv"));
+    const auto [other, is_new] = case_of.insert({names.back(), file});
+    if (!is_new)
+      throw Error(ErrorKind::kWrongUsage,
+                  fmt::format("{} and {} would both be tabulated to {}; rename one of them",
+                              other->second, file, names.back().string()));
+  }
+  std::vector<CaseTable> tables;
+  for (std::size_t i = 0; i < case_files.size(); ++i) {
+    tables.push_back({read_case(case_files[i]), names[i]});
+    (void)tables.back().tabulation();  // throws if a case has no tabulation, before any work begins
+  }
+  return tables;
+}
+
+Share parse_share(const std::string& text) {
+  Share share;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, share.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, share.count);
+    if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
+  }
+  throw Error(ErrorKind::kWrongUsage,
+              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
+}
+
+std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
+                                              const Share& share) {
+  std::vector<std::vector<GridPoint>> points;
+  std::size_t row = 0;
+  for (const auto& one : tables) {
+    points.emplace_back();
+    for (const auto& point : grid_of(one.tabulation()))
+      if (row++ % share.count == share.number) points.back().push_back(point);
+  }
+  return points;
+}
+
+void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop) {
+  for_each_table(tables, stop, [&](std::size_t i) { tabulate_one(tables[i], jobs, stop); });
+}
+
+void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
+                 const StopToken& stop) {
+  const RowWorker worker = {default_freefem(stop), jobs, writer_name(share)};
+  const auto points = points_of(tables, share);
+  for_each_table(tables, stop, [&](std::size_t i) {
+    if (points[i].empty()) return;
+    say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
+                    tables[i].table.string()));
+    compute_rows(worker, tables[i].tabulation(), points[i], tables[i].table, show_rows);
+  });
+}
+
+void gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_folder,
+                  const StopToken& stop) {
+  for_each_table(tables, stop, [&](std::size_t i) { gather_one(tables[i], slurm_folder); });
+}
+
+}  // namespace viscontact

@@ -1,0 +1,60 @@
+// The stage tabulate: the tables of one or several cases. The rows are computed by this process, or
+// in shares by the tasks of a job on a cluster; then gather_stage puts the tables together.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
+
+namespace viscontact {
+
+/// A case and the file for its table.
+struct CaseTable {
+  Case c;
+  std::filesystem::path table;
+
+  const Tabulation& tabulation() const { return required_tabulation(c); }
+  std::string hash() const { return tabulation_hash(tabulation()); }
+};
+
+/// Reads the cases. For one case, `output` is the file of the table. For several cases, `output` is
+/// a folder and the tables are named after the case files. Throws Error(kWrongUsage) if two tables
+/// would have the same name, and Error(kBadInput) as read_case does or if a case has no tabulation.
+std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
+                                        const std::filesystem::path& output);
+
+/// The share of task `number` among `count` tasks: the rows are numbered through the grids of all
+/// tables, and the share has those whose number is congruent to `number` modulo `count`.
+struct Share {
+  std::size_t number = 0, count = 1;
+};
+
+/// Reads "K/T". Throws Error(kWrongUsage) unless these are integers with 0 <= K < T.
+Share parse_share(const std::string& text);
+
+/// The points of each table's grid that belong to the share.
+std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
+                                              const Share& share);
+
+/// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
+/// tables. A table that was already made from the same inputs is left as it is. A row that fails
+/// stops neither the other rows nor the other tables; Error(kExternalProgram) at the end names the
+/// rows that failed. Throws Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
+void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop);
+
+/// Computes the missing rows of a share and writes them into journals of its own, but no table.
+/// Throws as tabulate_stage does.
+void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
+                 const StopToken& stop);
+
+/// Writes the tables from finished rows and computes none. If rows are missing, throws at the end
+/// an error that names them: Error(kExternalProgram) if some of them failed, else
+/// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (slurm.hpp).
+void gather_stage(const std::vector<CaseTable>& tables, const std::filesystem::path& slurm_folder,
+                  const StopToken& stop);
+
+}  // namespace viscontact

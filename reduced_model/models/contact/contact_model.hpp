@@ -1,0 +1,53 @@
+// The loop over time that all contact models share (physics.md (4.5) to (4.7)). A model gives it
+// its resolved drag and the gap at which it makes contact. Lengths, masses and times are in any one
+// consistent system of units.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+
+namespace viscontact {
+
+/// A drag that acts at a distance, as functions of the gap q [L].
+struct ResolvedDrag {
+  /// Resistance [M/T].
+  std::function<double(double gap)> resistance;
+  /// A primitive of the resistance [M L/T].
+  std::function<double(double gap)> impulse;
+};
+
+/// What distinguishes one contact model from another.
+struct ContactModel {
+  /// Gap at which the sphere is in contact [L], >= 0.
+  double contact_gap = 0;
+  /// Value of gamma at which the solids touch [M L/T], <= 0. -infinity: no solid contact. 0: no
+  /// film, so plain inelastic contact.
+  double gamma_min = 0;
+  /// The resolved drag; nothing if only f_ext acts at a distance.
+  std::optional<ResolvedDrag> drag;
+  /// Thickness [L] of the film that a value of gamma [M L/T] stands for.
+  std::function<double(double gamma)> film_thickness;
+  /// That function as a formula, for the heads of files.
+  std::string film_law{};
+};
+
+/// Makes the steps of contact_step.hpp from the start of the motion to its end. The forces in a row
+/// are means over the step before it; the lubrication force is that of film and resolved drag
+/// together. The begin and end of contact are found within the steps of impact and release, as if
+/// the force were constant in each; their error is that of the scheme in a step. The lowest gamma,
+/// and so the recovered film, takes account of changes of sign of the force within a step.
+Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
+
+/// Makes a contact model and runs it.
+using MakeContactModel = ContactModel (*)(const Motion&, const LubricationForce&);
+inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
+                                    const LubricationForce& force) {
+  return run_contact_model(motion, make(motion, force));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,8 @@
+// The model `inelastic_contact`: a contact model with gamma_min = 0 and no drag.
+#include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
+
+namespace viscontact {
+
+ContactModel inelastic_contact(const Motion&, const LubricationForce&) { return {}; }
+
+}  // namespace viscontact

@@ -1,0 +1,18 @@
+// Plain inelastic contact, to compare viscous contact with. Lengths, masses and times are in any
+// one consistent system of units.
+#pragma once
+
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
+
+namespace viscontact {
+
+/// Plain inelastic contact (Moreau 1988): the sphere stops on the wall and leaves it as soon as it
+/// is pulled,
+///
+///     q >= 0,  lambda >= 0,  q lambda = 0,  m d^2q/dt^2 = f_ext + lambda,
+///     u+ = max(u-, 0) where q = 0.
+///
+/// This is viscous contact with gamma_min = 0, a film that remembers nothing. The drag is not used.
+ContactModel inelastic_contact(const Motion& motion, const LubricationForce& force);
+
+}  // namespace viscontact

@@ -1,0 +1,26 @@
+// The model `viscous_contact`: contact at q = 0 and no resolved drag.
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viscontact {
+
+ContactModel viscous_contact(const Motion& motion, const LubricationForce& force) {
+  const double k = force.leading_coefficient();
+  const double r = force.radius();
+  const double solid_gap = motion.roughness[0] + motion.roughness[1];
+  ContactModel model;
+  model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
+                                   : std::min(0.0, k * std::log(solid_gap / r));
+  model.film_thickness = [k, solid_gap, q0 = motion.initial_gap,
+                          gamma_min = model.gamma_min](double gamma) {
+    return gamma <= gamma_min ? solid_gap : std::max(solid_gap, q0 * std::exp(gamma / k));
+  };
+  model.film_law = "initial_gap * exp(gamma/k)";
+  if (solid_gap > 0) model.film_law += ", at least the roughness heights together";
+  return model;
+}
+
+}  // namespace viscontact

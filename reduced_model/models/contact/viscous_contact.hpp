@@ -1,0 +1,24 @@
+// The viscous contact model (physics.md (4.4) to (4.6)). Lengths, masses and times are in any one
+// consistent system of units.
+#pragma once
+
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
+
+namespace viscontact {
+
+/// The limit mu -> 0 of (M) with R = k/q: problem (P) (Maury 2007, "A gluey particle model";
+/// Lefebvre 2009, "Numerical simulation of gluey particles"),
+///
+///     q >= 0,  gamma <= 0,  q gamma = 0,
+///     m d^2q/dt^2 = f_ext + lambda,  supp lambda in {q = 0},  dgamma/dt = -lambda,
+///     u+ = projection of u- on {0} if gamma- < 0,  on R+ if gamma- = 0 and q = 0,  on R otherwise.
+///
+/// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity
+/// u^n + h f^n/m, where f^n is the mean of f_ext over the step and h = viscous_contact.time_step.
+/// The solids touch at the heights of the roughness: gamma >= gamma_min = k ln((r1 + r2)/r)
+/// (Vinogradova & Yakubov 2006). The first integral k ln q = k ln q0 + gamma, q0 the initial gap,
+/// gives the thickness q0 exp(gamma/k) of the film that the model does not resolve; it is at least
+/// r1 + r2. Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+ContactModel viscous_contact(const Motion& motion, const LubricationForce& force);
+
+}  // namespace viscontact

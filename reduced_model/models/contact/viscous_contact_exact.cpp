@@ -1,0 +1,170 @@
+// The events of problem (P), landing, release and change to solid contact, and the budget between
+// them.
+#include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "viscontact/common/root_finding.hpp"
+#include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
+
+namespace viscontact {
+namespace {
+
+/// The state of the sphere at the last event, and the exact motion from there.
+class EventDriven {
+ public:
+  EventDriven(const Motion& motion, double gamma_min)
+      : m_(motion.mass),
+        f_(motion.external_force),
+        gamma_min_(gamma_min),
+        gap_(motion.initial_gap),
+        velocity_(motion.initial_velocity) {}
+
+  bool contact() const { return contact_; }
+  const MomentumEnergyBudget& budget() const { return budget_; }
+
+  double gap(double t) const {
+    if (contact_) return 0;
+    const double by_force =
+        f_.impulse_integral(t) - f_.impulse_integral(from_) - (t - from_) * f_.impulse(from_);
+    return gap_ + (t - from_) * velocity_ + by_force / m_;
+  }
+  double velocity(double t) const { return contact_ ? 0 : velocity_ + push_until(t) / m_; }
+  double gamma(double t) const {
+    return contact_ ? std::clamp(gamma_ + push_until(t), gamma_min_, 0.0) : 0;
+  }
+
+  /// Goes to the next event, but not beyond `to`, and returns its time. From the last event to
+  /// `to`, f_ext must have the constant sign `sign`, or be 0 if `sign` is 0.
+  double advance(double to, double sign) { return contact_ ? carry(to, sign) : fly(to); }
+
+ private:
+  double push_until(double t) const { return f_.impulse(t) - f_.impulse(from_); }
+
+  double fly(double to) {
+    const auto falls = [&](double t) { return velocity(t) < 0; };
+    // The velocity is monotone, so it changes its sign at most once.
+    const double turn =
+        falls(from_) == falls(to)
+            ? to
+            : bisect_first_true(from_, to, [&](double t) { return falls(t) == falls(to); });
+    double begin = from_;
+    for (const double end : {turn, to}) {
+      if (begin < end && gap(end) < 0 && falls(begin + (end - begin) / 2))
+        return land(bisect_first_true(begin, end, [&](double t) { return gap(t) < 0; }));
+      begin = end;
+    }
+    move_to(to, std::max(0.0, gap(to)), velocity(to));
+    return to;
+  }
+
+  void move_to(double t, double gap, double velocity) {
+    budget_.external_impulse += push_until(t);
+    budget_.external_work += m_ / 2 * (velocity - velocity_) * (velocity + velocity_);
+    from_ = t;
+    gap_ = gap;
+    velocity_ = velocity;
+  }
+
+  double land(double t) {
+    move_to(t, 0, velocity(t));
+    const double momentum = std::min(0.0, m_ * velocity_);
+    const double by_solid = std::min(0.0, momentum - gamma_min_);
+    gamma_ = momentum - by_solid;
+    budget_.film_impulse -= gamma_;
+    budget_.solid_impulse -= by_solid;
+    // The mean velocity of an impact is half the velocity before it, because the velocity after it
+    // is 0.
+    budget_.film_work -= gamma_ * velocity_ / 2;
+    budget_.solid_work -= by_solid * velocity_ / 2;
+    velocity_ = 0;
+    contact_ = true;
+    return t;
+  }
+
+  double carry(double to, double sign) {
+    const double end = gamma_ + push_until(to);
+    double t = to;
+    if (sign > 0 && end > 0)
+      t = bisect_first_true(from_, to, [&](double s) { return gamma_ + push_until(s) > 0; });
+    if (sign < 0 && gamma_ > gamma_min_ && end < gamma_min_)
+      t = bisect_first_true(from_, to,
+                            [&](double s) { return gamma_ + push_until(s) < gamma_min_; });
+    const double push = push_until(t);
+    const double after = gamma(t);
+    budget_.external_impulse += push;
+    budget_.film_impulse += gamma_ - after;
+    budget_.solid_impulse += after - gamma_ - push;
+    contact_ = !(sign > 0 && end > 0);
+    gamma_ = after;
+    from_ = t;
+    return t;
+  }
+
+  double m_;
+  const ExternalForce& f_;
+  double gamma_min_;
+  double from_ = 0;
+  bool contact_ = false;
+  double gap_, velocity_, gamma_ = 0;
+  MomentumEnergyBudget budget_;
+};
+
+}  // namespace
+
+Trajectory simulate_viscous_contact_exact(const Motion& motion, const LubricationForce& force) {
+  const ContactModel model = viscous_contact(motion, force);
+  const auto& f = motion.external_force;
+  const double end = motion.end_time;
+  EventDriven sphere(motion, model.gamma_min);
+
+  Trajectory trajectory;
+  double lowest_gamma = 0;
+  const auto add_row = [&](const EventDriven& state, double t) {
+    const double gamma = state.gamma(t);
+    const double held = state.contact() ? -f.value(t) : 0;
+    const bool by_solid = gamma == model.gamma_min && held > 0;
+    lowest_gamma = std::min(lowest_gamma, gamma);
+    trajectory.rows.push_back({t, std::max(0.0, state.gap(t)), state.velocity(t),
+                               by_solid ? 0 : held, f.value(t), gamma, by_solid ? held : 0});
+  };
+
+  // Between two neighbouring stops f_ext is smooth and has one sign.
+  auto stops = f.jumps();
+  std::ranges::copy(f.sign_changes(end), std::back_inserter(stops));
+  stops.push_back(end);
+  std::ranges::sort(stops);
+  std::erase_if(stops, [&](double t) { return t > end; });
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+
+  const auto times = row_times(motion, kContactTimeStep);
+  auto next_row = times.begin() + 1;
+  add_row(sphere, 0);
+  double now = 0;
+  for (const double stop : stops) {
+    const double mean = f.mean(now, stop);
+    const double sign = mean > 0 ? 1 : mean < 0 ? -1 : 0;
+    while (now < stop) {
+      report_progress(motion, now);
+      const EventDriven before = sphere;
+      const double event = sphere.advance(stop, sign);
+      lowest_gamma = std::min(lowest_gamma, sphere.gamma(event));
+      for (; next_row != times.end() && *next_row < event; ++next_row) add_row(before, *next_row);
+      const bool at_row = next_row != times.end() && *next_row == event;
+      if (at_row) ++next_row;
+      if (at_row || event < stop || before.contact() != sphere.contact()) add_row(sphere, event);
+      if (sphere.contact() && !before.contact() && !trajectory.contact_interval)
+        trajectory.contact_interval = {event, event};
+      if (before.contact()) (*trajectory.contact_interval)[1] = event;
+      ++trajectory.steps;
+      now = event;
+    }
+  }
+  trajectory.budget = sphere.budget();
+  if (lowest_gamma < 0) trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
+  return trajectory;
+}
+
+}  // namespace viscontact

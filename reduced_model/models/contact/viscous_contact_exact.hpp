@@ -1,0 +1,25 @@
+// Viscous contact without a time step, from event to event (physics.md (4.4), (4.6)). Lengths,
+// masses and times are in any one consistent system of units.
+#pragma once
+
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
+
+namespace viscontact {
+
+/// The exact solution of problem (P) of viscous_contact.hpp. With I(t) = int f_ext, S(t) = int I,
+/// and the index 0 for the last event:
+///
+///     free:        q = q_0 + (t - t_0) u_0 + (S - S_0 - (t - t_0) I_0)/m,  u = u_0 + (I - I_0)/m,
+///                  until q = 0 in a fall; then gamma = m u-, u = 0;
+///     in contact:  q = u = 0,  gamma = max(gamma_0 + I - I_0, gamma_min),
+///                  until gamma = 0 under a pull.
+///
+/// Between two changes of sign of f_ext, velocity and gamma are monotone and q has at most one
+/// extremum, so that no event is missed. The times of events are found by bisection, to round-off.
+/// A force with sinusoids that changes its sign twice within 1/32 of a period can escape
+/// ExternalForce::sign_changes(). The rows are at the multiples of viscous_contact.time_step, at
+/// the jumps of the force, and at the events, where a row has the state after the event. Throws
+/// Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+Trajectory simulate_viscous_contact_exact(const Motion& motion, const LubricationForce& force);
+
+}  // namespace viscontact

@@ -1,0 +1,24 @@
+// Viscous contact with the regular part of the fitted drag (physics.md (4.7)). Lengths, masses and
+// times are in any one consistent system of units.
+#pragma once
+
+#include "viscontact/reduced_model/models/contact/contact_model.hpp"
+
+namespace viscontact {
+
+/// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
+/// the drag without its singular part k/q. Each step is that of contact_step.hpp,
+///
+///     m (u^{n+1} - u^n) = h f^n - (G(q^{n+1}) - G(q^n)) + h lambda,
+///     G(q) = int_0^q (R(s) - k/s) ds.
+///
+/// The lecture instead projects u^{n+1/2}, the velocity after a step with drag and lambda = 0. The
+/// drag then acts even on a sphere at rest in contact, and gamma lacks the share h (R - k/q)/m of
+/// the load of each step. Here the drag enters by its impulse along the path of the sphere. Film
+/// and gamma therefore agree with the first integral for every step length: m u + G(q) + gamma =
+/// P(t). Below the fit's interval R - k/q is constant. `force` must outlive the model. Throws
+/// Error(kBadInput) if the fit's resistance has no positive coefficient of 1/q, or if the motion
+/// goes above the fit's interval.
+ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force);
+
+}  // namespace viscontact

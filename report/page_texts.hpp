@@ -1,0 +1,17 @@
+// The files of report/page and report/particles/page, as they are built into the executable
+// (cmake/embed_texts.cmake).
+#pragma once
+
+#include <string_view>
+
+namespace viscontact {
+
+std::string_view uplot_script();
+std::string_view uplot_style();
+std::string_view uplot_licence();
+std::string_view report_script();
+std::string_view report_style();
+std::string_view particles_script();
+std::string_view particles_style();
+
+}  // namespace viscontact

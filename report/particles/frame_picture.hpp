@@ -1,0 +1,43 @@
+// One frame of a motion as SVG: particles, planes and contacts in a panel of the still picture.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "viscontact/report/particles/view_box.hpp"
+
+namespace viscontact {
+
+/// Projects points to page coordinates (y downwards) of a panel whose upper left corner is the
+/// origin.
+struct Projection {
+  /// Unit vectors; `toward` points to the reader.
+  particles::Vector right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
+  double scale = 1;          ///< page units per length
+  double left = 0, top = 0;  ///< coordinates of the panel's corner along `right` and `up` [L]
+
+  double x(const particles::Vector& p) const { return scale * (particles::dot(right, p) - left); }
+  double y(const particles::Vector& p) const { return scale * (top - particles::dot(up, p)); }
+};
+
+/// The view of motions in the plane (dimension 2) from the front, of motions in space from a little
+/// above and from the side, with the third axis upwards. The scale is 1.
+Projection view_of(int dimension);
+
+/// What all panels of a picture share.
+struct PanelSettings {
+  const particles::Playback& playback;
+  ViewBox box;
+  Projection view;
+  double width = 0, height = 0;  ///< size of a panel in page units
+  double lowest = 0;             ///< lowest gamma of the motion [M L/T]
+  std::size_t every = 1;         ///< every such particle is drawn
+};
+
+inline constexpr int kContactColours = 20;  ///< for gamma < 0
+
+/// The elements of a panel that shows the frame.
+std::string frame_picture(const PanelSettings& panel, const particles::Frame& frame);
+
+}  // namespace viscontact

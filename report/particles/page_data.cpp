@@ -1,0 +1,197 @@
+// Chooses what fits into the page and encodes it. A change must keep the format that the script of
+// the page reads.
+#include "viscontact/report/particles/page_data.hpp"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "viscontact/report/particles/view_box.hpp"
+
+namespace viscontact {
+namespace {
+
+using particles::Playback;
+
+// The numbers are written as they are in memory, and the script reads them as little-endian.
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
+
+template <class Number>
+void append(Bytes& bytes, Number value) {
+  const auto at = bytes.size();
+  bytes.resize(at + sizeof value);
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+/// Appends a number with seven bits in each byte, the lowest first. The eighth bit is set in all
+/// bytes but the last.
+void append_short(Bytes& bytes, std::uint32_t value) {
+  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<unsigned char>(value | 128));
+  bytes.push_back(static_cast<unsigned char>(value));
+}
+
+/// Chooses how positions are encoded.
+void choose_position_bytes(PageData& data, const Playback& playback) {
+  constexpr double kSteps = 65535, kSmall = 0.02;  // largest 16-bit number; step over radius
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  for (std::size_t d = 0; d < dimension; ++d) {
+    Interval reach;
+    for (const auto& frame : playback.frames)
+      for (std::size_t i = d; i < frame.positions.size(); i += dimension)
+        reach.add(frame.positions[i], frame.positions[i]);
+    if (!(reach.low <= reach.high)) reach = {0, 0};
+    data.low[d] = reach.low;
+    data.step[d] = (reach.high - reach.low) / kSteps;
+  }
+  const auto smallest = std::ranges::min_element(playback.radii);
+  const double largest_step =
+      *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
+  // The comparison is negated so that a step that is not finite also leads to floats.
+  if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
+  data.position_bytes = 4;
+  data.low = {0, 0, 0};
+  data.step = {1, 1, 1};
+}
+
+/// Chooses every `every_frame`-th frame and the last one.
+void choose_frames(PageData& data, const Playback& playback, std::size_t every_frame) {
+  data.every_frame = every_frame;
+  data.frames.clear();
+  for (std::size_t f = 0; f < playback.frames.size(); f += every_frame) data.frames.push_back(f);
+  if (!data.frames.empty() && data.frames.back() + 1 != playback.frames.size())
+    data.frames.push_back(playback.frames.size() - 1);
+}
+
+/// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
+/// contacts in it. A contact is written as its distance in the list from the contact before it, and
+/// a byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma).
+struct Contacts {
+  Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
+  Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
+  Bytes frames;
+};
+
+using Pair = std::pair<std::int32_t, std::int32_t>;
+
+Contacts contacts_of(const Playback& playback, const PageData& data, double lowest) {
+  Contacts contacts;
+  append(contacts.offsets, std::uint32_t{0});
+  const auto every = static_cast<std::int32_t>(data.every_particle);
+  const auto shown = [&](const particles::CurrentContact& c) {
+    return data.contacts && c.second % every == 0 && (c.first < 0 || c.first % every == 0);
+  };
+  std::vector<Pair> pairs;
+  for (const auto f : data.frames)
+    for (const auto& c : playback.frames[f].contacts)
+      if (shown(c)) pairs.emplace_back(c.first, c.second);
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto& [first, second] : pairs) {
+    append(contacts.pairs, first < 0 ? first : first / every);
+    append(contacts.pairs, second / every);
+  }
+  std::vector<std::pair<std::uint32_t, unsigned char>> listed;
+  for (const auto f : data.frames) {
+    listed.clear();
+    for (const auto& c : playback.frames[f].contacts) {
+      if (!shown(c)) continue;
+      const auto at = std::ranges::lower_bound(pairs, Pair{c.first, c.second}) - pairs.begin();
+      const auto level =
+          c.gamma < 0 ? std::max(1L, std::lround(255 * std::clamp(c.gamma / lowest, 0.0, 1.0)))
+                      : 0L;
+      listed.emplace_back(static_cast<std::uint32_t>(at), static_cast<unsigned char>(level));
+    }
+    std::ranges::sort(listed);
+    std::uint32_t before = 0;
+    for (const auto& [at, level] : listed) {
+      append_short(contacts.frames, at - before);
+      contacts.frames.push_back(level);
+      before = at;
+    }
+    append(contacts.offsets, static_cast<std::uint32_t>(contacts.frames.size()));
+  }
+  return contacts;
+}
+
+/// Chooses frames, and whether contacts are shown, so that the page is not too large.
+Contacts choose_content(PageData& data, const Playback& playback, double lowest) {
+  constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
+  constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
+  data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
+  const auto particles = (playback.radii.size() + data.every_particle - 1) / data.every_particle;
+  const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
+  const auto positions =
+      particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
+  const auto bytes_of_frame = base64_size(positions + planes * 6 * sizeof(float) + sizeof(double));
+  const auto radii_and_ids =
+      base64_size(particles * sizeof(float)) * (playback.ids.empty() ? 1 : 2);
+  for (std::size_t every = 1;; every *= 2) {
+    choose_frames(data, playback, every);
+    const auto others = kRest + data.frames.size() * bytes_of_frame + radii_and_ids;
+    const bool last = data.frames.size() <= 2;
+    if (others > kMostBytes && !last) continue;
+    auto contacts = contacts_of(playback, data, lowest);
+    const auto size = others + base64_size(contacts.pairs.size()) +
+                      base64_size(contacts.offsets.size()) + base64_size(contacts.frames.size());
+    if (size <= kMostBytes) return contacts;
+    if (!last) continue;
+    data.contacts = false;
+    return contacts_of(playback, data, lowest);
+  }
+}
+
+}  // namespace
+
+PageData page_data(const Playback& playback, double lowest_gamma) {
+  PageData data;
+  choose_position_bytes(data, playback);
+  auto contacts = choose_content(data, playback, lowest_gamma);
+  Bytes radii, ids, times, positions, planes;
+  const auto dimension = static_cast<std::size_t>(playback.dimension);
+  for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
+    append(radii, playback.radii[k]);
+    if (!playback.ids.empty()) append(ids, playback.ids[k]);
+  }
+  for (const auto f : data.frames) {
+    const auto& frame = playback.frames[f];
+    append(times, frame.time);
+    for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle)
+      for (std::size_t d = 0; d < dimension; ++d) {
+        const float x = frame.positions[k * dimension + d];
+        const double step = data.step[d];
+        if (data.position_bytes == 4)
+          append(positions, x);
+        else
+          append(positions,
+                 static_cast<std::uint16_t>(std::lround(
+                     step > 0 ? std::clamp((x - data.low[d]) / step, 0.0, 65535.0) : 0.0)));
+      }
+    for (const auto& plane : frame.planes)
+      for (const auto* vector : {&plane.point, &plane.normal})
+        for (const double x : *vector) append(planes, static_cast<float>(x));
+  }
+  data.blocks = {{"radii", radii}};
+  if (!ids.empty()) data.blocks.emplace_back("ids", ids);
+  data.blocks.insert(data.blocks.end(), {{"times", times},
+                                         {"positions", positions},
+                                         {"planes", planes},
+                                         {"pairs", contacts.pairs},
+                                         {"offsets", contacts.offsets},
+                                         {"contacts", contacts.frames}});
+  return data;
+}
+
+std::string base64(const Bytes& bytes) {
+  std::string text(base64_size(bytes.size()), '\0');  // OpenSSL also writes the '\0' at its end
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
+                  static_cast<int>(bytes.size()));
+  return text;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,37 @@
+// The data of the page that plays a motion of particles, as binary numbers. A change must agree
+// with report/particles/page/particles.js, which reads them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/particles/io/playback.hpp"
+
+namespace viscontact {
+
+using Bytes = std::vector<unsigned char>;
+
+/// What the page shows of a motion.
+struct PageData {
+  std::vector<std::size_t> frames;  ///< indices of the shown frames
+  std::size_t every_frame = 1, every_particle = 1;
+  bool contacts = true;
+  /// Positions are 16-bit multiples of `step` from `low` (position_bytes = 2) if `step` is small
+  /// compared with every particle, otherwise 32-bit floats (position_bytes = 4). `low` and `step`
+  /// are in [L].
+  int position_bytes = 2;
+  std::array<double, 3> low{}, step{1, 1, 1};
+  /// Names and contents of the blocks of numbers in the page.
+  std::vector<std::pair<const char*, Bytes>> blocks{};
+};
+
+/// Chooses as many frames as fit into a page of 24 MB and encodes them. If even two frames are too
+/// large, the contacts are left out.
+PageData page_data(const particles::Playback& playback, double lowest_gamma);
+
+/// The bytes in base64 (RFC 4648).
+std::string base64(const Bytes& bytes);
+
+}  // namespace viscontact

@@ -1,0 +1,137 @@
+// Writes gnuplot's commands and data, runs gnuplot and reads its SVG. Texts of the user must pass
+// through quoted_for_gnuplot, because gnuplot can run commands of the shell.
+#include "viscontact/report/pictures/gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <iterator>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/system/process.hpp"
+
+namespace viscontact {
+namespace {
+
+std::string data_block(const std::string& name, const Curve& curve) {
+  std::string text = fmt::format("${} << END_OF_CURVE\n", name);
+  for (const auto& [x, y] : curve.points)
+    if (std::isfinite(x) && std::isfinite(y))
+      fmt::format_to(std::back_inserter(text), "{:.8g} {:.8g}\n", x, y);
+    else
+      text += "\n";
+  return text + "END_OF_CURVE\n";
+}
+
+// The value of a transparent cell, because gnuplot warns of missing values in a matrix.
+constexpr double kTransparent = 1e99;
+
+std::string data_block(const std::string& name, const ColourField& field) {
+  std::string text = fmt::format("${} << END_OF_FIELD\n", name);
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    const double value = field.values[i];
+    fmt::format_to(std::back_inserter(text), "{:.4g}{}",
+                   std::isfinite(value) ? value : kTransparent,
+                   (i + 1) % field.columns == 0 ? '\n' : ' ');
+  }
+  return text + "END_OF_FIELD\n";
+}
+
+std::string plot_of(const std::string& name, const ColourField& field) {
+  const double width = (field.right - field.left) / static_cast<double>(field.columns);
+  const double height = (field.top - field.bottom) / static_cast<double>(field.rows);
+  return fmt::format(
+      "plot ${} matrix using ({:.17g} + $1 * {:.17g}):({:.17g} + $2 * {:.17g}):($3 < {} ? $3 : "
+      "NaN) "
+      "with image notitle",
+      name, field.left + width / 2, width, field.bottom + height / 2, height, kTransparent);
+}
+
+/// The last 300 characters of a program's output.
+std::string last_part(const std::string& output) {
+  constexpr std::size_t kLength = 300;
+  return output.size() <= kLength ? output : output.substr(output.size() - kLength);
+}
+
+std::string panel_script(const Panel& panel, std::size_t index) {
+  std::string script;
+  for (std::size_t i = 0; i < panel.curves.size(); ++i)
+    script += data_block(fmt::format("panel{}curve{}", index, i), panel.curves[i]);
+  script += fmt::format("unset logscale\nset title {}\nset xlabel {}\nset ylabel {}\n",
+                        quoted_for_gnuplot(panel.title), quoted_for_gnuplot(panel.x_label),
+                        quoted_for_gnuplot(panel.y_label));
+  if (panel.x_log) script += "set logscale x\n";
+  if (panel.y_log) script += "set logscale y\n";
+  for (const auto& setting : panel.settings) script += setting + "\n";
+  std::string plots;
+  if (panel.field) {
+    const auto name = fmt::format("panel{}field", index);
+    script += data_block(name, *panel.field);
+    plots = plot_of(name, *panel.field);
+  }
+  for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+    const auto& curve = panel.curves[i];
+    if (curve.points.empty()) continue;  // gnuplot refuses an empty block
+    plots +=
+        fmt::format("{}$panel{}curve{} using 1:2 with {} {}", plots.empty() ? "plot " : ", ", index,
+                    i, curve.style,
+                    curve.legend.empty() ? "notitle" : "title " + quoted_for_gnuplot(curve.legend));
+  }
+  return script + plots + "\n";
+}
+
+}  // namespace
+
+std::string quoted_for_gnuplot(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '\n')
+      result += "\\n";
+    else if (c == '`')
+      result += "\\140";  // an unescaped backquote would run a command of the shell
+    else if (static_cast<unsigned char>(c) < ' ')
+      result += "\uFFFD";  // control characters are not allowed in an SVG
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
+                     const StopToken& stop) {
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set terminal svg size {},{} dynamic noenhanced font 'sans-serif,14' background 'white'\n"
+      "set grid linecolor '#dddddd'\nset border linecolor '#444444'\nset key opaque spacing 1.15\n",
+      width, height);
+  if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
+  for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
+  if (panels.size() > 1) script += "unset multiplot\n";
+  // A picture takes about one second, so ten minutes mean that gnuplot hangs.
+  constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
+  // The shell command puts gnuplot's warnings after the picture, so that none is within it.
+  const auto result = run_process(
+      {"/bin/sh", "-c",
+       "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},
+      {"LC_ALL=C"}, script, {}, kLongest, stop);
+  if (result.timed_out)
+    throw Error(ErrorKind::kExternalProgram,
+                fmt::format("gnuplot had not ended after {} s and was stopped", kLongest.count()));
+  constexpr int kCannotBeRun = 126, kNotFound = 127;  // exit codes of the shell
+  if (!result.started || result.exit_status == kNotFound || result.exit_status == kCannotBeRun)
+    throw GnuplotMissing(
+        ErrorKind::kExternalProgram,
+        fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
+                    result.output));
+  const auto start = result.output.find("<svg");
+  const auto end = result.output.rfind("</svg>");
+  if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
+    throw Error(ErrorKind::kExternalProgram,
+                fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
+                            last_part(result.output)));
+  return result.output.substr(start, end + 6 - start) + "\n";
+}
+
+}  // namespace viscontact

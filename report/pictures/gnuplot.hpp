@@ -1,0 +1,56 @@
+// Draws curves and colour fields as SVG with the program gnuplot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact {
+
+/// The error that gnuplot is not installed or cannot be started.
+class GnuplotMissing : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A curve of points (x, y).
+struct Curve {
+  std::string legend;                             ///< empty: no entry in the legend
+  std::string style;                              ///< for gnuplot, such as "lines linewidth 2"
+  std::vector<std::pair<double, double>> points;  ///< a non-finite ordinate interrupts the line
+};
+
+/// Values that are shown as colours in equal cells of a rectangle, row by row from the bottom, each
+/// row from the left. Cells with non-finite values are transparent. The commands in Panel::settings
+/// set the colours (palette, cbrange).
+struct ColourField {
+  std::size_t columns = 0, rows = 0;  ///< at least 2
+  double left = 0, right = 0, bottom = 0, top = 0;
+  std::vector<double> values;
+};
+
+/// Curves, and possibly a colour field, on common axes.
+struct Panel {
+  std::string title, x_label, y_label;
+  bool x_log = false, y_log = false;
+  std::vector<std::string> settings;  ///< further gnuplot commands
+  std::vector<Curve> curves;
+  std::optional<ColourField> field{};  ///< drawn below the curves
+};
+
+/// Quotes any text, also of several lines, as a string for gnuplot, so that gnuplot executes
+/// nothing in it as a command.
+std::string quoted_for_gnuplot(const std::string& text);
+
+/// Draws the panels one below the other as one SVG element, which may stand in an HTML page.
+/// `width` and `height` are in pixels. Throws GnuplotMissing(kExternalProgram) if gnuplot cannot be
+/// run, Error(kExternalProgram) if gnuplot fails or has not ended after ten minutes,
+/// and Error(kInterrupted) if `stop` requests a stop.
+std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
+                     const StopToken& stop = {});
+
+}  // namespace viscontact

@@ -1,0 +1,18 @@
+// The picture of `viscontact shift`: how far below its crests a rough wall acts like a smooth one
+// (fitting/wall_shift.hpp).
+#pragma once
+
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/fitting/wall_shift.hpp"
+
+namespace viscontact {
+
+/// An SVG element with two panels over the gap: the shift of each row beside the common shift [L],
+/// and the relative residuals with the common shift. `wall` names the wall in the title. Throws
+/// Error(kExternalProgram) if gnuplot is missing or fails.
+std::string plot_wall_shift(const WallShift& shift, const std::string& wall,
+                            const StopToken& stop = {});
+
+}  // namespace viscontact

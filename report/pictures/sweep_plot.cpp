@@ -1,0 +1,250 @@
+// Reads a sweep's file row by row, because it may be larger than the memory, and draws it.
+#include "viscontact/report/pictures/sweep_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <ranges>
+#include <set>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/report/pictures/colours.hpp"
+#include "viscontact/report/pictures/gnuplot.hpp"
+
+namespace viscontact {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  for (const auto& field : std::views::split(line, ','))
+    fields.emplace_back(field.begin(), field.end());
+  return fields;
+}
+
+/// Reads the chosen columns of a sweep's file, row by row.
+class SweepRows {
+ public:
+  explicit SweepRows(const std::filesystem::path& path) : path_(path), file_(path) {
+    std::string line;
+    while (std::getline(file_, line) && line.starts_with("#")) continue;
+    names_ = fields_of(line);
+  }
+
+  /// The indices of a column and of the key by which it is divided, if any.
+  struct Place {
+    std::size_t column;
+    std::optional<std::size_t> divisor;
+  };
+  Place find(const std::string& name) const {
+    const auto slash = name.find('/');
+    if (slash == std::string::npos) return {index_of(name), {}};
+    return {index_of(name.substr(0, slash)), index_of(name.substr(slash + 1))};
+  }
+
+  /// Reads the next row; returns false at the end. Blank lines are skipped.
+  bool next() {
+    std::string line;
+    do
+      if (!std::getline(file_, line)) return false;
+    while (line.find_first_not_of(" \t\r,") == std::string::npos);
+    fields_ = fields_of(line);
+    return true;
+  }
+
+  double value(const Place& place) const {
+    const double value = parse_number(fields_.at(place.column)).value_or(kNothing);
+    return place.divisor ? value / parse_number(fields_.at(*place.divisor)).value_or(kNothing)
+                         : value;
+  }
+
+ private:
+  std::size_t index_of(const std::string& name) const {
+    const auto found = std::ranges::find(names_, name);
+    if (found == names_.end())
+      throw_bad_input({path_.string()}, fmt::format("has no column '{}'; its columns are: {}", name,
+                                                    fmt::join(names_, ", ")));
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::vector<std::string> names_, fields_;
+};
+
+/// True if all finite values are positive and span a decade or more, so that a logarithmic axis
+/// shows more.
+bool is_logarithmic(const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return low > 0 && high >= 10 * low;
+}
+
+constexpr int kSweepWidth = 860;  // [pixels]
+
+/// Throws Error(kBadInput) if no value can be drawn.
+void check_has_value(const std::filesystem::path& path, const std::vector<double>& values,
+                     bool one_column) {
+  if (std::ranges::none_of(values, [](double v) { return std::isfinite(v); }))
+    throw_bad_input({path.string()},
+                    one_column ? "has no value to draw in the column that was asked for"
+                               : "has no value to draw in the columns that were asked for");
+}
+
+std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
+                       const StopToken& stop) {
+  SweepRows rows(path);
+  const auto x = rows.find(plot.x);
+  std::vector<SweepRows::Place> places;
+  for (const auto& column : plot.columns) places.push_back(rows.find(column));
+  constexpr std::array kColours = {kBlue, kVermilion, kGreen, kPurple, kOrange, kSkyBlue, kBlack};
+  Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
+              false, false,  {"set key below Left reverse noopaque"},
+              {}};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    panel.curves.push_back(
+        {plot.columns.size() == 1 ? "" : plot.columns[i],
+         fmt::format("linespoints pointtype 7 pointsize 0.4 linewidth 2 linecolor rgb '{}'",
+                     kColours[i % kColours.size()]),
+         {}});
+  std::vector<double> xs, ys;
+  while (rows.next())
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      panel.curves[i].points.emplace_back(rows.value(x), rows.value(places[i]));
+      xs.push_back(rows.value(x));
+      ys.push_back(rows.value(places[i]));
+    }
+  check_has_value(path, ys, false);
+  // The rows of random samples are not in the order of x.
+  for (auto& curve : panel.curves)
+    std::ranges::sort(curve.points, {}, &std::pair<double, double>::first);
+  panel.x_log = is_logarithmic(xs);
+  panel.y_log = is_logarithmic(ys);
+  for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
+    if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
+  return draw_svg({panel}, kSweepWidth, 520, stop);
+}
+
+double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
+
+std::string label(const std::string& name, bool logarithmic) {
+  return logarithmic ? fmt::format("log10 {}", name) : name;
+}
+
+/// An axis of a map. `low` and `high` are its ends on its scale.
+struct MapAxis {
+  std::set<double> values;
+  bool logarithmic = false;
+  double low = 0, high = 0;
+};
+
+/// The axis with the values at the centres of cells. On its scale, it extends half a mean cell
+/// beyond the first and the last value.
+MapAxis axis_of(const std::set<double>& values) {
+  const bool logarithmic = is_logarithmic({values.begin(), values.end()});
+  const double first = scaled(*values.begin(), logarithmic);
+  const double last = scaled(*values.rbegin(), logarithmic);
+  const double margin = (last - first) / static_cast<double>(values.size() - 1) / 2;
+  return {values, logarithmic, first - margin, last + margin};
+}
+
+/// The value that each of the pixels along the axis shows: the nearest, so that grids of unequal
+/// spacing are drawn at the right place.
+std::vector<double> values_of_pixels(const MapAxis& axis) {
+  // Programs that show a picture with few pixels smooth it. With eight pixels for each value, the
+  // edges of the values stay sharp.
+  const auto pixels = 8 * axis.values.size();
+  std::vector<double> found;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double at = axis.low + (axis.high - axis.low) * (static_cast<double>(i) + 0.5) /
+                                     static_cast<double>(pixels);
+    found.push_back(*std::ranges::min_element(axis.values, {}, [&](double value) {
+      return std::abs(scaled(value, axis.logarithmic) - at);
+    }));
+  }
+  return found;
+}
+
+/// Commands of gnuplot for the colours of values from `low` to `high`.
+std::vector<std::string> map_colours(double low, double high) {
+  const double reach = std::max(-low, high);
+  if (low < -reach / 10 && high > reach / 10)
+    // For values of both signs, a scale from blue over grey to red (Moreland 2009).
+    return {"set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')",
+            fmt::format("set cbrange [{}:{}]", -reach, reach)};
+  // The lightness of this scale (cividis, Nunez et al. 2018) increases throughout, so that
+  // colour-blind readers and readers of prints can read it.
+  return {
+      "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78', 0.75 '#bcae6c', 1 "
+      "'#fee838')"};
+}
+
+std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
+                     const StopToken& stop) {
+  SweepRows rows(path);
+  const auto x = rows.find(plot.x), y = rows.find(plot.y), column = rows.find(plot.columns[0]);
+  std::map<std::pair<double, double>, double> cells;
+  std::set<double> xs, ys;
+  std::vector<double> values;
+  while (rows.next()) {
+    xs.insert(rows.value(x));
+    ys.insert(rows.value(y));
+    cells[{rows.value(y), rows.value(x)}] = rows.value(column);
+    values.push_back(rows.value(column));
+  }
+  if (xs.size() < 2 || ys.size() < 2)
+    throw_bad_input({path.string()},
+                    "is not a grid of at least two values in each direction, which a map needs");
+  check_has_value(path, values, true);
+  const auto horizontal = axis_of(xs), vertical = axis_of(ys);
+  const bool logarithmic = is_logarithmic(values);
+  const auto columns = values_of_pixels(horizontal), lines = values_of_pixels(vertical);
+  ColourField field{columns.size(),
+                    lines.size(),
+                    horizontal.low,
+                    horizontal.high,
+                    vertical.low,
+                    vertical.high,
+                    {}};
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double line : lines)
+    for (const double at : columns) {
+      const auto cell = cells.find({line, at});
+      const double value = cell == cells.end() ? kNothing : cell->second;
+      const double shown = logarithmic && !(value > 0) ? kNothing : scaled(value, logarithmic);
+      field.values.push_back(shown);
+      if (std::isfinite(shown)) low = std::min(low, shown), high = std::max(high, shown);
+    }
+  Panel panel{label(plot.columns[0], logarithmic),
+              label(plot.x, horizontal.logarithmic),
+              label(plot.y, vertical.logarithmic),
+              false,
+              false,
+              {fmt::format("set xrange [{}:{}]", field.left, field.right),
+               fmt::format("set yrange [{}:{}]", field.bottom, field.top), "unset key"},
+              {}};
+  std::ranges::move(map_colours(low, high), std::back_inserter(panel.settings));
+  panel.field = std::move(field);
+  return draw_svg({panel}, kSweepWidth, 620, stop);
+}
+
+}  // namespace
+
+std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
+                       const StopToken& stop) {
+  return plot.y.empty() ? plot_lines(sweep_file, plot, stop) : plot_map(sweep_file, plot, stop);
+}
+
+}  // namespace viscontact

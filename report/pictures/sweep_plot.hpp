@@ -1,0 +1,27 @@
+// The picture of a sweep, from its CSV file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact {
+
+/// What to draw. A column is a column of the file, or "COLUMN/KEY" for its quotient by a key that
+/// the sweep varies.
+struct SweepPlot {
+  std::string x;                     ///< key of the horizontal axis
+  std::string y;                     ///< key for a map of columns[0]; empty: lines over x
+  std::vector<std::string> columns;  ///< at least one
+};
+
+/// An SVG with lines, or with a heat map over the grid of two keys. Axes and colours are
+/// logarithmic if all values are positive and span a decade or more. Throws Error(kBadInput) that
+/// lists the columns of the file if a column does not exist, Error(kBadInput) if there is nothing
+/// to draw, and Error(kExternalProgram) if gnuplot is missing or fails.
+std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
+                       const StopToken& stop = {});
+
+}  // namespace viscontact

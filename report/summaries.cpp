@@ -1,0 +1,149 @@
+// Columns and words of the summaries.
+#include "viscontact/report/summaries.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/report/pictures/colours.hpp"
+#include "viscontact/report/pictures/gnuplot.hpp"
+
+namespace viscontact {
+namespace {
+
+std::string number_or_dash(const std::optional<double>& number, const char* format) {
+  return number ? fmt::format(fmt::runtime(format), *number) : "-";
+}
+
+std::string misfit_in_words(const FitDiagnostics& d) {
+  if (!d.chi_squared) return "";
+  return fmt::format(
+      "; chi-squared {:.3g} for {} degrees of freedom{}", *d.chi_squared, d.degrees_of_freedom,
+      d.misfit == Misfit::kBasis  ? ": the misfit is the basis's, not the data's"
+      : d.misfit != Misfit::kData ? ""
+      : d.outliers.empty()        ? ": the data explain the residuals"
+                                  : ": but for the outliers, the data explain the residuals");
+}
+
+/// The residual of the left-out row as text, or a dash if there is no such row.
+std::string left_out(const std::optional<LeftOutRow>& row, const char* format) {
+  return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
+}
+
+}  // namespace
+
+std::string fit_in_words(const Fit& fit) {
+  const auto& d = fit.diagnostics.value();
+  std::string text = fmt::format(
+      "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {} between the "
+      "rows and {} beyond an end, condition number {:.2g}{}",
+      fit.basis, fit.largest_relative_residual, d.worst_gap, left_out(d.left_out_inner, "{:.2g}"),
+      left_out(d.left_out_end, "{:.2g}"), fit.condition_number, misfit_in_words(d));
+  for (const auto& outlier : d.outliers)
+    text += fmt::format(
+        "\nfit: outlier at gap {:.6g}, velocity {:.6g}: the fit is {:+.2g} relative from it",
+        outlier.gap, outlier.reference_velocity, outlier.relative_residual);
+  return text;
+}
+
+std::string basis_table(const std::vector<BasisResult>& results) {
+  constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>14} {:>9} {:>11} {:>10} {:>8}\n";
+  std::string text = fmt::format(fmt::runtime(kLine), "basis", "terms", "largest res.", "rms",
+                                 "left out inner", "end", "chi2/dof", "condition", "AICc");
+  for (const auto& result : results) {
+    if (!result.fit) {
+      text += fmt::format("{:<20} {}\n", result.basis, result.failure);
+      continue;
+    }
+    const auto& fit = *result.fit;
+    const auto& d = fit.diagnostics.value();
+    const auto reduced =
+        d.chi_squared && d.degrees_of_freedom > 0
+            ? std::optional(*d.chi_squared / static_cast<double>(d.degrees_of_freedom))
+            : std::nullopt;
+    text +=
+        fmt::format(fmt::runtime(kLine), result.basis, fit.terms.size(),
+                    fmt::format("{:.2e}", fit.largest_relative_residual),
+                    fmt::format("{:.1e}", fit.rms_relative_residual),
+                    left_out(d.left_out_inner, "{:.2e}"), left_out(d.left_out_end, "{:.2e}"),
+                    number_or_dash(reduced, "{:.2g}"), fmt::format("{:.1e}", fit.condition_number),
+                    number_or_dash(d.information_criterion, "{:.1f}"));
+  }
+  if (const auto* best = best_basis(results)) text += fmt::format("least AICc: {}\n", best->basis);
+  return text;
+}
+
+std::string basis_json(const std::vector<BasisResult>& results) {
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& result : results)
+    json.push_back(result.fit ? nlohmann::ordered_json::parse(write_fit(*result.fit))
+                              : nlohmann::ordered_json(
+                                    {{"basis", result.basis}, {"failure", result.failure}}));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results,
+                       const StopToken& stop) {
+  constexpr std::array kColours = {kVermilion, kBlue, kGreen, kPurple};
+  Panel panel{"Relative residuals of the fits",
+              "gap q",
+              "|fit / table - 1|",
+              true,
+              true,
+              {"set format y '1e%T'", "set key below Left reverse noopaque"},
+              {}};
+  // Of a table with more than 2000 rows, only every n-th row is drawn, because a picture cannot
+  // show more points.
+  constexpr std::size_t kMostPoints = 2000;
+  const std::size_t stride = 1 + table.rows.size() / kMostPoints;
+  std::size_t place = 0;
+  for (const auto& result : results) {
+    const char* colour = kColours.at(place++ % kColours.size());
+    if (!result.fit) continue;
+    const double u0 = result.fit->reference_velocity;
+    Curve curve{
+        result.basis,
+        fmt::format("linespoints pointtype 7 pointsize 0.45 linewidth 1.5 linecolor rgb '{}'",
+                    colour),
+        {}};
+    for (std::size_t i = 0; i < table.rows.size(); i += stride) {
+      const auto& row = table.rows[i];
+      double force = 0;
+      for (const auto& term : result.fit->terms)
+        force += term.coefficient * find_term(term.name).value().value(row.gap);
+      const double residual = std::abs(force * row.reference_velocity / u0 / row.force - 1);
+      // A logarithmic axis has no zero, so a residual of 0 is not drawn.
+      curve.points.emplace_back(row.gap, residual > 0 ? residual : std::nan(""));
+    }
+    panel.curves.push_back(curve);
+  }
+  Curve estimate{
+      "table's own error estimate", "points pointtype 4 pointsize 0.6 linecolor rgb '#000000'", {}};
+  for (std::size_t i = 0; i < table.rows.size(); i += stride)
+    if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
+      estimate.points.emplace_back(row.gap, row.relative_error_estimate);
+  if (!estimate.points.empty()) panel.curves.push_back(estimate);
+  return draw_svg({panel}, 860, 520, stop);
+}
+
+std::string comparison_table(const Comparison& comparison) {
+  constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}\n";
+  std::string text = fmt::format(kLine, "model", "smallest gap", "at time", "film from gamma",
+                                 "in contact", "sup |dq|");
+  for (const auto& model : comparison.models)
+    text += fmt::format(
+        kLine, model.model, fmt::format("{:.6g}", model.minimal_gap),
+        fmt::format("{:.6g}", model.minimal_gap_time),
+        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap) : "-",
+        model.contact_interval ? fmt::format("[{:.4g}, {:.4g}]", (*model.contact_interval)[0],
+                                             (*model.contact_interval)[1])
+                               : "-",
+        fmt::format("{:.3g}", model.sup_gap_distance));
+  for (const auto& failed : comparison.failed_models)
+    text += fmt::format("{:<30} failed: {}\n", failed.model, failed.reason);
+  return text;
+}
+
+}  // namespace viscontact

@@ -1,0 +1,32 @@
+// What the terminal shows of fits and comparisons: words, tables, and the picture of several bases.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/fitting/basis_comparison.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+
+namespace viscontact {
+
+/// One or a few lines: basis, residuals, the cause of the misfit, outliers.
+std::string fit_in_words(const Fit& fit);
+
+/// A table with one line for each basis, and a last line that names the best basis.
+std::string basis_table(const std::vector<BasisResult>& results);
+
+/// The results as JSON: a list with an object for each basis, which is its fit file, or has "basis"
+/// and "failure" if the fit failed.
+std::string basis_json(const std::vector<BasisResult>& results);
+
+/// An SVG of the relative residuals of every basis over the gap, beside the table's error
+/// estimates. Throws Error(kExternalProgram) as draw_svg does.
+std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results,
+                       const StopToken& stop = {});
+
+/// One line per model: smallest gap and its time, recovered film, times of contact, largest
+/// distance to the reference.
+std::string comparison_table(const Comparison& comparison);
+
+}  // namespace viscontact

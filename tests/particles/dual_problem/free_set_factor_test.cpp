@@ -1,0 +1,73 @@
+// The factor of W between free contacts against a dense inverse.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "tests/particles/dual_problem/dense_problem.hpp"
+#include "tests/particles/dual_problem/random_problem.hpp"
+#include "tests/particles/systems.hpp"
+#include "viscontact/particles/dual_problem/dual_solver.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
+  Random random(7);
+  ThreadPool pool(1);
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    const auto problem = random_problem<2>(random);
+    const auto dense = problem.dense();
+    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
+    const auto choose_free = [&] {
+      for (std::size_t c = 0; c < graph.count(); ++c)
+        graph.z[c] = graph.bound[c] + (random.chance(0.7) ? 1 : 0);
+    };
+    choose_free();
+    std::vector<Eigen::Index> made_of;
+    for (std::size_t c = 0; c < graph.count(); ++c)
+      if (graph.is_free(c)) made_of.push_back(static_cast<Eigen::Index>(c));
+    FreeSetFactor<2> factor;
+    EXPECT_FALSE(factor.exists());
+    std::vector<char> active(graph.count());
+    for (std::size_t c = 0; c < graph.count(); ++c) active[c] = graph.is_free(c) ? 1 : 0;
+    ASSERT_TRUE(factor.factorise(graph, active));
+    ASSERT_TRUE(factor.exists());
+    choose_free();
+
+    const Eigen::MatrixXd half = dense.diagonal().cwiseSqrt().cwiseInverse().asDiagonal() *
+                                 dense.g * dense.weight.cwiseSqrt().cwiseInverse().asDiagonal();
+    Eigen::MatrixXd w = (half * half.transpose())(made_of, made_of);
+    constexpr double kEpsilon = 1e-10;  // of the factor
+    w.diagonal().array() += kEpsilon;
+    std::vector<double> gradient(graph.count()), solved(graph.count());
+    for (auto& g : gradient) g = random.uniform(-1, 1);
+    const double product = factor.precondition(graph, gradient, solved);
+    Eigen::VectorXd right(static_cast<Eigen::Index>(made_of.size()));
+    for (Eigen::Index k = 0; k < right.size(); ++k) {
+      const auto c = static_cast<std::size_t>(made_of[static_cast<std::size_t>(k)]);
+      right[k] = graph.is_free(c) ? gradient[c] : 0;
+    }
+    const Eigen::VectorXd inverse = w.ldlt().solve(right);
+    double expected_product = 0;
+    auto expected = gradient;
+    for (Eigen::Index k = 0; k < right.size(); ++k)
+      expected[static_cast<std::size_t>(made_of[static_cast<std::size_t>(k)])] = inverse[k];
+    // Rounding, times the condition of at most 10/epsilon.
+    const double rounding =
+        1e-15 * 10 / kEpsilon * std::max(1.0, inverse.lpNorm<Eigen::Infinity>());
+    for (std::size_t c = 0; c < graph.count(); ++c) {
+      if (!graph.is_free(c)) expected[c] = 0;
+      EXPECT_NEAR(solved[c], expected[c], rounding) << c;
+      expected_product += expected[c] * gradient[c];
+    }
+    EXPECT_NEAR(product, expected_product, static_cast<double>(graph.count()) * rounding);
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::particles

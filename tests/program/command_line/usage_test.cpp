@@ -1,0 +1,210 @@
+// What needs no input: wrong command lines, --help, --version, doctor.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+struct WrongUsage {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::string said;
+};
+
+// What GoogleTest shows of the parameter.
+std::ostream& operator<<(std::ostream& out, const WrongUsage& usage) { return out << usage.name; }
+
+class WrongCommandLine : public ::testing::TestWithParam<WrongUsage> {};
+
+TEST_P(WrongCommandLine, EndsWithExitCode2AndPointsToHelp) {
+  const auto result = run_viscontact(GetParam().arguments);
+  expect_refusal(result, ErrorKind::kWrongUsage,
+                 AllOf(HasSubstr(GetParam().said), HasSubstr("--help")));
+  EXPECT_EQ(result.output, "");
+}
+
+// None of the files exists: the command line is refused before anything is read.
+INSTANTIATE_TEST_SUITE_P(
+    Each, WrongCommandLine,
+    ::testing::Values(
+        WrongUsage{"NoCommand", {}, "subcommand"},
+        WrongUsage{"UnknownCommand", {"tabulte", "case.toml"}, "no subcommand 'tabulte'"},
+        WrongUsage{"OutputTwiceUnderTwoNames",
+                   {"sweep", "case.toml", "-o", "a.csv", "--plot", "./a.csv"},
+                   "./a.csv would be written twice"},
+        WrongUsage{
+            "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
+        WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
+        WrongUsage{
+            "ArgumentTooMany", {"fit", "table.csv", "other.csv", "-o", "fit.json"}, "other.csv"},
+        WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
+        WrongUsage{"UnknownBasis",
+                   {"fit", "table.csv", "-o", "f.json", "--basis", "cubic"},
+                   "--basis: no basis is named 'cubic'; there are: lecture"},
+        WrongUsage{"UnknownTerm",
+                   {"fit", "table.csv", "-o", "f.json", "--terms", "1/q, q^9"},
+                   "--terms: no term is named 'q^9'; there are: 1/q"},
+        WrongUsage{"UnknownWeights",
+                   {"fit", "table.csv", "-o", "f.json", "--weights", "heavy"},
+                   "--weights: the weights are 'heavy'; they must be relative or absolute"},
+        WrongUsage{"UnknownLoss",
+                   {"fit", "table.csv", "-o", "f.json", "--loss", "l1"},
+                   "--loss: no loss is named 'l1'; there are: none, huber"},
+        WrongUsage{"UnknownExportTarget",
+                   {"export", "fit.json", "--to", "matlab"},
+                   "--to: no export target is named 'matlab'; there are: c-header"},
+        WrongUsage{"UnknownModelToSimulate",
+                   {"simulate", "case.toml", "-o", "out", "--models", "inertial,magic"},
+                   "--models: no model is named 'magic'; there are: reference"},
+        WrongUsage{"UnknownModelToSweep",
+                   {"sweep", "case.toml", "-o", "rows.csv", "--models", "magic"},
+                   "--models: no model is named 'magic'"},
+        WrongUsage{"MissingCase", {"run", "-o", "out"}, "CASE"},
+        WrongUsage{"MissingFolder", {"report"}, "DIR"},
+        WrongUsage{"OptionWithoutValue", {"compare", "out", "--reference"}, "--reference"},
+        WrongUsage{
+            "ZeroJobs", {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "0"}, "--jobs"},
+        WrongUsage{"NegativeJobs", {"run", "case.toml", "-o", "out", "--jobs", "-1"}, "--jobs"},
+        WrongUsage{"JobsNotANumber",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "x"},
+                   "--jobs"},
+        WrongUsage{"JobsAFraction",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--jobs", "1.5"},
+                   "--jobs"},
+        WrongUsage{"CasesOfEqualNames",
+                   {"tabulate", "a/case.toml", "b/case.toml", "-o", "out"},
+                   "a/case.toml and b/case.toml would both be tabulated to out/case.csv"},
+        WrongUsage{"TaskBeyondTheLast",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--task", "4/4"},
+                   "--task is '4/4'"},
+        WrongUsage{"TaskWithoutCount",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--task", "4"},
+                   "--task is '4'"},
+        WrongUsage{"FitWithoutOutput", {"fit", "table.csv"}, "--output is required"},
+        WrongUsage{"FitWithTwoBases",
+                   {"fit", "table.csv", "-o", "f.json", "--basis", "lecture", "--terms", "1/q"},
+                   "--terms"},
+        WrongUsage{"FixOfAnotherTerm",
+                   {"fit", "table.csv", "-o", "f.json", "--fix", "q^2=1"},
+                   "--fix is 'q^2=1'"},
+        WrongUsage{"FixOfNoNumber",
+                   {"fit", "table.csv", "-o", "f.json", "--fix", "1/q=x"},
+                   "--fix is '1/q=x'"},
+        WrongUsage{"PictureOfOneFit",
+                   {"fit", "table.csv", "-o", "f.json", "--plot", "p.svg"},
+                   "--plot needs --compare-bases"},
+        WrongUsage{"FitAndPictureInOneFile",
+                   {"fit", "table.csv", "-o", "f.json", "--compare-bases", "--plot", "f.json"},
+                   "would be written twice"},
+        WrongUsage{"OutputWithoutAName", {"tabulate", "case.toml", "-o", ""}, "an empty name"},
+        WrongUsage{"UnknownLauncher",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--launcher", "pbs"},
+                   "--launcher"},
+        WrongUsage{"GatherAndSubmit",
+                   {"tabulate", "case.toml", "-o", "table.csv", "--gather", "--launcher", "slurm"},
+                   "--gather"},
+        WrongUsage{
+            "TasksHere", {"tabulate", "case.toml", "-o", "table.csv", "--tasks", "4"}, "--tasks"}),
+    [](const auto& test) { return test.param.name; });
+
+struct Help {
+  std::string command;
+  std::vector<std::string> options;  ///< of docs: positionals in capitals
+};
+
+std::ostream& operator<<(std::ostream& out, const Help& help) { return out << help.command; }
+
+class CommandHelp : public ::testing::TestWithParam<Help> {};
+
+TEST_P(CommandHelp, IsPrintedWithEveryOption) {
+  const auto result = run_viscontact({GetParam().command, "--help"});
+  expect_done(result);
+  EXPECT_EQ(result.errors, "");
+  EXPECT_THAT(result.output, HasSubstr("viscontact " + GetParam().command));
+  for (const auto& option : GetParam().options) EXPECT_THAT(result.output, HasSubstr(option));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, CommandHelp,
+    ::testing::Values(
+        Help{"run", {"CASE", "-o,--output", "--jobs"}},
+        Help{"tabulate", {"CASE", "-o,--output", "--jobs"}},
+        Help{"fit",
+             {"TABLE", "-o,--output", "--basis", "lecture", "asymptotic", "--weights", "relative",
+              "absolute", "--terms", "q ln q", "--loss", "huber", "--fix", "--compare-bases",
+              "--plot"}},
+        Help{"export", {"FIT", "--to", "c-header", "fortran", "python", "json", "csv"}},
+        Help{"simulate",
+             {"CASE", "--fit", "-o,--output", "--models", "viscous_contact_threshold",
+              "--lubrication-limit", "--stokes-limit"}},
+        Help{"compare", {"DIR", "TRAJECTORY", "--reference", "inertial", "-o,--output"}},
+        Help{"report", {"DIR"}}, Help{"doctor", {}}),
+    [](const auto& test) { return test.param.command; });
+
+TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {
+  // Its lines are broken in the middle of a list.
+  std::string words;
+  for (const char c : run_viscontact({"simulate", "--help"}).output)
+    if (c != '\n' && (c != ' ' || !words.ends_with(' '))) words += c;
+  const auto by_default = words.find("else reference");
+  const auto on_request = words.find("on request: ");
+  ASSERT_NE(by_default, std::string::npos) << words;
+  ASSERT_NE(on_request, std::string::npos) << words;
+  for (const auto& model : all_models())
+    EXPECT_NE(words.find(model.name, model.by_default ? by_default : on_request), std::string::npos)
+        << model.name;
+  EXPECT_GT(words.find("inelastic_contact"), on_request);
+}
+
+TEST(ProgramHelp, NamesEveryCommand) {
+  const auto result = run_viscontact({"--help"});
+  expect_done(result);
+  for (const auto* command :
+       {"run", "tabulate", "fit", "export", "simulate", "compare", "report", "doctor", "--version"})
+    EXPECT_THAT(result.output, HasSubstr(std::string("  ") + command + " "));
+}
+
+TEST(Version, NamesTheProgramsThatMakeAResult) {
+  const auto result = run_viscontact({"--version"});
+  expect_done(result);
+  EXPECT_THAT(result.output, StartsWith("viscontact "));
+  for (const auto* program : {"\nFreeFEM ", "\nCeres ", "\nSUNDIALS ", "\nEigen "})
+    EXPECT_THAT(result.output, ::testing::ContainsRegex(std::string(program) + "[0-9]+\\.[0-9]+"));
+}
+
+TEST(Version, IsPrintedWithoutFreeFem) {
+  const auto result = run_viscontact({"--version"}, {"VISCONTACT_FREEFEM=no-such-freefem"});
+  expect_done(result);
+  EXPECT_THAT(result.output, HasSubstr("FreeFEM not found"));
+}
+
+TEST(Doctor, FindsNothingMissingAndSolvesAKnownRow) {
+  const auto result = run_viscontact({"doctor"});
+  expect_done(result);
+  EXPECT_THAT(result.output,
+              AllOf(HasSubstr("FreeFEM solves"), HasSubstr("gnuplot"), HasSubstr("Ceres"),
+                    HasSubstr("SUNDIALS"), Not(HasSubstr("MISSING"))));
+}
+
+TEST(Doctor, SaysHowToMendWhatIsMissing) {
+  const TemporaryFolder empty;
+  const auto result = run_viscontact({"doctor"}, {"PATH=" + empty.path().string()});
+  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kExternalProgram));
+  EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"),
+                                   HasSubstr("apt-get install gnuplot-nox")));
+}
+
+}  // namespace
+}  // namespace viscontact

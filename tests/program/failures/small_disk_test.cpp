@@ -1,0 +1,105 @@
+// Tabulations on a disk that is full; the disk is a tmpfs of a few pages, which root may mount.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/tabulate/disturbed_tabulation.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// A file system of a few pages of 4 KiB.
+class SmallDisk {
+ public:
+  explicit SmallDisk(std::filesystem::path place) : place_(std::move(place)) {
+    std::filesystem::create_directory(place_);
+    mounted_ = ::mount("tmpfs", place_.c_str(), "tmpfs", 0, "size=16k") == 0;
+    if (!mounted_) reason_ = std::strerror(errno);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    if (mounted_) ::umount2(place_.c_str(), MNT_DETACH);
+  }
+  bool mounted() const { return mounted_; }
+  const std::string& reason() const { return reason_; }
+
+  /// Leaves so many bytes free.
+  void fill_but(std::size_t bytes) const {
+    const auto space = std::filesystem::space(place_).available;
+    if (space > bytes) put_text(place_ / "filler", std::string(space - bytes, 'x'));
+  }
+  void make_room() const { std::filesystem::remove(place_ / "filler"); }
+
+ private:
+  std::filesystem::path place_;
+  bool mounted_ = false;
+  std::string reason_;
+};
+
+class FullDisk : public DisturbedTabulation {
+ protected:
+  void SetUp() override {
+    // Root may mount, and the tests of a clone that scripts/setup made run as root: there nothing
+    // is skipped. To another user a full disk is shown by the limit on file sizes alone
+    // (disk_full_test.cpp).
+    if (::geteuid() == 0) {
+      ASSERT_TRUE(disk_.mounted()) << disk_.reason();
+    }
+    if (!disk_.mounted()) GTEST_SKIP() << "mounting a tmpfs is not permitted: " << disk_.reason();
+  }
+  static constexpr std::size_t kPage = 4096;
+  SmallDisk disk_{scratch_.path() / "disk"};
+};
+
+TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
+  const FakeFreeFem fake(scratch_.path());
+  put_text(path("case.toml"), case_of_24_rows());
+  expect_done(tabulate(path("undisturbed.csv"), fake.executable()));
+  const auto answers_before = fake.answered().size();
+  disk_.fill_but(kPage);  // about 20 rows
+  const auto full = tabulate(path("disk/table.csv"), fake.executable());
+  expect_refusal(full, ErrorKind::kBadInput,
+                 AllOf(HasSubstr("table.csv.rows: cannot be written (No space left on device)"),
+                       HasSubstr("the same command goes on")));
+  const auto kept = finished(path("disk/table.csv")).size();
+  EXPECT_GT(kept, 10U);
+  const auto answers_full = fake.answered().size();
+  // Two processes: at most two rows found no room.
+  EXPECT_LE(answers_full - answers_before, kept + 2);
+  disk_.make_room();
+  expect_done(tabulate(path("disk/table.csv"), fake.executable()));
+  EXPECT_EQ(fake.answered().size(), answers_full + 24 - kept);
+  EXPECT_EQ(without_seconds(path("disk/table.csv")), without_seconds(path("undisturbed.csv")));
+}
+
+TEST_F(FullDisk, TableThatFindsNoRoomIsWrittenLaterWithoutComputing) {
+  const FakeFreeFem fake(scratch_.path());
+  put_text(path("case.toml"), gentle_case_text());
+  disk_.fill_but(kPage);  // enough for six rows' journal
+  const auto full = tabulate(path("disk/table.csv"), fake.executable());
+  expect_refusal(full, ErrorKind::kBadInput,
+                 HasSubstr("table.csv: cannot be written (No space left on device)"));
+  EXPECT_FALSE(std::filesystem::exists(path("disk/table.csv")));
+  EXPECT_THAT(finished(path("disk/table.csv")), SizeIs(6));
+  disk_.make_room();
+  expect_done(tabulate(path("disk/table.csv"), "no-such-freefem"));
+  EXPECT_THAT(fake.answered(), SizeIs(6));
+  EXPECT_FALSE(std::filesystem::exists(path("disk/table.csv.rows")));
+}
+
+}  // namespace
+}  // namespace viscontact

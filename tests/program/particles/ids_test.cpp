@@ -1,0 +1,143 @@
+// The ids of a particles' file name its particles: in forces, in messages and in every output.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "tests/common/regular_expressions.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Three discs on a floor in a file, the first two in touch, and one in the case; one force by id.
+constexpr const char* kCase = R"(title = "Discs with ids"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = 0.05
+end_time = 2.0
+gamma_min = -2.0
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+[particles]
+file = "discs.csv"
+[[particle]]
+centre = [40.0, 1.0]
+radius = 1.0
+mass = 1.0
+[[force]]
+particles = [3]
+value = [1.0, 0.0]
+)";
+constexpr const char* kDiscs = "id,x,y,radius,mass\n41,0,1,1,1\n7,2,1,1,1\n3,10,1,1,1\n";
+
+class ParticleIds : public ::testing::Test {
+ protected:
+  ParticleIds() { scratch_.file("discs.csv", kDiscs); }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+  ProgramResult run(const std::string& text, const std::string& folder,
+                    std::vector<std::string> more = {}) const {
+    put_text(path("case.toml"), text);
+    more.insert(more.begin(), {"particles", path("case.toml"), "-o", path(folder)});
+    return run_viscontact(more);
+  }
+  /// Lines of a text that are no comments.
+  static std::string content(const fs::path& file) {
+    return replaced_matches(read_file(file), "#[^\n]*\n", "");
+  }
+  TemporaryFolder scratch_;
+};
+
+TEST_F(ParticleIds, NameTheParticlesOfAForceAndOfEveryOutput) {
+  expect_done(run(kCase, "out"));
+  const auto end = particles::read_particles(path("out/final_particles.csv"), 2).particles;
+  EXPECT_THAT(end.ids, ElementsAre(41, 7, 3, 42));  // those of tables go on after the largest
+  // The disc with the id 3 is the third one, and the only one that is pushed: by 1 for 2 units of
+  // time.
+  const double at_rest = 1e-12, pushed = 2;  // the velocity is exact: the force is constant
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(end.velocity(k)[0], k == 2 ? pushed : 0, at_rest);
+  const auto contacts = content(path("out/final_contacts.csv"));
+  for (const auto* line : {"\n41,7,", "\n41,-1,", "\n7,-1,", "\n3,-1,", "\n42,-1,"})
+    EXPECT_THAT(contacts, HasSubstr(line));
+  const std::string command =
+      "/usr/bin/python3 " VISCONTACT_SOURCE_FOLDER "/tests/program/particles/read_vtk.py ";
+  ASSERT_EQ(
+      std::system((command + path("out/particles_00000.vtp") + " > " + path("vtk.txt")).c_str()),
+      0);
+  EXPECT_THAT(read_file(path("vtk.txt")), ::testing::ContainsRegex("id 41[.0]* 7[.0]* 3[.0]* 42"));
+}
+
+TEST_F(ParticleIds, DoNotChangeTheMotion) {
+  expect_done(run(kCase, "named"));
+  // The same without ids: the disc that is pushed is number 2.
+  put_text(path("discs.csv"), replaced_matches(kDiscs, "(id|41|7|3),(.*)", "$2"));
+  expect_done(run(replaced(kCase, "particles = [3]", "particles = [2]"), "numbered"));
+  const auto without_ids = [&](const std::string& folder) {
+    return replaced_matches(content(path(folder + "/final_particles.csv")), "\n[0-9]+,", "\n");
+  };
+  EXPECT_EQ(without_ids("named"), without_ids("numbered"));
+}
+
+TEST_F(ParticleIds, SurviveARestartAndAreReadFromTheFinalParticles) {
+  expect_done(run(kCase, "whole"));
+  expect_done(run(replaced(kCase, "end_time = 2.0", "end_time = 1.0"), "half"));
+  expect_done(run(kCase, "rest", {"--restart", path("half/restart.bin")}));
+  for (const std::string name : {"final_particles.csv", "final_contacts.csv"})
+    EXPECT_EQ(content(path("rest/" + name)), content(path("whole/" + name)));
+  // The result as the input of another case: its force finds the disc by the same id.
+  const auto next = replaced_matches(replaced(kCase, "discs.csv", "whole/final_particles.csv"),
+                                     "\\[\\[particle\\]\\][^\\[]*\\[40[^\\[]*", "");
+  expect_done(run(next, "next"));
+  const auto end = particles::read_particles(path("next/final_particles.csv"), 2).particles;
+  EXPECT_THAT(end.ids, ElementsAre(41, 7, 3, 42));
+  EXPECT_NEAR(end.velocity(2)[0], 4, 1e-12);  // pushed twice as long
+}
+
+struct BadId {
+  std::string name, from, to, said;
+};
+std::ostream& operator<<(std::ostream& out, const BadId& bad) { return out << bad.name; }
+
+class BadIds : public ParticleIds, public ::testing::WithParamInterface<BadId> {};
+
+TEST_P(BadIds, AreRefusedWithTheirLine) {
+  const auto& bad = GetParam();
+  const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
+  if (in_file) put_text(path("discs.csv"), replaced(kDiscs, bad.from, bad.to));
+  expect_refusal(run(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to), "out"),
+                 ErrorKind::kBadInput, HasSubstr(bad.said));
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, BadIds,
+    ::testing::ValuesIn(std::vector<BadId>{
+        {"Twice", "7,2,1", "41,2,1",
+         "discs.csv:3: id is 41, which is the id of the particle in line 2"},
+        {"Missing", "7,2,1", ",2,1", "discs.csv:3: id is empty; it must be a number"},
+        {"Negative", "7,2,1", "-7,2,1", "discs.csv:3: id is -7; must be a whole number from 0"},
+        {"Fraction", "7,2,1", "7.5,2,1", "discs.csv:3: id is 7.5; must be a whole number"},
+        {"TooLarge", "7,2,1", "2147483648,2,1", "discs.csv:3: id is 2147483648; must be a whole"},
+        {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "the largest one that is possible"},
+        {"ForceOnNoId", "particles = [3]", "particles = [2]",
+         "case.toml:19: force[0].particles contains 2, which is not the id of a particle"},
+        {"ForceTwice", "particles = [3]", "particles = [3, 3]",
+         "contains particle 3 a second time"},
+        {"OverlapIsNamedByIds", "7,2,1", "7,1,1", "particle 41 (line 2"},
+    }),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,221 @@
+// A run of many particles that was interrupted goes on by the same command, and becomes the run
+// that it would have been without the interrupt.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Three discs that fall onto a floor and onto each other, one of them pushed by its id. So many
+/// steps that an interrupt comes between two of the twenty frames.
+constexpr const char* kCase = R"(title = "Three discs that fall"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = 2.5e-5
+end_time = 10.0
+gamma_min = -2.0
+[output]
+every = 0.5
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+[particles]
+file = "discs.csv"
+[[force]]
+particles = [7]
+value = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]
+)";
+constexpr const char* kDiscs =
+    "id,x,y,vx,vy,radius,mass\n3,3,1,0,0,1,1\n12,6.5,4,0,-1,0.5,0.25\n7,0,2,0,0,1,1\n";
+
+/// Interrupts a run as soon as it has written the frame `frame`.
+struct Interrupt {
+  std::string signal;
+  int frame = 0;
+};
+
+class InterruptedParticles : public ::testing::Test {
+ protected:
+  InterruptedParticles() {
+    scratch_.file("discs.csv", kDiscs);
+    put_case(kCase);
+  }
+  void put_case(const std::string& text) const { put_text(path("case.toml"), text); }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  ProgramResult run(const std::string& folder, const Interrupt& interrupt = {}) const {
+    const auto shell =
+        interrupt.signal.empty()
+            ? std::string()
+            : fmt::format(
+                  "(while [ ! -e '{}/particles_{:05}.vtp' ]; do sleep 0.01; done; kill -{} "
+                  "$$) &",
+                  path(folder), interrupt.frame, interrupt.signal);
+    return run_viscontact({"particles", path("case.toml"), "-o", path(folder)}, {}, shell);
+  }
+
+  /// A run that ends early with a state to go on from.
+  void run_half(const std::string& folder) const {
+    const auto result = run(folder, {"INT", 4});
+    ASSERT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("the same command goes on from there"));
+  }
+
+  /// A text without the lines that say how, how fast and in how much memory it was made.
+  static std::string without_costs(const std::string& text) {
+    std::string rest;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+      end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+      const auto line = std::string_view(text).substr(begin, end - begin);
+      const auto has = [&](std::string_view words) {
+        return line.substr(0, 100).find(words) != std::string_view::npos;
+      };
+      if (!has("provenance") && !has("# record after step ") && !has("\"seconds\": ") &&
+          !has("\"peak_memory_mebibytes\": "))
+        rest += line;
+    }
+    return rest;
+  }
+
+  /// The files of a folder by name, without_costs.
+  static std::map<std::string, std::string> content(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& [file, text] : files_below(folder))
+      files[fs::path(file).filename()] = without_costs(text);
+    return files;
+  }
+
+  static void expect_same(const std::string& one, const std::string& other) {
+    const auto first = content(one), second = content(other);
+    for (const auto& [name, text] : first) {
+      ASSERT_TRUE(second.contains(name)) << name;
+      EXPECT_TRUE(second.at(name) == text) << name << " differs";
+    }
+    EXPECT_EQ(first.size(), second.size());
+  }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterrupt) {
+  expect_done(run("whole"));
+  // Two interrupts, and a death that saves nothing: after it the run goes on from the second
+  // interrupt.
+  for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"TERM", 8}, {"KILL", 13}}) {
+    const auto result = run("parts", {signal, frame});
+    const int status = signal == "KILL" ? 128 + 9 : exit_code_of(ErrorKind::kInterrupted);
+    ASSERT_EQ(result.exit_status, status) << signal << result.errors;
+    EXPECT_EQ(result.errors.find("goes on from t = ") != std::string::npos, frame > 3)
+        << result.errors;
+  }
+  const auto last = run("parts");
+  expect_done(last);
+  EXPECT_THAT(last.errors, HasSubstr("goes on from t = "));
+  expect_same(path("whole"), path("parts"));
+  const auto record = nlohmann::json::parse(read_file(path("parts/run.json")));
+  EXPECT_EQ(record["steps"], 400000);
+  EXPECT_EQ(record["from_time"], 0);
+}
+
+TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
+  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  expect_done(run("out"));
+  const auto before = files_below(path("out"));
+  const auto again = run("out");
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("out is up to date"));
+  EXPECT_EQ(files_below(path("out")), before);
+  const auto json = run_viscontact({"particles", path("case.toml"), "-o", path("out"), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(json.output)["steps"], 1000);
+}
+
+TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
+  // A stack that needs more than an iteration.
+  put_case(replaced(kCase, "2.5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
+  put_text(path("discs.csv"), std::string(kDiscs) + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
+  expect_refusal(run("out"), ErrorKind::kNotConverged, HasSubstr("All results are written"));
+  const auto again = run("out");
+  expect_refusal(again, ErrorKind::kNotConverged, HasSubstr("All results are written"));
+  EXPECT_THAT(again.errors, HasSubstr("up to date"));
+}
+
+TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutAStep) {
+  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  expect_done(run("out"));
+  const auto before = content(path("out"));
+  fs::remove(path("out/particles.html"));
+  const auto again = run("out");
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("goes on from t = 10"));
+  EXPECT_EQ(content(path("out")), before);
+}
+
+TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
+  run_half("out");
+  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  const auto changed = run("out");
+  expect_done(changed);
+  EXPECT_THAT(changed.errors, HasSubstr("was made from another version of " + path("case.toml") +
+                                        ", so it is replaced"));
+  expect_done(run("fresh"));
+  expect_same(path("fresh"), path("out"));
+  put_text(path("discs.csv"), replaced(kDiscs, "6.5,4", "6.5,5"));
+  EXPECT_THAT(run("out").errors,
+              HasSubstr("was made from another version of " + path("discs.csv")));
+}
+
+TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
+  run_half("half");
+  const auto cut = [&](const std::string& name) {
+    const auto text = read_file(path("out/" + name));
+    put_text(path("out/" + name), text.substr(0, text.size() * 2 / 3));
+  };
+  for (const std::string name :
+       {"restart.bin", "steps.csv", "particles.pvd", "particles_00002.vtp"})
+    for (const bool missing : {false, true}) {
+      if (missing && name == "restart.bin") continue;  // then nothing says that there was a run
+      SCOPED_TRACE(name + (missing ? " missing" : " cut"));
+      fs::remove_all(path("out"));
+      fs::copy(path("half"), path("out"));
+      missing ? void(fs::remove(path("out/" + name))) : cut(name);
+      const auto again = run("out", {"INT", 7});
+      EXPECT_THAT(again.errors, AllOf(HasSubstr("cannot be continued"), HasSubstr(name),
+                                      HasSubstr("from the start"), Not(HasSubstr("after step"))));
+      // Frame 7 is of the new run: the half had come to frame 5 at most.
+      EXPECT_EQ(again.exit_status, exit_code_of(ErrorKind::kInterrupted)) << again.errors;
+    }
+}
+
+TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
+  run_half("out");
+  const auto older = read_file(path("out/restart.bin"));
+  ASSERT_EQ(run("out", {"INT", 9}).exit_status, exit_code_of(ErrorKind::kInterrupted));
+  // As if the process had been killed after steps.csv and particles.pvd and before restart.bin.
+  put_text(path("out/restart.bin"), older);
+  const auto last = run("out");
+  expect_done(last);
+  EXPECT_THAT(last.errors, HasSubstr("goes on from t = "));
+  expect_done(run("whole"));
+  expect_same(path("whole"), path("out"));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,118 @@
+// Runs of `viscontact particles` that a signal ends or that start from a restart file.
+#include "viscontact/particles/io/restart.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+TEST_F(ParticlesCommand, ARestartContinuesBitForBit) {
+  const std::string half = replaced(kCase, "end_time = 10.0", "end_time = 4.35");
+  expect_done(run(put_case(kCase), out("whole")));
+  expect_done(run(put_case(half, "half.toml"), out("half")));
+  expect_done(run(put_case(kCase), out("rest"),
+                  {"--restart", (out("half") / "restart.bin").string(), "-j", "3"}));
+  for (const auto* file : {"final_particles.csv", "final_contacts.csv", "restart.bin"})
+    EXPECT_EQ(content(out("whole") / file), content(out("rest") / file)) << file;
+  const auto record = nlohmann::json::parse(read_file(out("rest") / "run.json"));
+  EXPECT_DOUBLE_EQ(record["from_time"], 4.35);
+}
+
+TEST_F(ParticlesCommand, ARestartDoesNotReplaceTheRunThatItContinues) {
+  expect_done(run(put_case(replaced(kCase, "end_time = 10.0", "end_time = 4.35")), out()));
+  const auto before = files_below(out());
+  expect_refusal(run(put_case(kCase), out(), {"--restart", (out() / "restart.bin").string()}),
+                 ErrorKind::kBadInput, HasSubstr("choose another folder"));
+  EXPECT_EQ(files_below(out()), before);
+}
+
+class SignalledParticles : public ParticlesCommand,
+                           public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(SignalledParticles, KeepWhatTheyHaveAndARestartGoesOn) {
+  // Long enough that the signal comes in the middle of it: a hundred million steps are minutes.
+  const auto endless =
+      put_case(replaced(replaced(replaced(kCase, "time_step = 0.05", "time_step = 1e-7"),
+                                 "every = 0.5", "every = 1e-5"),
+                        "tolerance = 1e-6", "tolerance = 1e-3"),
+               "long.toml");
+  const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
+                                     "(sleep 1; kill -" + GetParam() + " $$) &");
+  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("goes on"));
+  const auto state = particles::read_restart(out() / "restart.bin");
+  EXPECT_GT(state.steps, 0);
+  EXPECT_LT(state.time, 10);
+  const auto record = nlohmann::json::parse(read_file(out() / "run.json"));
+  EXPECT_EQ(record["to_time"], state.time);
+  // Every frame that is on disk is in the list of frames, too.
+  const std::string list = read_file(out() / "particles.pvd");
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(out())) {
+    if (entry.path().extension() != ".vtp") continue;
+    ++frames;
+    EXPECT_THAT(list, HasSubstr(entry.path().filename().string()));
+  }
+  EXPECT_GT(frames, 1);
+  expect_done(run(put_case(kCase), out("rest"), {"--restart", (out() / "restart.bin").string()}));
+}
+
+// HUP is what the loss of the terminal or of the connection sends.
+INSTANTIATE_TEST_SUITE_P(Signals, SignalledParticles, ::testing::Values("INT", "HUP"),
+                         [](const auto& test) { return test.param; });
+
+TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
+  expect_done(run(put_case(kCase), out()));
+  const auto restart = (out() / "restart.bin").string();
+  const auto longer = replaced(replaced(kCase, "end_time = 10.0", "end_time = 11.0"),
+                               "until = 10.0", "until = 11.0");
+  const auto refused = [&](const std::string& text, const std::string& said,
+                           const std::string& file) {
+    expect_refusal(run(put_case(text, "other.toml"), out("no"), {"--restart", file}),
+                   ErrorKind::kBadInput, HasSubstr(said));
+    EXPECT_FALSE(fs::exists(out("no")));
+  };
+  refused(kCase, "nothing is left to do", restart);
+  refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "other masses", restart);
+  refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "other radii", restart);
+  refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles, not 1",
+          restart);
+  refused(replaced(longer, "[[plane]]\npoint = [0.0, 0.0]\nnormal = [0.0, 1.0]\n", ""),
+          "a contact with plane 1, which the case does not have", restart);
+  refused(longer, "is not a restart file", (folder_.path() / "discs.csv").string());
+  auto bytes = read_file(restart);
+  refused(longer, "cut short",
+          folder_.file("half.bin", bytes.substr(0, bytes.size() - 100)).string());
+  bytes[bytes.size() - 50] = static_cast<char>(bytes[bytes.size() - 50] + 1);
+  refused(longer, "cut short", folder_.file("bit.bin", bytes).string());
+}
+
+TEST_F(ParticlesCommand, RerunMakesTheSameAgain) {
+  expect_done(run(put_case(kCase), out()));
+  expect_done(run_viscontact(
+      {"rerun", (out() / "particles_00007.vtp").string(), "-o", out("again").string()}));
+  for (const auto* file : {"final_particles.csv", "final_contacts.csv"})
+    EXPECT_EQ(content(out() / file), content(out("again") / file));
+}
+
+TEST_F(ParticlesCommand, FilesOfTheResultAreInputsAgain) {
+  expect_done(run(put_case(kCase), out()));
+  const auto file = put_case(replaced(kCase, "\"discs.csv\"", "\"out/final_particles.csv\""));
+  const std::string text = read_file(file);
+  expect_done(run(put_case(text.substr(0, text.find("[[particle]]"))), out("second")));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,176 @@
+// `viscontact run`: what it refuses, what it never replaces, and what a failure leaves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/run/run.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST_F(Run, NeverReplacesATableThatItDidNotWrite) {
+  const auto table = folder() / "table.csv";
+  fs::create_directories(folder());
+  put_text(table, "# viscosity: 3\n# radius: 1\ngap,reference_velocity,force\n0.1,-1,900\n");
+  const auto before = read_file(table);
+  expect_refusal(run(), ErrorKind::kBadInput, HasSubstr("is not a table that Viscontact wrote"));
+  EXPECT_EQ(read_file(table), before);
+}
+
+/// A push that all models but the two without drag near contact cannot follow in the table; those
+/// two are left out.
+std::string case_that_no_model_can_follow() {
+  return replaced(replaced(gentle_case_text(), "value = -20.0", "value = -2000.0"),
+                  "end_time = 4.0",
+                  "end_time = 4.0\nmodels = [\"reference\", \"reference_exact\", \"inertial\"]");
+}
+
+TEST_F(Run, MotionThatLeavesTheTableIsAnErrorThatKeepsTableAndFit) {
+  put_text(case_file(), case_that_no_model_can_follow());
+  expect_refusal(run(), ErrorKind::kBadInput, HasSubstr("0.05"));
+  EXPECT_TRUE(fs::exists(folder() / "table.csv"));
+  EXPECT_TRUE(fs::exists(folder() / "fit.json"));
+  EXPECT_FALSE(fs::exists(folder() / "trajectories"));
+  EXPECT_FALSE(fs::exists(folder() / "report.html"));
+}
+
+TEST_F(Run, ThatFailsKeepsTheResultsOfTheOneBefore) {
+  expect_done(run());
+  const auto before = files_below(folder());
+  const auto made = write_times(folder());
+  put_text(case_file(), case_that_no_model_can_follow());
+  expect_refusal(run(), ErrorKind::kBadInput,
+                 HasSubstr(case_file().string() + ": model reference"));
+  EXPECT_EQ(files_below(folder()), before);
+  EXPECT_EQ(write_times(folder()), made);
+  put_text(case_file(), gentle_case_text());
+  EXPECT_THAT(run().errors, HasSubstr("report: up to date"));
+}
+
+TEST_F(Run, WrongParameterOfAModelIsFoundBeforeTheTabulation) {
+  put_text(case_file(), replaced(gentle_case_text(), "threshold_gap = 0.1", "threshold_gap = 3.0"));
+  expect_refusal(run(), ErrorKind::kBadInput,
+                 AllOf(HasSubstr(case_file().string()), HasSubstr("threshold_gap is 3"),
+                       HasSubstr("must be less than motion.initial_gap")));
+  EXPECT_TRUE(fake_.answered().empty());
+  EXPECT_FALSE(fs::exists(folder()));
+}
+
+TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) {
+  const auto refused = [&](const std::string& text, const std::string& words) {
+    put_text(case_file(), text);
+    expect_refusal(run(), ErrorKind::kBadInput,
+                   AllOf(HasSubstr(case_file().string()), HasSubstr(words)));
+  };
+  const auto text = gentle_case_text();
+  refused(replaced(text, "count = 6", "count = 4"),
+          "tabulation.gaps has 4 gap(s); the basis lecture needs at least 5");
+  refused(replaced(text, "initial_gap = 1.0", "initial_gap = 2.0"),
+          "motion.initial_gap is 2, which is above the largest gap of tabulation.gaps, 1.5");
+  refused(replaced(text, "initial_gap = 1.0", "initial_gap = 0.01"),
+          "motion.initial_gap is 0.01, which is below the smallest gap of tabulation.gaps, 0.05");
+  EXPECT_TRUE(fake_.answered().empty());
+}
+
+TEST_F(Run, FolderIntoWhichAnotherWritesIsRefused) {
+  expect_done(run());
+  const auto made = write_times(folder());
+  const LockedFolder ours(folder(), "");
+  const auto refused = HasSubstr("another viscontact writes into it");
+  expect_refusal(run(), ErrorKind::kBadInput, refused);
+  const auto name = folder().string();
+  expect_refusal(run_viscontact({"report", name}), ErrorKind::kBadInput, refused);
+  expect_refusal(run_viscontact({"compare", name}), ErrorKind::kBadInput, refused);
+  expect_refusal(
+      run_viscontact({"simulate", case_file().string(), "--fit", name + "/fit.json", "-o", name}),
+      ErrorKind::kBadInput, refused);
+  EXPECT_EQ(write_times(folder()), made);
+}
+
+TEST_F(Run, NeverReplacesWhatItDidNotWrite) {
+  fs::create_directories(folder() / "trajectories");
+  for (const auto* name : {"fit.json", "comparison.json", "report.html", "uncertainty.json",
+                           "failed_models.json", "trajectories/inertial.csv"}) {
+    put_text(folder() / name, "my notes\n");
+    expect_refusal(run(), ErrorKind::kBadInput,
+                   AllOf(HasSubstr(name), HasSubstr("remove it first")));
+    EXPECT_EQ(read_file(folder() / name), "my notes\n");
+    fs::remove(folder() / name);
+  }
+  EXPECT_TRUE(fake_.answered().empty());
+}
+
+TEST_F(Run, ForeignTableThatIsNotNeededDoesNoHarm) {
+  const auto table = folder() / "table.csv";
+  fs::create_directories(folder());
+  put_text(table, "my,own\ntable,here\n");
+  put_text(case_file(), exact_case_text());
+  expect_done(run());
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_EQ(read_file(table), "my,own\ntable,here\n");
+}
+
+TEST_F(Run, WithoutGnuplotEndsWithAReportAndTheNextRunDrawsThePictures) {
+  const TemporaryFolder programs;  // all that a fake FreeFEM needs, and no gnuplot
+  for (const auto* program : {"awk", "sh"})
+    fs::create_symlink(std::string("/usr/bin/") + program, programs.path() / program);
+  const auto without = [&] {
+    return run_viscontact(
+        {"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
+        {"VISCONTACT_FREEFEM=" + fake_.executable(), "PATH=" + programs.path().string()});
+  };
+  for (int n = 0; n < 2; ++n) {
+    const auto result = without();
+    expect_done(result);
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("report: warning: gnuplot cannot be run"),
+                                     HasSubstr("apt-get install gnuplot-nox"),
+                                     HasSubstr("written, without still pictures")));
+    EXPECT_TRUE(fs::exists(folder() / "report.html"));
+    EXPECT_FALSE(fs::exists(folder() / "plots"));
+  }
+  const auto page = read_file(folder() / "report.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("<figure data-plot=\"gap\">"), HasSubstr("no still pictures"),
+                          Not(HasSubstr("plots/gap.svg"))));
+  expect_done(run());
+  EXPECT_TRUE(fs::exists(folder() / "plots/gap.svg"));
+  EXPECT_THAT(read_file(folder() / "report.html"), Not(HasSubstr("no still pictures")));
+  EXPECT_THAT(run().errors, HasSubstr("report: up to date"));
+  // Pictures of an earlier report do not stay beside one that has none.
+  put_text(case_file(), replaced(gentle_case_text(), "value = -20.0", "value = -10.0"));
+  expect_done(without());
+  EXPECT_FALSE(fs::exists(folder() / "plots/gap.svg"));
+}
+
+TEST_F(Run, FailingGnuplotLeavesAReportWithoutPicturesAndTheNextRunMakesThem) {
+  const TemporaryFolder programs;
+  put_text(programs.path() / "gnuplot", "#!/bin/sh\nexit 1\n");
+  make_executable(programs.path() / "gnuplot");
+  const auto failed =
+      run_viscontact({"run", case_file().string(), "-o", folder().string(), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM=" + fake_.executable(),
+                      "PATH=" + programs.path().string() + ":" + std::getenv("PATH")});
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("gnuplot"));
+  EXPECT_TRUE(fs::exists(folder() / "comparison.json"));
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_FALSE(fs::exists(folder() / "plots"));
+  const auto again = run();
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("trajectories are up to date"));
+  EXPECT_TRUE(fs::exists(folder() / "report.html"));
+  EXPECT_TRUE(fs::exists(folder() / "plots/gap.svg"));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,186 @@
+// `simulate`: where its drag comes from, and what it writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/program/program.hpp"
+#include "tests/program/run/stages.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/fit_uncertainty.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST_F(Stages, SimulateSaysWhatTheFitsErrorsDoToTheAnswer) {
+  simulate();
+  const auto uncertainty = read_uncertainty(path("run/uncertainty.json"));
+  EXPECT_EQ(uncertainty.draws, 10000U);
+  EXPECT_LT(uncertainty.smallest.misfit[0], 2.97084661e-3);
+  EXPECT_GT(uncertainty.smallest.misfit[1], 2.97084661e-3);
+  expect_done(run_viscontact({"compare", path("run")}));
+  expect_done(run_viscontact({"report", path("run")}));
+  EXPECT_THAT(read_file(path("run/report.html")), HasSubstr("What the fit does to the answer"));
+}
+
+TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
+  put("case.toml", replaced(lecture_case_text(), "initial_gap = 1.0", "initial_gap = 2.5"));
+  fit("asymptotic");
+  const std::vector<std::string> arguments = {
+      "simulate", path("case.toml"), "--fit",    path("fit.json"),
+      "-o",       path("run"),       "--models", "reference_exact"};
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput,
+                 HasSubstr("above = \"stokes_limit\" in the section [fit] of the case"));
+  // As the message says; or by the option.
+  auto in_case = arguments;
+  in_case[1] = path("limit.toml");
+  in_case[5] = path("limit_run");
+  put("limit.toml", replaced(read_file(path("case.toml")), "weights = \"relative\"",
+                             "weights = \"relative\"\nabove = \"stokes_limit\""));
+  expect_done(run_viscontact(in_case));
+  auto with_limit = arguments;
+  with_limit.emplace_back("--stokes-limit");
+  expect_done(run_viscontact(with_limit));
+  EXPECT_NEAR(trajectory("reference_exact").rows.back().gap, 2.5, 1e-9);  // the push is given back
+}
+
+TEST_F(Stages, SimulateWritesOneTrajectoryForEachModelAndCopiesCaseAndFit) {
+  simulate();
+  for (const auto& model : default_models()) {
+    const auto result = trajectory(std::string(model.name));
+    EXPECT_EQ(result.model, model.name);
+    EXPECT_EQ(result.rows.front().time, 0);
+    EXPECT_EQ(result.rows.front().gap, 1);
+    EXPECT_EQ(result.rows.back().time, 4);
+    EXPECT_EQ(result.provenance.at("case"), sha256(lecture_case_text()));
+    EXPECT_EQ(result.provenance.at("fit"), sha256(rest_of(path("fit.json"))));
+    EXPECT_EQ(result.rows.back().gamma.has_value(), model.contact != nullptr);
+  }
+  EXPECT_EQ(files_below(path("run/trajectories")).size(), number_of_models());
+  EXPECT_EQ(read_file(path("run/case.toml")), lecture_case_text());
+  EXPECT_EQ(read_file(path("run/fit.json")), read_file(path("fit.json")));
+}
+
+TEST_F(Stages, SimulateTakesTheExactDragOfTheCase) {
+  put("exact.toml",
+      replaced(replaced(lecture_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
+               "weights = \"relative\"", ""));
+  const auto result = run_viscontact(
+      {"simulate", path("exact.toml"), "-o", path("run"), "--models", "reference_exact,inertial"});
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("the drag is the exact one near a plane"));
+  EXPECT_EQ(read_fit(path("run/fit.json")).basis, kExactPlane);
+  expect_done(run_viscontact({"compare", path("run")}));
+  // docs/theory.md, section 3: the digits that are given there, and a row's distance from the
+  // minimum.
+  EXPECT_NEAR(comparison_of("reference_exact").minimal_gap / 2.97084661e-3, 1, 1e-8);
+  // `run` finds nothing to compute again.
+  const auto again = run_viscontact(
+      {"simulate", path("exact.toml"), "-o", path("run"), "--models", "reference_exact,inertial"});
+  expect_done(again);
+  EXPECT_EQ(read_fit(path("run/fit.json")).basis, kExactPlane);
+}
+
+TEST_F(Stages, SimulateTakesTheFitFileOfTheCaseOrOfItsFolder) {
+  fit("asymptotic");
+  const auto simulate = [&](const std::string& case_file, const std::string& folder,
+                            std::vector<std::string> further = {}) {
+    std::vector<std::string> arguments = {"simulate",   path(case_file), "-o",
+                                          path(folder), "--models",      "reference_exact"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return run_viscontact(arguments);
+  };
+  const auto rows = [&](const std::string& folder) {
+    return read_trajectory(path(folder + "/trajectories/reference_exact.csv")).rows.back().gap;
+  };
+  expect_done(simulate("case.toml", "given", {"--fit", path("fit.json")}));
+  // Relative to the case, as for `run`.
+  put("file.toml",
+      replaced(replaced(lecture_case_text(), "basis = \"lecture\"", "file = \"fit.json\""),
+               "weights = \"relative\"", ""));
+  expect_done(simulate("file.toml", "file"));
+  EXPECT_EQ(rows("file"), rows("given"));
+  // No fit anywhere: said before anything is written.
+  expect_refusal(simulate("case.toml", "folder"), ErrorKind::kWrongUsage,
+                 AllOf(HasSubstr("folder/fit.json"), HasSubstr("--fit")));
+  EXPECT_FALSE(std::filesystem::exists(path("folder")));
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::copy_file(path("fit.json"), path("folder/fit.json"));
+  const auto result = simulate("case.toml", "folder");
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("the drag is that of " + path("folder/fit.json")));
+  EXPECT_EQ(rows("folder"), rows("given"));
+  // Repeated into another folder, where there is no fit.
+  expect_done(run_viscontact(
+      {"rerun", path("folder/trajectories/reference_exact.csv"), "-o", path("again")}));
+  EXPECT_EQ(rows("again"), rows("given"));
+}
+
+TEST_F(Stages, SimulateNeedsNoSectionOfNumericalSettings) {
+  fit("asymptotic");
+  const auto text = lecture_case_text();
+  put("short.toml", text.substr(0, text.find("[reference]")));
+  expect_done(run_viscontact(
+      {"simulate", path("short.toml"), "--fit", path("fit.json"), "-o", path("run")}));
+  simulate_into("whole");
+  for (const auto& model : default_models()) {
+    const auto name = std::string(model.name);
+    const auto whole = read_trajectory(path("whole/trajectories/" + name + ".csv"));
+    EXPECT_EQ(trajectory(name).rows.back().gap, whole.rows.back().gap) << name;
+    EXPECT_EQ(trajectory(name).rows.size(), whole.rows.size()) << name;
+  }
+}
+
+TEST_F(Stages, SimulateRunsTheAskedModelsOnly) {
+  fit("asymptotic");
+  expect_done(run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o",
+                              path("run"), "--models", "viscous_contact,reference"}));
+  std::vector<std::string> names;
+  for (const auto& [file, text] : files_below(path("run/trajectories")))
+    names.push_back(std::filesystem::path(file).stem());
+  EXPECT_THAT(names, ElementsAre("reference", "viscous_contact"));
+}
+
+TEST_F(Stages, GapBelowTheFitIsAnErrorUnlessTheLubricationLimitIsAskedFor) {
+  // From q = 1, the push ends near 3e-3: below a table that starts at 0.01.
+  std::string table = exact_table_text();
+  const auto header_end = table.find('\n', table.find("gap,reference_velocity")) + 1;
+  std::istringstream rows(table.substr(header_end));
+  std::string kept = table.substr(0, header_end);
+  int count = 0;
+  for (std::string line; std::getline(rows, line);)
+    if (parse_number(line.substr(0, line.find(','))).value() > 0.01) {
+      kept += line + "\n";
+      ++count;
+    }
+  put("table.csv", replaced(kept, "# rows: 30", "# rows: " + std::to_string(count)));
+  fit("asymptotic");
+  const std::vector<std::string> arguments = {
+      "simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path("run")};
+  expect_refusal(run_viscontact(arguments), ErrorKind::kBadInput, HasSubstr("0.01"));
+
+  auto with_limit = arguments;
+  with_limit.emplace_back("--lubrication-limit");
+  expect_done(run_viscontact(with_limit));
+  expect_done(run_viscontact({"compare", path("run")}));
+  // What k/q plus a constant leaves out below 0.01 is (1/5) ln(q/0.01) of 1/q: 0.1 % at 3e-3, and
+  // as much of the drag's whole impulse near the minimum. The exact minimum is 2.97846e-3
+  // (docs/theory.md, section 3).
+  EXPECT_NEAR(comparison_of("inertial").minimal_gap, 2.97845928e-3, 0.02 * 2.97845928e-3);
+}
+
+}  // namespace
+}  // namespace viscontact

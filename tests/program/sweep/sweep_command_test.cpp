@@ -1,0 +1,252 @@
+// `viscontact sweep`: the shipped studies by one command each, the options, and refusals.
+#include "tests/program/sweep/sweep_command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string kVanishing = data("cases/vanishing_viscosity.toml");
+
+/// Two rows that take no time.
+const std::vector<std::string> kTwoRows = {"--vary",      "fluid.viscosity=0.5,1",
+                                           "--models",    "viscous_contact_exact",
+                                           "--reference", "viscous_contact_exact"};
+
+TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
+  const auto result = sweep(kVanishing, {"--plot", path("picture.svg")});
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("sweep: 25 rows in " + path("rows.csv")));
+  EXPECT_EQ(result.output, "");
+  const auto csv = read_csv<1>(path("rows.csv"), {"inertial.sup_gap_distance"}, 1);
+  EXPECT_EQ(csv.rows.size(), 25U);
+  for (const auto& row : csv.rows) EXPECT_TRUE(row.fields[0]) << row.line;
+  const auto svg = rest_of(path("picture.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr("<svg"), HasSubstr("</svg>"), HasSubstr("fluid.viscosity"),
+                         Not(HasSubstr("nan")), Not(HasSubstr("warning"))));
+
+  const auto rows = read_file(path("rows.csv"));
+  const auto again = sweep(kVanishing, {"--plot", path("picture.svg")});
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("rows.csv is up to date"));
+  EXPECT_EQ(read_file(path("rows.csv")), rows);
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
+  // Blank lines that an editor left at the end are no rows, here either.
+  put_text(path("rows.csv"), rows + "\n\n");
+  expect_done(sweep(kVanishing, {"--plot", path("picture.svg")}));
+  EXPECT_EQ(rest_of(path("picture.svg")), svg);
+}
+
+TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {
+  const auto few = study("regime_map.toml", "1e3:log:33\", \"motion.time_scale=0.3:30:log:33",
+                         "1e3:log:4\", \"motion.time_scale=0.3:30:log:3");
+  expect_done(sweep(few, {"--plot", path("gap.svg")}));
+  EXPECT_EQ(lines().size(), 13U);
+  EXPECT_THAT(read_file(path("gap.svg")),
+              AllOf(HasSubstr("log10 sphere.mass"), HasSubstr("data:image/png")));
+  // The other picture of the same rows.
+  const auto film =
+      sweep(few, {"--plot", path("film.svg"), "--column", "viscous_contact.film_ratio"});
+  expect_done(film);
+  EXPECT_THAT(film.errors, HasSubstr("up to date"));
+  EXPECT_NE(read_file(path("film.svg")), read_file(path("gap.svg")));
+}
+
+TEST_F(SweepCommand, CommandLineOverridesTheCase) {
+  expect_done(sweep(kVanishing,
+                    {"--vary", "motion.mass=1,2", "--vary", "fluid.viscosity=0.5,1,2", "--models",
+                     "viscous_contact,viscous_contact_exact", "--reference", "viscous_contact"}));
+  const auto found = lines();
+  ASSERT_EQ(found.size(), 7U);
+  EXPECT_THAT(found[0], StartsWith("sphere.mass,fluid.viscosity,viscous_contact.minimal_gap,"));
+  EXPECT_THAT(found[0], Not(HasSubstr("inertial")));
+  EXPECT_THAT(found[1], StartsWith("1,0.5,"));
+  EXPECT_THAT(found[2], StartsWith("1,1,"));
+  EXPECT_THAT(found[4], StartsWith("2,0.5,"));
+  EXPECT_THAT(read_file(path("rows.csv")), HasSubstr("# reference: viscous_contact\n"));
+}
+
+TEST_F(SweepCommand, InWhichEveryPointFailedEndsWithAnErrorThatSaysWhy) {
+  put_text(path("short.json"),
+           replaced(read_file(data("fits/leading_term.json")), "\"gap_interval\": [1e-307, 1e+300]",
+                    "\"gap_interval\": [1e-3, 0.5]"));
+  const std::vector<std::string> options = {"--vary",   "fluid.viscosity=0.5,1", "--models",
+                                            "inertial", "--reference",           "inertial",
+                                            "--fit",    path("short.json")};
+  // The same again when the file is up to date.
+  for (const std::string said : {"2 rows in", "is up to date"}) {
+    const auto result = sweep(kVanishing, options);
+    EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kNotConverged));
+    EXPECT_THAT(result.errors,
+                AllOf(HasSubstr(said), HasSubstr("every model failed at 2 points"),
+                      HasSubstr("rows.csv: every model failed at every point"),
+                      HasSubstr("gap 1 is outside the fitted interval"),
+                      HasSubstr("above = \"stokes_limit\""), Not(HasSubstr("--stokes-limit")),
+                      Not(HasSubstr("--lubrication-limit"))));
+  }
+  EXPECT_EQ(lines().size(), 3U);  // the rows are there, each with its reason
+}
+
+TEST_F(SweepCommand, SaysAtHowManyPointsModelsFailed) {
+  // exp(-4/mu) is the thinnest film: at mu = 1 it is 0.018, at mu = 0.5 3.4e-4.
+  put_text(path("short.json"),
+           replaced(read_file(data("fits/leading_term.json")), "\"gap_interval\": [1e-307, 1e+300]",
+                    "\"gap_interval\": [1e-3, 100]"));
+  const auto result = sweep(kVanishing, {"--vary", "fluid.viscosity=1,-1,0.5,1", "--models",
+                                         "inertial,viscous_contact_exact", "--reference",
+                                         "inertial", "--fit", path("short.json")});
+  expect_done(result);
+  EXPECT_THAT(result.errors,
+              AllOf(HasSubstr("4 rows in"), HasSubstr("every model failed at 1 point;"),
+                    HasSubstr("some models failed at 1 point ("), HasSubstr("'failure'")));
+  EXPECT_THAT(sweep(kVanishing, kTwoRows, "good.csv").errors, Not(HasSubstr("failed")));
+}
+
+TEST_F(SweepCommand, TakesRandomSamplesOfASeed) {
+  const auto with_seed = [&](const std::string& seed, const std::string& output) {
+    expect_done(sweep(kVanishing,
+                      {"--vary", "fluid.viscosity=0.1:1:log:2", "--samples", "5", "--seed", seed},
+                      output));
+    return lines(output);
+  };
+  const auto one = with_seed("1", "one.csv");
+  EXPECT_EQ(one.size(), 6U);
+  EXPECT_EQ(with_seed("1", "again.csv"), one);
+  const auto other = with_seed("2", "other.csv");
+  for (std::size_t i = 1; i < one.size(); ++i) EXPECT_NE(other.at(i), one[i]);
+}
+
+TEST_F(SweepCommand, TakesAFitFromTheCommandLine) {
+  auto arguments = kTwoRows;
+  arguments.insert(arguments.end(), {"--fit", data("fits/leading_term.json")});
+  expect_done(sweep(kVanishing, kTwoRows, "own.csv"));
+  const auto fitless =
+      study("vanishing_viscosity.toml", "[fit]\nfile = \"../fits/leading_term.json\"", "");
+  expect_refused(fitless, kTwoRows, ErrorKind::kWrongUsage, HasSubstr("give a fit with --fit"));
+  expect_done(sweep(fitless, arguments));
+  EXPECT_EQ(lines(), lines("own.csv"));
+}
+
+TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
+  const auto wrong = [&](const std::vector<std::string>& options, const std::string& words) {
+    expect_refused(kVanishing, options, ErrorKind::kWrongUsage, HasSubstr(words));
+  };
+  expect_refused(data("cases/limit.toml"), {"--fit", data("fits/leading_term.json")},
+                 ErrorKind::kWrongUsage, HasSubstr("give --vary"));
+  wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not reach 0");
+  wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
+  wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
+  wrong({"--models", "inertia", "--reference", "inertia"}, "--models: no model is named 'inertia'");
+  wrong({"--vary", "motion.mass=1,2", "--vary", "sphere.mass=1"}, "key sphere.mass is given twice");
+  wrong({"--reference", "viscous_contact"}, "'viscous_contact' is not one of the models");
+  wrong({"--models", "inertial,inertial", "--reference", "inertial"}, "inertial is given twice");
+  wrong(
+      {"--plot", path("picture.svg"), "--column", "inertial.gap"},
+      "no column 'inertial.gap' to plot; the columns are: fluid.viscosity, viscous_contact_exact");
+  wrong({"--plot", path("picture.svg"), "--column", "inertial.film_ratio/sphere.mass"},
+        "no column 'sphere.mass'");
+  wrong({"--plot", path("picture.svg"), "--x", "sphere.mass"}, "'sphere.mass' cannot be an axis");
+  wrong({"--plot", path("rows.csv")}, "would be written twice");
+  wrong({"--samples", "0"}, "--samples");
+  wrong({"--samples", "2.5"}, "--samples");
+  wrong({"--jobs", "0"}, "--jobs");
+}
+
+TEST_F(SweepCommand, BadInputIsRefusedBeforeAnyWork) {
+  const auto bad = [&](const std::vector<std::string>& options, const std::string& words) {
+    expect_refused(kVanishing, options, ErrorKind::kBadInput,
+                   AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr(words)));
+  };
+  bad({"--vary", "fluid.viscosty=1,2"}, "fluid.viscosty is not a key that is known here");
+  bad({"--vary", "title=1,2"}, "title is not a number");
+  bad({"--vary", "fluid.viscosity=1,-2"}, "fluid.viscosity is -2; it must be a number > 0");
+  bad({"--vary", "sphere.radius=1,2"}, "the fit's radius is 0.23032943298089034");
+  expect_refused(path("no_such.toml"), {}, ErrorKind::kBadInput, HasSubstr("no_such.toml"));
+}
+
+TEST_F(SweepCommand, KeyThatChangesNoRowIsRefused) {
+  const auto refused = [&](const std::string& key, const std::string& models,
+                           const std::string& words) {
+    expect_refused(kVanishing,
+                   {"--vary", key + "=1e-3,1e-2", "--models", models, "--reference",
+                    models.substr(0, models.find(','))},
+                   ErrorKind::kWrongUsage,
+                   AllOf(HasSubstr(key + " cannot be varied"), HasSubstr(words)));
+  };
+  for (const std::string key :
+       {"tabulation.relative_accuracy", "fit.fix", "published.minimal_gap", "sweep.samples"})
+    refused(key, "inertial", "tabulates and fits nothing");
+  const std::string none = "none of the models that are run depends on it (";
+  refused("viscous_contact.threshold_gap", "inertial,viscous_contact",
+          none + "inertial, viscous_contact)");
+  refused("viscous_contact.roughness[1]", "inertial,viscous_contact_smooth", none);
+  refused("viscous_contact.time_step", "inertial", none);
+  refused("inertial.relative_tolerance", "viscous_contact", none);
+  refused("reference.time_step", "viscous_contact", none);
+  refused("fluid.viscosity", "inelastic_contact", none);
+  refused("sphere.mass", "reference_exact", none);
+  refused("motion.initial_velocity", "reference_exact", none);
+  // With a model that does depend on the key the others are run beside it.
+  expect_done(sweep(kVanishing,
+                    {"--vary", "viscous_contact.roughness[0]=1e-3,1e-2", "--models",
+                     "viscous_contact_smooth,viscous_contact", "--reference", "viscous_contact"}));
+}
+
+TEST_F(SweepCommand, SamplesOfACaseAreAWholeNumber) {
+  for (const std::string samples : {"2.5", "0.5", "1e30"})
+    expect_refused(
+        study("vanishing_viscosity.toml", "[sweep]\n", "[sweep]\nsamples = " + samples + "\n"), {},
+        ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.samples")));
+}
+
+TEST_F(SweepCommand, RangeOfTheCaseThatIsNoneIsTheCasesFault) {
+  // In the file it is bad input at a line, as any other value there.
+  expect_refused(study("vanishing_viscosity.toml", "0.006:1:log:25", "0:1:log:25"), {},
+                 ErrorKind::kBadInput, AllOf(HasSubstr("case.toml:"), HasSubstr("sweep.vary")));
+}
+
+TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
+  auto arguments = kTwoRows;
+  arguments.insert(arguments.end(),
+                   {"--vary", "motion.initial_gap=1,2", "--vary", "sphere.mass=1,2,3", "--plot",
+                    path("picture.svg"), "--y", "sphere.mass", "--column",
+                    "viscous_contact_exact.contact_from"});
+  expect_done(sweep(kVanishing, arguments));
+  EXPECT_THAT(rest_of(path("picture.svg")),
+              AllOf(HasSubstr("fluid.viscosity"), HasSubstr("sphere.mass"),
+                    Not(HasSubstr("motion.initial"))));
+}
+
+TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
+  put_text(path("rows.csv"), "time,gap\n1,2\n");
+  expect_refused(kVanishing, kTwoRows, ErrorKind::kBadInput,
+                 AllOf(HasSubstr("rows.csv"), HasSubstr("is no sweep")));
+  std::filesystem::remove(path("rows.csv"));
+  put_text(path("picture.svg"), "mine");
+  auto arguments = kTwoRows;
+  arguments.insert(arguments.end(),
+                   {"--plot", path("picture.svg"), "--column", "viscous_contact_exact.film"});
+  expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
+                 AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
+  // A sweep it may replace, by another one.
+  std::filesystem::remove(path("picture.svg"));
+  put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
+  expect_done(sweep(kVanishing, arguments));
+  EXPECT_EQ(lines().size(), 3U);
+}
+
+}  // namespace
+}  // namespace viscontact

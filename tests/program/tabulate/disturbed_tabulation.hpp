@@ -1,0 +1,47 @@
+// Tabulations in a folder of their own that tests disturb, and the rows that these have finished.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
+
+namespace viscontact {
+
+/// Twelve gaps at two velocities.
+inline std::string case_of_24_rows() {
+  return replaced(replaced(gentle_case_text(), "count = 6", "count = 12"),
+                  "reference_velocities = [-1.0]", "reference_velocities = [-1.0, 2.0]");
+}
+
+class DisturbedTabulation : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  ProgramResult tabulate(const std::string& table, const std::string& freefem,
+                         const std::string& shell_before = "") const {
+    return run_viscontact({"tabulate", path("case.toml"), "-o", table, "--jobs", "2"},
+                          {"VISCONTACT_FREEFEM=" + freefem}, shell_before);
+  }
+
+  /// "GAP VELOCITY" of the rows that are finished: on disk.
+  std::set<std::string> finished(const std::string& table) const {
+    std::set<std::string> rows;
+    const auto hash = tabulation_hash(*read_case(path("case.toml")).tabulation);
+    for (const auto& [point, row] : read_row_record(table, hash).finished)
+      rows.insert(format_number(point.gap) + " " + format_number(point.reference_velocity));
+    return rows;
+  }
+
+  TemporaryFolder scratch_;
+};
+
+}  // namespace viscontact

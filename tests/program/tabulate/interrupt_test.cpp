@@ -1,0 +1,73 @@
+// Ctrl-C, or the loss of the terminal, during a tabulation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/lubrication/force_table.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+class Interrupt : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Interrupt, KeepsFinishedRowsEndsFreeFemAndTheNextRunComputesOnlyTheRest) {
+  const TemporaryFolder scratch;
+  const auto path = [&](const std::string& name) { return (scratch.path() / name).string(); };
+  // The third row interrupts viscontact and would then take an hour; without the marker file it is
+  // a row like any other.
+  const FakeFreeFem fake(scratch.path(), R"sh(
+if [ -e "$folder/interrupt" ] && [ "$(wc -l < "$folder/answered")" = 2 ]; then
+  rm "$folder/interrupt"; echo $$ > "$folder/slow_row"
+  kill -)sh" + GetParam() + R"sh( $PPID
+  exec sleep 3600
+fi
+)sh");
+  put_text(path("case.toml"), gentle_case_text());
+  put_text(path("interrupt"), "");
+  put_text(path("answered"), "");
+  const std::vector<std::string> arguments = {"tabulate",        path("case.toml"), "-o",
+                                              path("table.csv"), "--jobs",          "1"};
+  const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
+
+  const auto interrupted = run_viscontact(arguments, environment);
+  expect_refusal(interrupted, ErrorKind::kInterrupted, HasSubstr("interrupted"));
+  EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
+  const std::string journal = read_file(path("table.csv.rows"));
+  EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2);
+  const int slow_row = std::stoi(read_file(path("slow_row")));
+  EXPECT_EQ(::kill(slow_row, 0), -1);  // signal 0: does the process exist?
+  EXPECT_EQ(errno, ESRCH);
+
+  const auto resumed = run_viscontact(arguments, environment);
+  expect_done(resumed);
+  EXPECT_THAT(resumed.errors, HasSubstr("tabulate: 6 rows (2 of them from before) on 1 processes"));
+  EXPECT_THAT(read_force_table(path("table.csv")).rows, SizeIs(6));
+  EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
+  EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
+}
+
+TEST(InterruptUnderNohup, HangupThatIsIgnoredStaysIgnored) {
+  const TemporaryFolder scratch;
+  const FakeFreeFem fake(scratch.path(), "kill -HUP $PPID");
+  put_text(scratch.path() / "case.toml", gentle_case_text());
+  expect_done(run_viscontact({"tabulate", (scratch.path() / "case.toml").string(), "-o",
+                              (scratch.path() / "table.csv").string()},
+                             {"VISCONTACT_FREEFEM=" + fake.executable()}, "trap '' HUP;"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values("INT", "TERM", "HUP"),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace viscontact

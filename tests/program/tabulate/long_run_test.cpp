@@ -1,0 +1,199 @@
+// Tabulations that are killed, or whose journal is damaged: the same command goes on, no finished
+// row is computed again, and the table is that of an undisturbed run. (Ctrl-C: interrupt_test.cpp.)
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/tabulate/disturbed_tabulation.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+/// Shell text that sends the signal to the program that the shell becomes.
+std::string signal_after(double seconds, const std::string& signal) {
+  return fmt::format("(sleep {:.3f}; kill -{} $$ 2>/dev/null) & ", seconds, signal);
+}
+
+/// Two rows for FreeFEM itself, as easy as they are to be had.
+std::string case_of_2_rows() {
+  const auto text =
+      replaced(gentle_case_text(), "relative_accuracy = 1e-3", "relative_accuracy = 1e-2");
+  return replaced(text, "to = 1.5, count = 6", "to = 0.3, count = 2");
+}
+
+class LongRun : public DisturbedTabulation {
+ protected:
+  /// Runs the command with a signal at a random moment, within `seconds` at first and ever later,
+  /// until it is done. `answered` gives the rows that FreeFEM has answered so far.
+  template <class Answered>
+  void disturb_until_done(const std::string& table, const std::string& freefem, double seconds,
+                          const Answered& answered) const {
+    std::mt19937 random(20081);  // NOLINT: the same moments each time, as far as a machine has them
+    std::uniform_real_distribution<double> moment(0, seconds);
+    constexpr int kMostAttempts = 100;
+    int disturbed = 0;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      const auto before = finished(table);
+      const auto answers_before = answered().size();
+      const auto signal = std::array{"KILL", "KILL", "INT", "TERM"}.at(random() % 4);
+      const double later = seconds * attempt / 10;
+      const auto result = tabulate(table, freefem, signal_after(later + moment(random), signal));
+      const auto answers = answered();
+      for (auto i = answers_before; i < answers.size(); ++i)
+        EXPECT_FALSE(before.contains(answers[i])) << answers[i] << " was finished";
+      const auto after = finished(table);
+      EXPECT_TRUE(std::ranges::includes(after, before)) << "a finished row was lost";
+      if (result.exit_status == 0 && disturbed > 0) break;
+      if (result.exit_status == 0) {  // faster than `seconds`: nothing was disturbed yet
+        std::filesystem::remove(table);
+        seconds /= 2;
+        moment = std::uniform_real_distribution<double>(0, seconds);
+        continue;
+      }
+      EXPECT_THAT(result.exit_status, AnyOf(128 + SIGKILL, 130, 128 + SIGINT, 128 + SIGTERM))
+          << result.errors;
+      EXPECT_FALSE(std::filesystem::exists(table));
+      ++disturbed;
+    }
+    EXPECT_GT(disturbed, 0);
+    EXPECT_FALSE(std::filesystem::exists(table + ".rows"));
+  }
+};
+
+TEST_F(LongRun, KilledAtRandomMomentsItLosesNoFinishedRowAndEndsWithTheSameTable) {
+  const FakeFreeFem fake(scratch_.path(), "sleep 0.03\n");
+  put_text(path("case.toml"), case_of_24_rows());
+  expect_done(tabulate(path("undisturbed.csv"), fake.executable()));
+  disturb_until_done(path("table.csv"), fake.executable(), 0.4, [&] { return fake.answered(); });
+  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
+}
+
+TEST_F(LongRun, WithFreeFemToo) {
+  // FreeFEM in a shell that notes which rows it answers.
+  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
+FreeFem++-nw "$@" || exit
+case $4 in
+  *version.edp) exit 0 ;;
+esac
+shift 4
+while [ $# -gt 1 ]; do
+  case $1 in
+    -gap) gap=$2 ;;
+    -velocity) velocity=$2 ;;
+  esac
+  shift 2
+done
+echo "$gap $velocity" >> ")sh" + path("answered") + "\"\n");
+  make_executable(freefem);
+  put_text(path("case.toml"), replaced(case_of_2_rows(), "count = 2", "count = 3"));
+  const auto start = std::chrono::steady_clock::now();
+  expect_done(tabulate(path("undisturbed.csv"), freefem.string()));
+  const std::chrono::duration<double> undisturbed = std::chrono::steady_clock::now() - start;
+  disturb_until_done(path("table.csv"), freefem.string(), undisturbed.count(), [&] {
+    std::vector<std::string> lines;
+    std::ifstream file(path("answered"));
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+  });
+  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
+}
+
+TEST_F(LongRun, KilledFreeFemIsARowThatFailedTheOthersGoOnAndTheSameCommandFinishes) {
+  // FreeFEM itself, killed in the middle of one row as the kernel does when memory is short.
+  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
+case "$*" in
+  *"-gap 0.05 "*) [ -e ")sh" + path("mended") +
+                                                    R"sh(" ] || (sleep 0.2; kill -KILL $$) & ;;
+esac
+exec FreeFem++-nw "$@"
+)sh");
+  make_executable(freefem);
+  put_text(path("case.toml"), case_of_2_rows());
+  const auto failed = tabulate(path("table.csv"), freefem.string());
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 rows failed"));
+  EXPECT_THAT(failed.errors,
+              AllOf(HasSubstr("gap 0.05, velocity -1"), HasSubstr("ended by signal 9 (Killed)"),
+                    Not(HasSubstr("gap 0.3"))));
+  EXPECT_THAT(finished(path("table.csv")), SizeIs(1));
+  put_text(path("mended"), "");
+  expect_done(tabulate(path("table.csv"), freefem.string()));
+}
+
+TEST_F(LongRun, FreeFemDoesNotOutliveAViscontactThatIsKilled) {
+  const FakeFreeFem fake(scratch_.path(),
+                         "[ -e \"$folder/calm\" ] || { echo $$ > \"$folder/row\"; kill -KILL "
+                         "$PPID; exec sleep 3600; }\n");
+  put_text(path("case.toml"), gentle_case_text());
+  const auto killed =
+      run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
+                     {"VISCONTACT_FREEFEM=" + fake.executable()});
+  EXPECT_EQ(killed.exit_status, 128 + SIGKILL);
+  // Within moments it is gone, or a zombie whose new parent has not looked.
+  const std::string row = read_file(path("row"));
+  const auto state = [&] {
+    std::string number, name, letter;
+    std::ifstream("/proc/" + row.substr(0, row.find('\n')) + "/stat") >> number >> name >> letter;
+    return letter;
+  };
+  const auto is_gone = AnyOf("", "Z", "X");
+  for (int i = 0; i < 100 && !::testing::Matches(is_gone)(state()); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_THAT(state(), is_gone);
+  put_text(path("calm"), "");
+  expect_done(tabulate(path("table.csv"), fake.executable()));
+  EXPECT_THAT(fake.answered(), SizeIs(6));
+}
+
+TEST_F(LongRun, TornLineAndRowsOfAnotherCaseInTheJournalAreNoRows) {
+  const FakeFreeFem fake(scratch_.path(), "[ -e \"$folder/full\" ] && exit 1\n");
+  put_text(path("case.toml"), gentle_case_text());
+  // The journal of another case, finished but for its last row...
+  put_text(path("case.toml"), replaced(gentle_case_text(), "viscosity = 3.0", "viscosity = 5.0"));
+  expect_done(tabulate(path("other.csv"), fake.executable(), ""));
+  const FakeFreeFem failing(scratch_.path(), "[ $gap = 1.5 ] && exit 1\n");
+  EXPECT_EQ(tabulate(path("table.csv"), failing.executable()).exit_status, 5);
+  EXPECT_THAT(finished(path("table.csv")), SizeIs(5));
+  // ... to which this case adds its own, the last of them torn.
+  put_text(path("case.toml"), gentle_case_text());
+  EXPECT_EQ(tabulate(path("table.csv"), failing.executable()).exit_status, 5);
+  const std::string journal = read_file(path("table.csv.rows"));
+  const auto last_row = journal.rfind(" row ");
+  put_text(path("table.csv.rows"), journal.substr(0, last_row + 40));
+  EXPECT_THAT(finished(path("table.csv")), SizeIs(4));
+
+  const FakeFreeFem mended(scratch_.path());
+  const auto answers_before = mended.answered().size();
+  expect_done(tabulate(path("table.csv"), mended.executable()));
+  EXPECT_EQ(mended.answered().size(), answers_before + 2);
+  expect_done(tabulate(path("undisturbed.csv"), mended.executable()));
+  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("undisturbed.csv")));
+  // The other case's rows are in no table of that name yet: they are kept.
+  put_text(path("case.toml"), replaced(gentle_case_text(), "viscosity = 3.0", "viscosity = 5.0"));
+  const auto answers = mended.answered().size();
+  expect_done(tabulate(path("table.csv"), mended.executable()));
+  EXPECT_EQ(mended.answered().size(), answers + 1);
+  EXPECT_EQ(without_seconds(path("table.csv")), without_seconds(path("other.csv")));
+  EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
+}
+
+}  // namespace
+}  // namespace viscontact

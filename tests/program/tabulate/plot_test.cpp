@@ -1,0 +1,115 @@
+// tabulate --plot: the pictures of a row, the VTK file, and what FreeFEM writes for them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Cheap: a small container, a loose accuracy; the first gap has a film.
+std::string case_text() {
+  auto text = lecture_case_text();
+  text = replaced(text, "gaps = { from = 1e-3, to = 2.0, count = 40, spacing = \"log\" }",
+                  "gaps = [0.01, 1.0]");
+  text = replaced(text, "container = { radius = 40.0, height = 80.0 }",
+                  "container = { radius = 5.0, height = 10.0 }");
+  return replaced(text, "relative_accuracy = 1e-5", "relative_accuracy = 1e-3");
+}
+
+/// Expects that every element that is opened is closed, in order: what a truncated file fails.
+void expect_well_formed(const std::string& xml) {
+  // By hand: std::regex recurses over each character of an embedded image.
+  std::vector<std::string> open;
+  for (auto at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const auto end = xml.find_first_of("<>", at + 1);
+    ASSERT_TRUE(end != std::string::npos && xml[end] == '>') << xml.substr(at, 80);
+    const auto tag = xml.substr(at + 1, end - at - 1);
+    if (tag.starts_with('?') || tag.ends_with('/')) continue;
+    if (tag.starts_with("!--") && tag.ends_with("--")) continue;  // how it was made
+    if (tag.starts_with('/')) {
+      ASSERT_FALSE(open.empty()) << tag;
+      ASSERT_EQ(open.back(), tag.substr(1));
+      open.pop_back();
+    } else {
+      open.push_back(tag.substr(0, tag.find_first_of(" \n\t")));
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+class Plot : public ::testing::Test {
+ protected:
+  Plot() { put_text(path("case.toml"), case_text()); }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+  ProgramResult tabulate(const std::vector<std::string>& plot) const {
+    std::vector<std::string> arguments = {"tabulate", path("case.toml"), "-o", path("table.csv")};
+    arguments.insert(arguments.end(), plot.begin(), plot.end());
+    return run_viscontact(arguments);
+  }
+  std::set<std::string> pictures() const {
+    std::set<std::string> names;
+    for (const auto& [file, text] : files_below(path("table.plots")))
+      names.insert(std::filesystem::path(file).filename());
+    return names;
+  }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(Plot, WritesPicturesOfTheAskedGapsAndDoesNotTabulateAgain) {
+  expect_done(tabulate({"--plot", "0.01"}));
+  EXPECT_THAT(pictures(), ElementsAre("gap_0.01.vtu", "gap_0.01_film.svg", "gap_0.01_flow.svg",
+                                      "gap_0.01_mesh.svg"));
+  const auto table = read_file(path("table.csv"));
+  // Without gaps: those of both ends and of the middle.
+  const auto result = tabulate({"--plot"});
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("up to date"));
+  EXPECT_EQ(result.output, "");
+  EXPECT_EQ(read_file(path("table.csv")), table);
+  for (const auto* name : {"gap_0.01.vtu", "gap_1.vtu"}) {
+    EXPECT_TRUE(pictures().contains(name)) << name;
+    expect_well_formed(read_file(path("table.plots/" + std::string(name))));
+  }
+
+  constexpr std::size_t kMegabyte = 1'000'000;
+  for (const auto* name : {"film", "flow", "mesh"}) {
+    const auto svg = read_file(path("table.plots/gap_0.01_" + std::string(name) + ".svg"));
+    expect_well_formed(svg);
+    EXPECT_LT(svg.size(), kMegabyte);
+    EXPECT_THAT(svg, AllOf(HasSubstr("gap 0.01"), HasSubstr("plane"), HasSubstr("velocity -1"),
+                           HasSubstr("distance from the axis"), Not(HasSubstr("warning"))));
+  }
+  for (const auto* name : {"film", "flow"})
+    EXPECT_THAT(read_file(path("table.plots/gap_0.01_" + std::string(name) + ".svg")),
+                AllOf(HasSubstr("streamlines"), HasSubstr("pressure (unit: viscosity"),
+                      HasSubstr("data:image/png;base64,")));
+  EXPECT_THAT(read_file(path("table.plots/gap_0.01_flow.svg")), HasSubstr("logarithmic beyond"));
+  EXPECT_THAT(read_file(path("table.plots/gap_0.01_film.svg")), HasSubstr("heights stretched"));
+  EXPECT_THAT(read_file(path("table.plots/gap_0.01_mesh.svg")),
+              AllOf(HasSubstr("finest mesh"), HasSubstr("coarsest mesh")));
+}
+
+TEST_F(Plot, GapThatIsNotThereIsRefusedBeforeAnyWork) {
+  const auto before = files_below(scratch_.path());
+  expect_refusal(tabulate({"--plot", "1,0.02"}), ErrorKind::kBadInput,
+                 AllOf(HasSubstr("0.02"), HasSubstr("the nearest of them is 0.01")));
+  expect_refusal(tabulate({"--plot", "1,x"}), ErrorKind::kWrongUsage, HasSubstr("'x'"));
+  EXPECT_EQ(files_below(scratch_.path()), before);
+}
+
+}  // namespace
+}  // namespace viscontact

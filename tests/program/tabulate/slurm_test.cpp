@@ -1,0 +1,232 @@
+// A sweep on Slurm itself: a cluster of two nodes on this machine
+// (tests/program/tabulate/slurm_cluster).
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <set>
+#include <thread>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// Two nodes of two processors. Fails, with the logs, where Slurm does not start.
+class Cluster {
+ public:
+  Cluster() {
+    const auto started = script({"start", folder(), std::to_string(::getpid())});
+    if (started.exit_status != 0) throw std::runtime_error(started.output);
+  }
+  Cluster(const Cluster&) = delete;
+  Cluster& operator=(const Cluster&) = delete;
+  ~Cluster() {
+    const auto stopped = script({"stop", folder()});
+    if (stopped.exit_status != 0) ADD_FAILURE() << stopped.output;
+  }
+
+  /// What its clients need in their environment.
+  std::string variable() const { return "SLURM_CONF=" + folder() + "/slurm.conf"; }
+
+  /// kill -9 of a node and of all that runs on it.
+  void kill_node(int number) const {
+    const auto killed = script({"kill-node", folder(), std::to_string(number)});
+    ASSERT_EQ(killed.exit_status, 0) << killed.output;
+  }
+
+  /// The jobs that are not over, a line each.
+  std::string jobs() const {
+    return run_process({"squeue", "--noheader", "--format=%i %t %R"}, {variable()}).output;
+  }
+
+ private:
+  std::string folder() const { return folder_.path().string(); }
+  static ProcessResult script(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     VISCONTACT_SOURCE_FOLDER "/tests/program/tabulate/slurm_cluster");
+    return run_process(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Asks until it is so; fails after a minute.
+void wait_until(const std::function<bool()>& is_so, const Cluster& cluster) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!is_so()) {
+    if (std::chrono::steady_clock::now() > end) FAIL() << "after a minute:\n" << cluster.jobs();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+/// Two cases of six gaps at two velocities: 24 rows.
+class Slurm : public ::testing::Test {
+ protected:
+  Slurm() {
+    const auto text = replaced(gentle_case_text(), "reference_velocities = [-1.0]",
+                               "reference_velocities = [-1.0, 2.0]");
+    put_text(path("thin.toml"), text);
+    put_text(path("thick.toml"), replaced(text, "viscosity = 3.0", "viscosity = 6.0"));
+  }
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  ProgramResult tabulate(const std::string& output, const std::vector<std::string>& options,
+                         const std::string& freefem) const {
+    std::vector<std::string> arguments = {"tabulate"};
+    arguments.insert(arguments.end(), cases_.begin(), cases_.end());
+    arguments.insert(arguments.end(), {"-o", path(output)});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_viscontact(arguments, {cluster_.variable(), "VISCONTACT_FREEFEM=" + freefem});
+  }
+  void wait_for_the_job() const {
+    wait_until([this] { return cluster_.jobs().empty(); }, cluster_);
+  }
+  /// Expects the tables of the folder "out" to be those of a run here.
+  void expect_tables_of_a_local_run(const std::string& freefem) const {
+    expect_done(tabulate("local", {}, freefem));
+    for (const std::string name : {"thin.csv", "thick.csv"})
+      EXPECT_EQ(without_seconds(path("out/" + name)), without_seconds(path("local/" + name)));
+  }
+  std::size_t files_in(const std::string& folder) const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path(folder)),
+                                                  std::filesystem::directory_iterator()));
+  }
+
+  TemporaryFolder scratch_;
+  std::vector<std::string> cases_ = {path("thin.toml"), path("thick.toml")};
+  Cluster cluster_;
+};
+
+TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
+  const FakeFreeFem fake(scratch_.path(), "while [ -e \"$folder/hold\" ]; do sleep 0.1; done\n");
+  put_text(path("hold"), "");
+  const auto submitted = tabulate("out", {"--launcher", "slurm"}, fake.executable());
+  expect_done(submitted);
+  EXPECT_THAT(submitted.errors, HasSubstr("24 tasks"));
+  // Nothing of it is over: no second job, and no table.
+  expect_refusal(tabulate("out", {"--launcher", "slurm"}, fake.executable()), ErrorKind::kBadInput,
+                 HasSubstr("is being tabulated by Slurm job"));
+  const auto early = tabulate("out", {"--gather"}, fake.executable());
+  expect_refusal(early, ErrorKind::kNotConverged, HasSubstr("2 of 2 tables are not finished"));
+  EXPECT_THAT(early.errors, HasSubstr("thin.csv: 12 of 12 rows are missing (gap 0.05"));
+  // Nor does an edit of a case reach the tasks that start later.
+  const std::string thin = read_file(path("thin.toml"));
+  put_text(path("thin.toml"), replaced(thin, "viscosity = 3.0", "viscosity = 9.0"));
+  std::filesystem::remove(path("hold"));
+  wait_for_the_job();
+  const auto edited = tabulate("out", {"--gather"}, fake.executable());
+  expect_refusal(edited, ErrorKind::kNotConverged, HasSubstr("1 of 2 tables are not finished"));
+  EXPECT_THAT(edited.errors, HasSubstr("the case was edited since"));
+  put_text(path("thin.toml"), thin);
+
+  EXPECT_THAT(fake.answered(), SizeIs(24));
+  expect_done(tabulate("out", {"--gather"}, "no-such-freefem"));
+  EXPECT_THAT(fake.answered(), SizeIs(24));
+  EXPECT_EQ(files_in("out"), 2U);  // the tables, and no journal
+  expect_tables_of_a_local_run(fake.executable());
+}
+
+TEST_F(Slurm, WithFreeFemTheTablesAreThoseOfALocalRunToo) {
+  for (const auto& file : cases_) {
+    auto text = replaced(read_file(file), "to = 1.5, count = 6", "to = 0.3, count = 2");
+    text = replaced(text, "[-1.0, 2.0]", "[-1.0]");
+    put_text(file, replaced(text, "relative_accuracy = 1e-3", "relative_accuracy = 1e-2"));
+  }
+  expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "3"}, "FreeFem++-nw"));
+  wait_for_the_job();
+  expect_done(tabulate("out", {"--gather"}, "no-such-freefem"));
+  expect_tables_of_a_local_run("FreeFem++-nw");
+}
+
+// Four tasks of six rows, two on each node. The first row of each is answered, and all rows on node
+// 2; the second rows on node 1 take for ever, until that node dies.
+constexpr const char* kEndlessOnNode1 = R"sh(
+if [ "$SLURMD_NODENAME" = n1 ] && [ -e "$folder/answered_by.$SLURM_ARRAY_TASK_ID" ]; then
+  : > "$folder/endless.$SLURM_ARRAY_TASK_ID"
+  exec sleep 3600
+fi
+: > "$folder/answered_by.$SLURM_ARRAY_TASK_ID"
+)sh";
+
+class NodeThatDies : public Slurm {
+ protected:
+  /// Submits, and kills node 1 once it has answered two rows and is at two more.
+  void submit_and_kill_a_node(const std::vector<std::string>& options) const {
+    std::vector<std::string> all = {"--launcher", "slurm", "--tasks", "4"};
+    all.insert(all.end(), options.begin(), options.end());
+    expect_done(tabulate("out", all, fake_.executable()));
+    const auto endless = [this] {
+      std::size_t count = 0;
+      for (const auto& name : scratch_.names()) count += name.starts_with("endless.") ? 1 : 0;
+      return count == 2;
+    };
+    wait_until([&] { return endless() && fake_.answered().size() == 14; }, cluster_);
+    cluster_.kill_node(1);
+  }
+
+  FakeFreeFem fake_{scratch_.path(), kEndlessOnNode1};
+};
+
+TEST_F(NodeThatDies, LosesNoFinishedRowAndASecondJobComputesTheOthersOnly) {
+  submit_and_kill_a_node({"--slurm-options", "--no-requeue"});
+  wait_for_the_job();
+  EXPECT_THAT(fake_.answered(), SizeIs(14));
+  const auto missing = tabulate("out", {"--gather"}, fake_.executable());
+  EXPECT_EQ(missing.exit_status, exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
+  EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 4 of 12 rows are missing"),
+                                    HasSubstr("thick.csv: 6 of 12 rows are missing")));
+  expect_done(tabulate("out", {"--launcher", "slurm"}, fake_.executable()));
+  wait_for_the_job();
+  EXPECT_THAT(fake_.answered(), SizeIs(24));  // each row once
+  expect_done(tabulate("out", {"--gather"}, fake_.executable()));
+  expect_tables_of_a_local_run(fake_.executable());
+}
+
+TEST_F(NodeThatDies, ItsTasksGoOnElsewhereByThemselves) {
+  submit_and_kill_a_node({});
+  wait_for_the_job();
+  EXPECT_THAT(fake_.answered(), SizeIs(24));  // each row once
+  expect_done(tabulate("out", {"--gather"}, fake_.executable()));
+  expect_tables_of_a_local_run(fake_.executable());
+}
+
+TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
+  const FakeFreeFem fake(scratch_.path(), R"sh(
+[ $gap = 1.5 ] && [ $velocity = 2 ] && [ ! -e "$folder/mended" ] && { echo out of luck; exit 4; }
+)sh");
+  expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "5"}, fake.executable()));
+  wait_for_the_job();
+  const auto failed = tabulate("out", {"--gather"}, fake.executable());
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("2 of 2 tables are not finished"));
+  EXPECT_THAT(failed.errors,
+              AllOf(HasSubstr("1 of 12 rows are missing (gap 1.5, velocity 2)"),
+                    HasSubstr("FreeFEM failed at gap 1.5, velocity 2"), HasSubstr("out of luck")));
+  put_text(path("mended"), "");
+  expect_done(tabulate("out", {}, fake.executable()));
+  EXPECT_THAT(fake.answered(), SizeIs(24));
+  expect_tables_of_a_local_run(fake.executable());
+}
+
+TEST_F(Slurm, JobThatItDoesNotTakeIsSaidInItsWords) {
+  expect_refusal(
+      tabulate("out", {"--launcher", "slurm", "--slurm-options", "--partition=nowhere"}, "none"),
+      ErrorKind::kExternalProgram, AllOf(HasSubstr("sbatch failed"), HasSubstr("nowhere")));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,98 @@
+// The still picture of a motion of particles, and its colours.
+#include "viscontact/report/particles/particles_picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/regular_expressions.hpp"
+#include "tests/report/particles/playbacks.hpp"
+#include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/view_box.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::size_t count_of(const std::string& what, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
+}
+
+/// Every element that opens closes, in order: enough of XML for what we write, which has no
+/// comments and no ">" in attributes.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  const auto body = xml.substr(xml.find("?>") + 2);
+  for (const auto& tag :
+       matches_in(body, "<(/?)([A-Za-z]+)(?:\\s+[a-zA-Z:-]+=\"[^\"<]*\")*\\s*(/?)>|<")) {
+    ASSERT_FALSE(tag[2].empty()) << "a '<' that opens no element";
+    if (!tag[1].empty()) {
+      ASSERT_FALSE(open.empty());
+      ASSERT_EQ(open.back(), tag[2]);
+      open.pop_back();
+    } else if (tag[3].empty()) {
+      open.push_back(tag[2]);
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_FALSE(has_match(body, "&(?!(amp|lt|gt|quot);)"));
+}
+
+TEST(ParticlesPicture, HoldsEveryDiscInEveryPanel) {
+  for (const int dimension : {2, 3})
+    for (const int panels : {1, 2, 4, 5}) {
+      const auto svg =
+          particles_picture(falling_row(dimension, 7, 5), "Seven <fall> & \"rest\"", panels);
+      SCOPED_TRACE(svg);
+      expect_well_formed(svg);
+      EXPECT_EQ(count_of("<circle ", svg), static_cast<std::size_t>(panels * 7));
+      EXPECT_EQ(count_of(">t = ", svg), static_cast<std::size_t>(panels));
+      EXPECT_THAT(svg, HasSubstr(">t = 2<"));
+      EXPECT_THAT(svg, HasSubstr("Seven &lt;fall&gt; &amp; &quot;rest&quot;"));
+      EXPECT_THAT(svg, HasSubstr(kFilmWords));
+      EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    }
+}
+
+TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {
+  const auto svg = particles_picture(one_particle(), "One", 6);
+  expect_well_formed(svg);
+  EXPECT_EQ(count_of("<circle ", svg), 1U);
+  EXPECT_THAT(svg, Not(HasSubstr(kFilmWords)));
+  expect_well_formed(particles_picture({}, "Nothing", 3));
+}
+
+TEST(ParticlesPicture, StaysSmall) {
+  EXPECT_LT(particles_picture(falling_row(2, 1000, 10), "Discs", 6).size(), 1'000'000U);
+  EXPECT_LT(particles_picture(falling_row(3, 1000, 10), "Spheres", 6).size(), 1'300'000U);
+}
+
+TEST(ParticlesPicture, OneThatHasFlownAwayDoesNotShrinkTheOthers) {
+  auto playback = falling_row(2, 300, 3);
+  const auto room = view_box_of(playback, {0, 1, 2});
+  playback.frames[2].positions[1] = 1e6F;
+  const auto with_flown = view_box_of(playback, {0, 1, 2});
+  EXPECT_DOUBLE_EQ(with_flown.high[1], room.high[1]);
+  // The floor is next to the row, and seen.
+  EXPECT_LT(room.low[1], 0);
+}
+
+TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
+  const auto lightness = [](const std::string& colour) {
+    double sum = 0;
+    for (const std::size_t at : {1U, 3U, 5U}) sum += std::stoi(colour.substr(at, 2), nullptr, 16);
+    return sum;
+  };
+  EXPECT_EQ(film_colour(0), "#fde725");
+  EXPECT_EQ(film_colour(1), "#440154");
+  EXPECT_GT(lightness(film_colour(0)), lightness(film_colour(0.5)));
+  EXPECT_GT(lightness(film_colour(0.5)), lightness(film_colour(1)));
+  EXPECT_THAT(film_ticks(-8.9), ::testing::ElementsAre(0, -2, -4, -6, -8));
+  EXPECT_THAT(film_ticks(-2), ::testing::ElementsAre(0, -0.5, -1, -1.5, -2));
+}
+
+}  // namespace
+}  // namespace viscontact

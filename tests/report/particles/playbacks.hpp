@@ -1,0 +1,41 @@
+// Motions of particles that a page or a picture shows.
+#pragma once
+
+#include "viscontact/report/particles/particles_page.hpp"
+
+namespace viscontact {
+
+/// Discs or spheres of radius 1 in a row on the first axis, which fall on a floor. Neighbours have
+/// films from the second frame on; the floor has films in the last frame.
+inline particles::Playback falling_row(int dimension, int count, int frames) {
+  particles::Playback playback;
+  playback.dimension = dimension;
+  playback.radii.assign(static_cast<std::size_t>(count), 1);
+  for (int f = 0; f < frames; ++f) {
+    particles::Frame frame;
+    frame.time = 0.5 * f;
+    const float height = static_cast<float>(frames - f);
+    for (int k = 0; k < count; ++k) {
+      frame.positions.push_back(2 * static_cast<float>(k));
+      if (dimension == 3) frame.positions.push_back(0);
+      frame.positions.push_back(height);
+      if (f > 0 && k > 0) frame.contacts.push_back({k - 1, k, 0, -1.0 * k});
+      if (f + 1 == frames) frame.contacts.push_back({-1, k, 0, k % 2 == 0 ? 0.0 : -0.5});
+    }
+    frame.planes.push_back(dimension == 2
+                               ? particles::PlanePosition{.point = {0, 0, 0}, .normal = {0, 1, 0}}
+                               : particles::PlanePosition{.point = {0, 0, 0}, .normal = {0, 0, 1}});
+    playback.frames.push_back(frame);
+  }
+  return playback;
+}
+
+inline particles::Playback one_particle() {
+  particles::Playback playback;
+  playback.radii = {0.5F};
+  playback.frames.resize(1);
+  playback.frames[0].positions = {3, 4};
+  return playback;
+}
+
+}  // namespace viscontact
