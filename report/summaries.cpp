@@ -86,7 +86,7 @@ std::string basis_json(const std::vector<BasisResult>& results) {
 
 std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results,
                        const StopToken& stop) {
-  constexpr std::array kColours = {kVermilion, kBlue, kGreen, kPurple};
+  constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
   Panel panel{"Relative residuals of the fits",
               "gap q",
               "|fit / table - 1|",

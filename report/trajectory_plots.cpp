@@ -28,9 +28,9 @@ CurveStyle line_style(std::string_view model, bool film = false) {
     double width;
     bool dashed = false;
   };
-  constexpr Line kLines[] = {{kSkyBlue, 5.0},   {kBlue, 2.0},     {kBlack, 1.6, true},
-                             {kOrange, 3.4},    {kGreen, 2.2},    {kPurple, 2.2},
-                             {kVermilion, 1.4}, {"#7F7F7F", 2.0}, {"#8C564B", 1.6}};
+  constexpr Line kLines[] = {{kSkyBlue, 5.0},   {kBlue, 2.0},        {kBlack, 1.6, true},
+                             {kOrange, 3.4},    {kBluishGreen, 2.2}, {kReddishPurple, 2.2},
+                             {kVermilion, 1.4}, {"#7F7F7F", 2.0},    {"#8C564B", 1.6}};
   const auto choice = known_model(model);
   if (!choice) return {"#B8A100", 2.0, {}};
   const auto row = static_cast<std::size_t>(choice->model - all_models().data());

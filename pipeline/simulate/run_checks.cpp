@@ -40,7 +40,6 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
                                 "into the section [fit]",
                                 motion.initial_gap, what, bound, model, remedy));
   };
-  check_parameters(c, models);
   for (const auto& name : models) {
     const auto choice = find_model(name);
     if (choice.exact_drag || choice.model->contact != nullptr) continue;
@@ -49,6 +48,7 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
     if (motion.initial_gap > largest && request.above == AboveInterval::kError)
       refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
   }
+  check_parameters(c, models);
 }
 
 void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models,

@@ -11,10 +11,10 @@ namespace viscontact {
 inline constexpr const char* kBlack = "#000000";
 inline constexpr const char* kOrange = "#E69F00";
 inline constexpr const char* kSkyBlue = "#56B4E9";
-inline constexpr const char* kGreen = "#009E73";
+inline constexpr const char* kBluishGreen = "#009E73";
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermilion = "#D55E00";
-inline constexpr const char* kPurple = "#CC79A7";
+inline constexpr const char* kReddishPurple = "#CC79A7";
 
 struct ColourNode {
   double place;               ///< position on the scale

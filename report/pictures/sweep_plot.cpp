@@ -109,7 +109,8 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   const auto x = rows.find(plot.x);
   std::vector<SweepRows::Place> places;
   for (const auto& column : plot.columns) places.push_back(rows.find(column));
-  constexpr std::array kColours = {kBlue, kVermilion, kGreen, kPurple, kOrange, kSkyBlue, kBlack};
+  constexpr std::array kColours = {kBlue,   kVermilion, kBluishGreen, kReddishPurple,
+                                   kOrange, kSkyBlue,   kBlack};
   Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
               false, false,  {"set key below Left reverse noopaque"},
               {}};

@@ -233,14 +233,14 @@ TEST_F(SweepCommand, AxisOfTheCommandLineIsTheOneThatIsDrawn) {
 TEST_F(SweepCommand, DoesNotReplaceAFileThatIsNoSweep) {
   put_text(path("rows.csv"), "time,gap\n1,2\n");
   expect_refused(kVanishing, kTwoRows, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("rows.csv"), HasSubstr("is no sweep")));
+                 AllOf(HasSubstr("rows.csv"), HasSubstr("is not a sweep")));
   std::filesystem::remove(path("rows.csv"));
   put_text(path("picture.svg"), "mine");
   auto arguments = kTwoRows;
   arguments.insert(arguments.end(),
                    {"--plot", path("picture.svg"), "--column", "viscous_contact_exact.film"});
   expect_refused(kVanishing, arguments, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("picture.svg"), HasSubstr("is no picture")));
+                 AllOf(HasSubstr("picture.svg"), HasSubstr("is not a picture")));
   // A sweep it may replace, by another one.
   std::filesystem::remove(path("picture.svg"));
   put_text(path("rows.csv"), "# provenance: {\"command\":[]}\n# viscontact: sweep\nother\n");
