@@ -10,7 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 /// The path at which the file of this name is or will be, after symbolic links, also those to files
@@ -40,7 +40,8 @@ void check_outputs(const std::vector<std::string>& paths) {
 }
 
 void check_models(std::string_view option, const std::vector<std::string>& names) {
-  for (const auto& name : names) from_option(option, [&] { return find_model(name); });
+  for (const auto& name : names)
+    from_option(option, [&] { return reduced_model::find_model(name); });
 }
 
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
@@ -61,4 +62,4 @@ CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
       ->default_str("one for each core");
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

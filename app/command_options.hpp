@@ -9,7 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 // Type names of options. --help, the manual page and the completion of shells know from them what
 // the value of an option is. An option with a choice of words has the type name "word|word".
@@ -56,4 +56,4 @@ CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
 /// Adds the flag --json, which sets `json`.
 CLI::Option* add_json(CLI::App& command, bool& json);
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 // A signal handler can use only a global variable. It must be atomic without a lock, because other
@@ -32,4 +32,4 @@ void catch_interrupts() {
 
 StopToken interrupt_token() { return StopToken(signal_came); }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -3,7 +3,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 /// After this call SIGINT, SIGTERM and SIGHUP request a stop instead of ending the process. A
 /// process gets SIGHUP when its terminal or connection is lost; the signal stays ignored if it was
@@ -13,4 +13,4 @@ void catch_interrupts();
 /// The token that requests a stop after one of these signals has come.
 StopToken interrupt_token();
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -23,15 +23,15 @@
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 std::string version_text() {
   std::string text;
-  for (const auto& [program, version] : library_versions())
+  for (const auto& [program, version] : results::library_versions())
     if (program != "Viscontact") text += fmt::format("{} {}\n", program, version);
   return fmt::format("viscontact {}\nFreeFEM {}\n{}", VISCONTACT_VERSION,
-                     freefem_version_or_not_found(interrupt_token()), text);
+                     results::freefem_version_or_not_found(interrupt_token()), text);
 }
 
 /// Adds the commands `completion` and `man`, whose texts are made from the command line itself.
@@ -86,36 +86,36 @@ int run(int argc, char** argv) {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));
-    return exit_code_of(ErrorKind::kWrongUsage);
+    terminal::complain(fmt::format("viscontact: {}; see viscontact --help", error.what()));
+    return results::exit_code_of(ErrorKind::kWrongUsage);
   }
-  return healthy ? 0 : exit_code_of(ErrorKind::kExternalProgram);
+  return healthy ? 0 : results::exit_code_of(ErrorKind::kExternalProgram);
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::app
 
 int main(int argc, char** argv) {
   using viscontact::ErrorKind;
-  using viscontact::exit_code_of;
-  viscontact::catch_interrupts();
+  using viscontact::results::exit_code_of;
+  viscontact::app::catch_interrupts();
   try {
-    const int exit_code = viscontact::run(argc, argv);
+    const int exit_code = viscontact::app::run(argc, argv);
     if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       viscontact::throw_bad_input({"standard output"}, "cannot be written");
     return exit_code;
   } catch (const viscontact::Error& error) {
-    viscontact::clear_progress();
+    viscontact::terminal::clear_progress();
     const bool wrong_usage = error.kind() == ErrorKind::kWrongUsage;
-    viscontact::complain(fmt::format("viscontact: {}{}", error.what(),
-                                     wrong_usage ? "; see viscontact --help" : ""));
+    viscontact::terminal::complain(fmt::format("viscontact: {}{}", error.what(),
+                                               wrong_usage ? "; see viscontact --help" : ""));
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
-    viscontact::complain("viscontact: there is not enough memory for this");
+    viscontact::terminal::complain("viscontact: there is not enough memory for this");
     return exit_code_of(ErrorKind::kNotConverged);
   } catch (const std::exception& error) {
     // An error of the file system or of a library that no check has found before.
-    viscontact::complain(fmt::format("viscontact: {}", error.what()));
+    viscontact::terminal::complain(fmt::format("viscontact: {}", error.what()));
     return exit_code_of(ErrorKind::kBadInput);
   }
 }

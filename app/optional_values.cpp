@@ -9,7 +9,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   struct Option {
@@ -19,7 +19,9 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   constexpr auto is_number = [](std::string_view word) {
     return parse_number(word.substr(0, word.find(','))).has_value();
   };
-  constexpr auto is_term = [](std::string_view word) { return word.starts_with(kLeadingTerm); };
+  constexpr auto is_term = [](std::string_view word) {
+    return word.starts_with(lubrication::kLeadingTerm);
+  };
   constexpr auto is_limit = [](std::string_view word) {
     return word == "fitted" || word == "theory";
   };
@@ -42,4 +44,4 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   return arguments;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::app {
 
 /// Returns the arguments of a command line, from the command's name on, in an order that CLI11
 /// reads correctly. An option whose value may be left out (`fit --fix`, `tabulate --plot`,
@@ -13,4 +13,4 @@ namespace viscontact {
 /// before the word "--".
 std::vector<std::string> with_files_apart(std::vector<std::string> arguments);
 
-}  // namespace viscontact
+}  // namespace viscontact::app

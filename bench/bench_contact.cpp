@@ -18,10 +18,10 @@ namespace {
 const std::filesystem::path kData = std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data";
 
 /// The motion of the lecture's case (data/cases/lecture.toml) with rows and time steps `step` [T].
-Motion lecture_motion(double step) {
-  Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
-  motion.set(kReferenceTimeStep, step);
-  motion.set(kContactTimeStep, step);
+reduced_model::Motion lecture_motion(double step) {
+  reduced_model::Motion motion{20, 1, 0, 4, reduced_model::ExternalForce({{2, -200}, {4, 200}})};
+  motion.set(reduced_model::kReferenceTimeStep, step);
+  motion.set(reduced_model::kContactTimeStep, step);
   return motion;
 }
 
@@ -35,9 +35,11 @@ void count_steps(benchmark::State& state, double steps) {
 void single_sphere(benchmark::State& state) {
   const auto steps = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / steps);
-  const LubricationForce force(read_fit(kData / "fits/lecture.json"));
+  const lubrication::LubricationForce force(lubrication::read_fit(kData / "fits/lecture.json"));
   for (auto _ : state)
-    benchmark::DoNotOptimize(run_contact_model(viscous_contact, motion, force).rows.data());
+    benchmark::DoNotOptimize(
+        reduced_model::run_contact_model(reduced_model::viscous_contact, motion, force)
+            .rows.data());
   count_steps(state, steps);
 }
 BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
@@ -46,14 +48,16 @@ BENCHMARK(single_sphere)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);
 void single_sphere_without_rows(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
   const auto motion = lecture_motion(4.0 / steps);
-  const double h = motion.parameter(kContactTimeStep);
-  const ContactSetting setting(motion.mass, -std::numeric_limits<double>::infinity(), h);
+  const double h = motion.parameter(reduced_model::kContactTimeStep);
+  const reduced_model::ContactSetting setting(motion.mass, -std::numeric_limits<double>::infinity(),
+                                              h);
   for (auto _ : state) {
-    ContactState sphere{motion.initial_gap, motion.initial_velocity, 0};
+    reduced_model::ContactState sphere{motion.initial_gap, motion.initial_velocity, 0};
     for (int n = 0; n < steps; ++n) {
       const double push =
-          h * motion.external_force.mean(n * h, step_time(n + 1, steps, motion.end_time, h));
-      sphere = contact_step(sphere, push, setting, NoDrag()).state;
+          h * motion.external_force.mean(
+                  n * h, reduced_model::step_time(n + 1, steps, motion.end_time, h));
+      sphere = reduced_model::contact_step(sphere, push, setting, reduced_model::NoDrag()).state;
     }
     benchmark::DoNotOptimize(sphere.gap);
   }
@@ -65,9 +69,9 @@ BENCHMARK(single_sphere_without_rows)->Arg(4000)->Arg(400000)->Unit(benchmark::k
 void reference_exact(benchmark::State& state) {
   const auto times = static_cast<double>(state.range(0));
   const auto motion = lecture_motion(4 / times);
-  const LubricationForce force(read_fit(kData / "fits/lecture.json"));
+  const lubrication::LubricationForce force(lubrication::read_fit(kData / "fits/lecture.json"));
   for (auto _ : state)
-    benchmark::DoNotOptimize(simulate_reference_exact(motion, force).rows.data());
+    benchmark::DoNotOptimize(reduced_model::simulate_reference_exact(motion, force).rows.data());
   count_steps(state, times);
 }
 BENCHMARK(reference_exact)->Arg(4000)->Arg(400000)->Unit(benchmark::kMicrosecond);

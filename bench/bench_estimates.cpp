@@ -25,21 +25,22 @@
 namespace viscontact {
 namespace {
 
-std::vector<SolvedRow> solve_all(const FreeFem& freefem, const std::vector<ExactRow>& rows) {
-  std::vector<SolvedRow> solved;
+std::vector<freefem_axi::SolvedRow> solve_all(const freefem_axi::FreeFem& freefem,
+                                              const std::vector<freefem_axi::ExactRow>& rows) {
+  std::vector<freefem_axi::SolvedRow> solved;
   std::mutex mutex;  // protects `solved` and the output
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = 0; (i = next++) < rows.size();) try {
-        auto row = solve(freefem, rows[i]);
+        auto row = freefem_axi::solve(freefem, rows[i]);
         const std::scoped_lock lock(mutex);
         if (row.ratio() > 1 || !row.says_reached())
           fmt::print("  {}, ratio {:.2f}\n", row.in_words(), row.ratio());
         solved.push_back(std::move(row));
       } catch (const Error& error) {
         const std::scoped_lock lock(mutex);
-        fmt::print("  {}, gap {}: {}\n", geometry_in_words(rows[i].tabulation), rows[i].gap(),
-                   error.what());
+        fmt::print("  {}, gap {}: {}\n", freefem_axi::geometry_in_words(rows[i].tabulation),
+                   rows[i].gap(), error.what());
       }
   };
   std::vector<std::jthread> workers;
@@ -49,21 +50,21 @@ std::vector<SolvedRow> solve_all(const FreeFem& freefem, const std::vector<Exact
   return solved;
 }
 
-void print_coverage(const char* name, std::size_t asked, std::vector<SolvedRow> rows) {
+void print_coverage(const char* name, std::size_t asked, std::vector<freefem_axi::SolvedRow> rows) {
   if (rows.empty()) return;
   const auto share = [&](auto&& test) {
     return 100 * static_cast<double>(std::ranges::count_if(rows, test)) /
            static_cast<double>(rows.size());
   };
-  std::ranges::sort(rows, {}, &SolvedRow::ratio);
+  std::ranges::sort(rows, {}, &freefem_axi::SolvedRow::ratio);
   double seconds = 0;
   for (const auto& row : rows) seconds += row.answer.seconds;
   fmt::print("{:<14} {:>5} {:>7} {:>10.1f}% {:>8.2f} {:>8.2f} {:>11.1f}% {:>11.1f}% {:>8.2f}\n",
              name, rows.size(), asked - rows.size(),
-             share([](const SolvedRow& row) { return row.ratio() <= 1; }),
+             share([](const freefem_axi::SolvedRow& row) { return row.ratio() <= 1; }),
              rows[rows.size() / 2].ratio(), rows.back().ratio(),
-             share([](const SolvedRow& row) { return !row.says_reached(); }),
-             share([](const SolvedRow& row) {
+             share([](const freefem_axi::SolvedRow& row) { return !row.says_reached(); }),
+             share([](const freefem_axi::SolvedRow& row) {
                return row.says_reached() && row.error() > row.row.tabulation.relative_accuracy;
              }),
              seconds / static_cast<double>(rows.size()));
@@ -72,15 +73,15 @@ void print_coverage(const char* name, std::size_t asked, std::vector<SolvedRow> 
 
 void measure(std::size_t rows_per_geometry, double finest_accuracy, unsigned seed,
              const std::string& only) {
-  const auto freefem = default_freefem();
+  const auto freefem = freefem_axi::default_freefem();
   fmt::print("{:<14} {:>5} {:>7} {:>11} {:>8} {:>8} {:>12} {:>12} {:>8}\n", "geometry", "rows",
              "failed", "err <= est", "median", "largest", "est > asked", "err > asked", "seconds");
-  for (const auto& rows : exact_rows()) {
+  for (const auto& rows : freefem_axi::exact_rows()) {
     if (!only.empty() && only != rows.name) continue;
-    Random random(seed);
-    std::vector<ExactRow> drawn;
+    freefem_axi::Random random(seed);
+    std::vector<freefem_axi::ExactRow> drawn;
     for (std::size_t i = 0; i < rows_per_geometry; ++i) {
-      const double accuracy = log_uniform(random, finest_accuracy, 1e-5);
+      const double accuracy = freefem_axi::log_uniform(random, finest_accuracy, 1e-5);
       drawn.push_back(rows.draw(random, accuracy));
     }
     print_coverage(rows.name, drawn.size(), solve_all(freefem, drawn));

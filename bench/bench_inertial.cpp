@@ -25,18 +25,18 @@ const std::string kSource = VISCONTACT_SOURCE_FOLDER;
 
 /// The motion of the lecture's case (data/cases/lecture.toml), with the relative tolerance of
 /// CVODE.
-Motion lecture_motion(double tolerance) {
-  Motion motion{20, 1, 0, 4, ExternalForce({{2, -200}, {4, 200}})};
-  motion.set(kReferenceTimeStep, 1e-3);
-  motion.set(kRelativeTolerance, tolerance);
+reduced_model::Motion lecture_motion(double tolerance) {
+  reduced_model::Motion motion{20, 1, 0, 4, reduced_model::ExternalForce({{2, -200}, {4, 200}})};
+  motion.set(reduced_model::kReferenceTimeStep, 1e-3);
+  motion.set(reduced_model::kRelativeTolerance, tolerance);
   return motion;
 }
 
 /// The resistance R(q) [M/T] of a fit in the lecture's basis, in long double.
-InertialProblem::Function resistance(const Fit& fit) {
+InertialProblem::Function resistance(const lubrication::Fit& fit) {
   return [fit](long double q) {
     long double force = 0;
-    const auto add = [&](const FitTerm& term) -> long double {
+    const auto add = [&](const lubrication::FitTerm& term) -> long double {
       if (term.name == "1/q") return 1 / q;
       if (term.name == "1") return 1;
       if (term.name == "q") return q;
@@ -50,8 +50,8 @@ InertialProblem::Function resistance(const Fit& fit) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-  const auto fit = read_fit(kSource + "/data/fits/lecture.json");
-  const LubricationForce force(fit);
+  const auto fit = lubrication::read_fit(kSource + "/data/fits/lecture.json");
+  const lubrication::LubricationForce force(fit);
   InertialMotion oracle(
       {20, 1, 0, resistance(fit), {{2, [](long double) { return -200.0L; }}, {4, [](long double) {
                                                                                 return 200.0L;
@@ -65,12 +65,12 @@ int run(const std::vector<std::string>& arguments) {
   }
 
   for (const double tolerance : {1e-7, 1e-9, 1e-11}) {
-    const Motion motion = lecture_motion(tolerance);
+    const reduced_model::Motion motion = lecture_motion(tolerance);
     std::vector<double> milliseconds;
-    Trajectory trajectory;
+    reduced_model::Trajectory trajectory;
     for (int i = 0; i < 101; ++i) {
       const auto start = std::chrono::steady_clock::now();
-      trajectory = simulate_inertial(motion, force);
+      trajectory = reduced_model::simulate_inertial(motion, force);
       milliseconds.push_back(
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
               .count());

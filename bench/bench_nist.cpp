@@ -7,9 +7,9 @@
 int main() {
   fmt::print("{:<10} {:>5} {:>8} {:>10} {:>20} {:>18}\n", "set", "rows", "columns", "condition",
              "digits, coefficients", "digits, deviations");
-  for (const auto name : viscontact::nist_sets()) {
-    const auto set = viscontact::read_nist_set(name);
-    const auto reached = viscontact::digits_reached(set);
+  for (const auto name : viscontact::fitting::nist_sets()) {
+    const auto set = viscontact::fitting::read_nist_set(name);
+    const auto reached = viscontact::fitting::digits_reached(set);
     fmt::print(
         "{:<10} {:>5} {:>8} {:>10.1e} {:>20.1f} {:>18}\n", name, set.matrix.rows(),
         set.matrix.cols(), reached.condition_number, reached.coefficients,

@@ -32,22 +32,24 @@ struct Row {
   double drag_factor = 0, estimate = 0, unknowns = 0, cpu_seconds = 0, peak_megabytes = 0;
 };
 
-Row solve(const FreeFem& freefem, const Tabulation& tabulation, double gap) {
+Row solve(const freefem_axi::FreeFem& freefem, const freefem_axi::Tabulation& tabulation,
+          double gap) {
   const double before = child_cpu_seconds();
-  const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script,
-                                  row_arguments(tabulation, gap, -1));
+  const auto result =
+      freefem_axi::run_freefem(freefem, freefem_axi::find_geometry(tabulation.geometry).script,
+                               freefem_axi::row_arguments(tabulation, gap, -1));
   Row row;
   row.cpu_seconds = child_cpu_seconds() - before;
   row.peak_megabytes = static_cast<double>(result.peak_memory_kb) / 1024;
-  std::istringstream words(line_after(result.output, "viscontact-result"));
+  std::istringstream words(freefem_axi::line_after(result.output, "viscontact-result"));
   words >> row.drag_factor >> row.estimate >> row.unknowns;
   row.drag_factor /= 6 * std::numbers::pi;
   return row;
 }
 
-Tabulation unit(std::string geometry, std::vector<double> parameters,
-                std::optional<Container> container, double accuracy) {
-  Tabulation tabulation;
+freefem_axi::Tabulation unit(std::string geometry, std::vector<double> parameters,
+                             std::optional<freefem_axi::Container> container, double accuracy) {
+  freefem_axi::Tabulation tabulation;
   tabulation.viscosity = 1;
   tabulation.radius = 1;
   tabulation.container = container;
@@ -57,8 +59,8 @@ Tabulation unit(std::string geometry, std::vector<double> parameters,
   return tabulation;
 }
 
-void print_row(const FreeFem& freefem, const std::string& what, const Tabulation& tabulation,
-               double gap, double exact) {
+void print_row(const freefem_axi::FreeFem& freefem, const std::string& what,
+               const freefem_axi::Tabulation& tabulation, double gap, double exact) {
   const auto row = solve(freefem, tabulation, gap);
   fmt::print("{:<24} {:>8} {:>8} {:>9.1e} {:>9.1e} {:>9.0f} {:>7.2f} {:>8.0f}\n", what, gap,
              tabulation.relative_accuracy, std::abs(row.drag_factor / exact - 1), row.estimate,
@@ -70,7 +72,7 @@ void print_header() {
              "estimate", "unknowns", "CPU s", "peak MB");
 }
 
-void measure_geometries(const FreeFem& freefem) {
+void measure_geometries(const freefem_axi::FreeFem& freefem) {
   print_header();
   for (const double accuracy : {1e-5, 1e-6}) {
     for (const double gap : {1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0}) {
@@ -89,7 +91,7 @@ void measure_geometries(const FreeFem& freefem) {
         // The exact solution is for spheres below the middle of the container.
         if (gap + 1 <= radius)
           print_row(freefem, fmt::format("plane, {} x {}", radius, 2 * radius),
-                    unit("plane", {}, Container{radius, 2 * radius}, accuracy), gap,
+                    unit("plane", {}, freefem_axi::Container{radius, 2 * radius}, accuracy), gap,
                     sphere_in_cylinder_drag_factor(gap, radius, 2 * radius));
   }
   fmt::print("\nAt accuracy 1e-7, as the shipped tables\n");
@@ -99,7 +101,7 @@ void measure_geometries(const FreeFem& freefem) {
               bispherical_plane_factor(gap));
 }
 
-void measure_growth(const FreeFem& freefem) {
+void measure_growth(const freefem_axi::FreeFem& freefem) {
   fmt::print("\nCost against the gap, at 1e-5\n");
   print_header();
   for (int i = -6; i <= 0; ++i) {
@@ -111,8 +113,9 @@ void measure_growth(const FreeFem& freefem) {
 
 /// Prints the error of a row and the smallest error that the textbook script reaches in the CPU
 /// time of the row. The round of the script in which this time ends is included.
-void measure_textbook(const FreeFem& freefem) {
-  const FreeFem here{freefem.executable, std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
+void measure_textbook(const freefem_axi::FreeFem& freefem) {
+  const freefem_axi::FreeFem here{freefem.executable,
+                                  std::string(VISCONTACT_SOURCE_FOLDER) + "/bench"};
   fmt::print(
       "\nBeside bench/textbook.edp, at equal CPU time\n{:<8} {:>12} {:>7} {:>14} {:>7} {:>8}\n",
       "gap/r", "error", "CPU s", "textbook error", "CPU s", "ratio");
@@ -120,11 +123,12 @@ void measure_textbook(const FreeFem& freefem) {
     const double exact = bispherical_plane_factor(gap);
     const auto row = solve(freefem, unit("plane", {}, {}, 1e-5), gap);
     const double error = std::abs(row.drag_factor / exact - 1);
-    const auto result =
-        run_freefem(here, "textbook.edp", {"-gap", fmt::format("{}", gap), "-rounds", "6"});
+    const auto result = freefem_axi::run_freefem(here, "textbook.edp",
+                                                 {"-gap", fmt::format("{}", gap), "-rounds", "6"});
     double best = std::numeric_limits<double>::infinity(), seconds = 0;
     for (int round = 0; seconds < row.cpu_seconds; ++round) {
-      std::istringstream words(line_after(result.output, fmt::format("textbook {}", round)));
+      std::istringstream words(
+          freefem_axi::line_after(result.output, fmt::format("textbook {}", round)));
       double force = 0, unknowns = 0;
       if (!(words >> force >> unknowns >> seconds)) break;
       best = std::min(best, std::abs(force / (6 * std::numbers::pi * exact) - 1));
@@ -139,7 +143,7 @@ void measure_textbook(const FreeFem& freefem) {
 
 int main() {
   try {
-    const auto freefem = viscontact::default_freefem();
+    const auto freefem = viscontact::freefem_axi::default_freefem();
     viscontact::measure_geometries(freefem);
     viscontact::measure_growth(freefem);
     viscontact::measure_textbook(freefem);

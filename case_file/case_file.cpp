@@ -15,7 +15,7 @@
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 /// Returns the value that belongs to a word, from a list of all words that are allowed.
@@ -47,15 +47,17 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
     if (basis_key == "terms" && section.has("basis"))
       section.fail("basis", "must be left out where terms gives a basis of its own");
     settings.basis = at_key(section, basis_key, [&] {
-      return basis_key == "terms" ? parse_terms(basis) : find_basis(basis);
+      return basis_key == "terms" ? lubrication::parse_terms(basis)
+                                  : lubrication::find_basis(basis);
     });
     if (section.has("weights")) {
       const std::string weights = section.text("weights");
-      settings.weights = at_key(section, "weights", [&] { return parse_weights(weights); });
+      settings.weights =
+          at_key(section, "weights", [&] { return lubrication::parse_weights(weights); });
     }
     if (section.has("loss")) {
       const std::string loss = section.text("loss");
-      settings.loss = at_key(section, "loss", [&] { return parse_loss(loss); });
+      settings.loss = at_key(section, "loss", [&] { return lubrication::parse_loss(loss); });
     }
     if (section.has("fix")) {
       settings.fix_leading = true;
@@ -68,12 +70,13 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
     }
   }
   if (section.has("below"))
-    fit.below = one_of<BelowInterval>(section, "below",
-                                      {{"lubrication_limit", BelowInterval::kLubricationLimit},
-                                       {"theory_limit", BelowInterval::kTheoryLimit}});
+    fit.below = one_of<lubrication::BelowInterval>(
+        section, "below",
+        {{"lubrication_limit", lubrication::BelowInterval::kLubricationLimit},
+         {"theory_limit", lubrication::BelowInterval::kTheoryLimit}});
   if (section.has("above"))
-    fit.above =
-        one_of<AboveInterval>(section, "above", {{"stokes_limit", AboveInterval::kStokesLimit}});
+    fit.above = one_of<lubrication::AboveInterval>(
+        section, "above", {{"stokes_limit", lubrication::AboveInterval::kStokesLimit}});
   section.finish();
   return fit;
 }
@@ -90,7 +93,8 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 std::vector<std::string> read_models(const TomlSection& section) {
   if (!section.has("models")) return {};
   auto models = section.texts("models");
-  for (const auto& model : models) at_key(section, "models", [&] { return find_model(model); });
+  for (const auto& model : models)
+    at_key(section, "models", [&] { return reduced_model::find_model(model); });
   return models;
 }
 
@@ -144,21 +148,22 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
         PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
     published.finish();
   }
-  const bool other_wall = c.tabulation && !find_geometry(c.tabulation->geometry).has_exact_drag;
+  const bool other_wall =
+      c.tabulation && !freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag;
   if (other_wall && c.fit && c.fit->exact)
     root.section("fit").fail(
         "exact", fmt::format("is the drag near a plane; tabulation.geometry is {}, for which "
                              "the exact drag is not known",
                              c.tabulation->geometry));
   for (const auto& model : c.models)
-    if (other_wall && find_model(model).exact_drag)
+    if (other_wall && reduced_model::find_model(model).exact_drag)
       root.section("motion").fail(
           "models", fmt::format("contains {}, which runs with the exact drag near a plane; "
                                 "tabulation.geometry is {}",
                                 model, c.tabulation->geometry));
   if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
   // Without [motion] these sections are not read, but they are allowed.
-  for (const auto& name : model_sections()) (void)root.has(name);
+  for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
   root.finish();
   return c;
 }
@@ -167,7 +172,7 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
 /// set.
 std::string with_model_sections(std::string text, const std::filesystem::path& path) {
   const auto root = TomlSection::parse(text, path.string());
-  for (const auto& name : model_sections())
+  for (const auto& name : reduced_model::model_sections())
     if (!root.has(name)) text += fmt::format("\n[{}]\n", name);
   return text;
 }
@@ -189,10 +194,12 @@ Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers)
   return read_case(root_.with_numbers(numbers), text_, path_);
 }
 
-const Tabulation& required_tabulation(const Case& c) {
+const freefem_axi::Tabulation& required_tabulation(const Case& c) {
   return required(c.tabulation, c, "tabulation");
 }
 const FitRequest& required_fit(const Case& c) { return required(c.fit, c, "fit"); }
-const Motion& required_motion(const Case& c) { return required(c.motion, c, "motion"); }
+const reduced_model::Motion& required_motion(const Case& c) {
+  return required(c.motion, c, "motion");
+}
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

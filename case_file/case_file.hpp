@@ -18,16 +18,16 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// How the drag is fitted, or what replaces tabulation and fit.
 struct FitRequest {
-  FitSettings settings;
+  fitting::FitSettings settings;
   /// A fit file that replaces tabulation and fit.
   std::optional<std::filesystem::path> file;
   /// Drag below and above the interval of the fit.
-  BelowInterval below = BelowInterval::kError;
-  AboveInterval above = AboveInterval::kError;
+  lubrication::BelowInterval below = lubrication::BelowInterval::kError;
+  lubrication::AboveInterval above = lubrication::AboveInterval::kError;
   /// True: the exact drag near a plane replaces the fit.
   bool exact = false;
 };
@@ -55,9 +55,10 @@ struct Case {
   std::string text;      ///< content of the file
   // A part exists if the file has its sections. Commands that need a part call the required_...
   // functions below.
-  std::optional<Tabulation> tabulation;
+  std::optional<freefem_axi::Tabulation> tabulation;
   std::optional<FitRequest> fit;
-  std::optional<Motion> motion;  ///< with the settings of the models, or their defaults
+  std::optional<reduced_model::Motion>
+      motion;  ///< with the settings of the models, or their defaults
   /// Names of the models to run; empty: all models.
   std::vector<std::string> models;
   std::optional<PublishedGap> published;
@@ -89,8 +90,8 @@ class CaseTemplate {
 
 /// The parts of a case that a command needs. Throws Error(kBadInput), which names the missing
 /// section.
-const Tabulation& required_tabulation(const Case& c);
+const freefem_axi::Tabulation& required_tabulation(const Case& c);
 const FitRequest& required_fit(const Case& c);
-const Motion& required_motion(const Case& c);
+const reduced_model::Motion& required_motion(const Case& c);
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

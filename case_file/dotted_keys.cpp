@@ -9,7 +9,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 /// Position after the string whose opening quote is at `at`; the end of the text if the string is
@@ -80,4 +80,4 @@ void check_dotted_keys(const std::string& text, const std::string& file) {
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

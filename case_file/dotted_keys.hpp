@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// Throws Error(kBadInput), which names `file` and the line, if a key or the name of a section in
 /// the TOML text has more than 16 parts joined by dots. Must be called before the text is parsed:
@@ -13,4 +13,4 @@ namespace viscontact {
 /// 256 levels.
 void check_dotted_keys(const std::string& text, const std::string& file);
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -11,13 +11,13 @@
 #include "viscontact/case_file/sections.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 /// Reads an entry of external_force with `until`: a piece of a force, which begins where the piece
 /// before it ends.
-ExternalForce::Piece read_piece(const TomlSection& entry) {
-  ExternalForce::Piece piece{entry.number("until", kPositive), 0};
+reduced_model::ExternalForce::Piece read_piece(const TomlSection& entry) {
+  reduced_model::ExternalForce::Piece piece{entry.number("until", kPositive), 0};
   if (entry.has("polynomial")) {
     if (entry.has("value"))
       entry.fail("value", "must be left out where polynomial gives it as the first coefficient");
@@ -30,7 +30,7 @@ ExternalForce::Piece read_piece(const TomlSection& entry) {
   return piece;
 }
 
-ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
+reduced_model::ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
   return {entry.number("amplitude", kFinite), entry.number("angular_frequency", kPositive),
           entry.has("phase") ? entry.number("phase", kFinite) : 0};
 }
@@ -49,35 +49,36 @@ std::filesystem::path force_file(const std::filesystem::path& folder,
 
 /// Reads `external_force` [M L/T^2]. The entries with `until` follow each other and make one force.
 /// Every other entry, a sinusoid or a file, is added to this force.
-ExternalForce read_forces(const TomlSection& motion, double end_time,
-                          const std::filesystem::path& case_folder,
-                          std::vector<std::filesystem::path>& files) {
-  std::vector<ExternalForce::Piece> pieces;
-  std::vector<ExternalForce> summands;
+reduced_model::ExternalForce read_forces(const TomlSection& motion, double end_time,
+                                         const std::filesystem::path& case_folder,
+                                         std::vector<std::filesystem::path>& files) {
+  std::vector<reduced_model::ExternalForce::Piece> pieces;
+  std::vector<reduced_model::ExternalForce> summands;
   for (const auto& entry : motion.sections("external_force")) {
     if (entry.has("file")) {
       files.push_back(force_file(case_folder, entry.text("file")));
-      summands.push_back(read_external_force(files.back(), end_time));
+      summands.push_back(reduced_model::read_external_force(files.back(), end_time));
     } else if (entry.has("amplitude")) {
-      summands.push_back(ExternalForce::sinusoidal(read_sinusoid(entry)));
+      summands.push_back(reduced_model::ExternalForce::sinusoidal(read_sinusoid(entry)));
     } else {
       pieces.push_back(read_piece(entry));
     }
     entry.finish();
   }
   if (!pieces.empty()) {
-    summands.push_back(at_key(motion, "external_force", [&] { return ExternalForce(pieces); }));
+    summands.push_back(
+        at_key(motion, "external_force", [&] { return reduced_model::ExternalForce(pieces); }));
     if (pieces.back().until < end_time)
       motion.fail("external_force", fmt::format("ends at {}; it must reach motion.end_time, {}",
                                                 pieces.back().until, end_time));
   }
-  ExternalForce force = summands.front();
+  reduced_model::ExternalForce force = summands.front();
   for (std::size_t i = 1; i < summands.size(); ++i) force += summands[i];
   return force;
 }
 
 /// Reads a parameter of a model.
-double read_parameter(const TomlSection& section, const ModelParameter& parameter,
+double read_parameter(const TomlSection& section, const reduced_model::ModelParameter& parameter,
                       double end_time) {
   const double value = section.number(parameter.name(), parameter.allowed);
   if (parameter.is_time_step && value > end_time)
@@ -104,11 +105,11 @@ std::array<double, 2> read_roughness(const TomlSection& contact, double radius) 
 
 /// Reads the sections of the models' parameters. A section that exists is checked even if no model
 /// uses it.
-void read_model_sections(const TomlSection& root, double radius, Motion& motion) {
-  const auto parameters = model_parameters();
+void read_model_sections(const TomlSection& root, double radius, reduced_model::Motion& motion) {
+  const auto parameters = reduced_model::model_parameters();
   for (const auto& parameter : parameters)
     motion.set(parameter, parameter.fallback(motion, radius));
-  for (const auto& name : model_sections()) {
+  for (const auto& name : reduced_model::model_sections()) {
     if (!root.has(name)) continue;
     const auto section = root.section(name);
     for (const auto& parameter : parameters)
@@ -122,7 +123,7 @@ void read_model_sections(const TomlSection& root, double radius, Motion& motion)
 }
 
 /// Multiplies all times by a factor.
-void stretch(const TomlSection& section, Motion& motion) {
+void stretch(const TomlSection& section, reduced_model::Motion& motion) {
   const double scale = section.number("time_scale", kPositive);
   bool representable = std::isnormal(motion.end_time);
   const auto stretched = [&](double time) {
@@ -131,7 +132,7 @@ void stretch(const TomlSection& section, Motion& motion) {
   };
   motion.external_force = motion.external_force.stretched(scale);
   motion.end_time = stretched(motion.end_time);
-  for (const auto& parameter : model_parameters())
+  for (const auto& parameter : reduced_model::model_parameters())
     if (parameter.is_time_step) motion.set(parameter, stretched(motion.parameter(parameter)));
   if (!representable)
     section.fail(
@@ -142,13 +143,13 @@ void stretch(const TomlSection& section, Motion& motion) {
 
 }  // namespace
 
-Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius,
-                   const std::filesystem::path& case_folder,
-                   std::vector<std::filesystem::path>& force_files) {
+reduced_model::Motion read_motion(const TomlSection& root, const TomlSection& section, double mass,
+                                  double radius, const std::filesystem::path& case_folder,
+                                  std::vector<std::filesystem::path>& force_files) {
   const double end_time = section.number("end_time", kPositive);
-  Motion motion{mass, section.number("initial_gap", kPositive),
-                section.number("initial_velocity", kFinite), end_time,
-                read_forces(section, end_time, case_folder, force_files)};
+  reduced_model::Motion motion{mass, section.number("initial_gap", kPositive),
+                               section.number("initial_velocity", kFinite), end_time,
+                               read_forces(section, end_time, case_folder, force_files)};
 
   read_model_sections(root, radius, motion);
   if (section.has("rows")) motion.output_rows = section.count("rows", 2, 100'000'000);
@@ -156,4 +157,4 @@ Motion read_motion(const TomlSection& root, const TomlSection& section, double m
   return motion;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

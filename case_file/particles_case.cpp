@@ -18,7 +18,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using particles::Particles;
@@ -273,4 +273,4 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
   return c;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -7,7 +7,7 @@
 
 #include "viscontact/particles/simulation.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// Content of a case file of many particles.
 struct ParticlesCase {
@@ -29,4 +29,4 @@ struct ParticlesCase {
 /// origin than particles::largest_resolved_distance.
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

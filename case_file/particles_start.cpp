@@ -10,7 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 using particles::operator-;
 
@@ -86,4 +86,4 @@ void check_start(const ParticlesCase& c, const std::vector<int>& lines) {
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -13,7 +13,7 @@
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// Calls `check`, which tests a value in another part of the program, and gives its error the key
 /// and the line of this file.
@@ -27,12 +27,13 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
 }
 
 /// Reads [tabulation].
-Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius);
+freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
+                                        double radius);
 
 /// Reads [motion], but for its models, and the sections of the models' parameters from the root.
 /// Appends the files of the external force to `force_files`.
-Motion read_motion(const TomlSection& root, const TomlSection& section, double mass, double radius,
-                   const std::filesystem::path& case_folder,
-                   std::vector<std::filesystem::path>& force_files);
+reduced_model::Motion read_motion(const TomlSection& root, const TomlSection& section, double mass,
+                                  double radius, const std::filesystem::path& case_folder,
+                                  std::vector<std::filesystem::path>& force_files);
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -11,7 +11,7 @@
 #include "viscontact/case_file/sections.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
@@ -48,12 +48,12 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
   return gaps;
 }
 
-void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation) {
+void read_geometry(const TomlSection& tabulation_section, freefem_axi::Tabulation& tabulation) {
   if (!tabulation_section.has("geometry")) return;  // the default geometry is a plane
   const auto section = tabulation_section.section("geometry");
   tabulation.geometry = section.text("kind");
   const auto& geometry = at_key(
-      section, "kind", [&]() -> auto& { return find_geometry(tabulation.geometry); });
+      section, "kind", [&]() -> auto& { return freefem_axi::find_geometry(tabulation.geometry); });
   for (const auto& parameter : geometry.parameters) {
     const std::string key(parameter.key);
     tabulation.geometry_parameters.push_back(parameter.fallback && !section.has(key)
@@ -65,8 +65,9 @@ void read_geometry(const TomlSection& tabulation_section, Tabulation& tabulation
 
 /// Reads `container`: { radius, height } [L], which must contain the sphere and its neighbour at
 /// every gap, or "unbounded".
-void read_container(const TomlSection& section, const RequiredSpace& room, Tabulation& tabulation) {
-  if (!find_geometry(tabulation.geometry).takes_container) {
+void read_container(const TomlSection& section, const freefem_axi::RequiredSpace& room,
+                    freefem_axi::Tabulation& tabulation) {
+  if (!freefem_axi::find_geometry(tabulation.geometry).takes_container) {
     if (section.has("container"))
       section.fail("container", fmt::format("must be left out, because a {} is its own container",
                                             tabulation.geometry));
@@ -82,7 +83,8 @@ void read_container(const TomlSection& section, const RequiredSpace& room, Tabul
     return;
   }
   const auto table = section.section("container");
-  const Container container{table.number("radius", kPositive), table.number("height", kPositive)};
+  const freefem_axi::Container container{table.number("radius", kPositive),
+                                         table.number("height", kPositive)};
   table.finish();
   if (!(container.radius > room.container_radius))
     table.fail("radius",
@@ -109,8 +111,9 @@ void read_container(const TomlSection& section, const RequiredSpace& room, Tabul
 
 }  // namespace
 
-Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
-  Tabulation tabulation;
+freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
+                                        double radius) {
+  freefem_axi::Tabulation tabulation;
   tabulation.viscosity = viscosity;
   tabulation.radius = radius;
   tabulation.gaps = read_gaps(section);
@@ -129,7 +132,7 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
                  fmt::format("goes down to {}; a gap must be at least {} sphere radii, which is {}",
                              narrowest, kSmallestGap, kSmallestGap * radius));
   const double widest = tabulation.gaps.back();
-  const auto room = find_geometry(tabulation.geometry)
+  const auto room = freefem_axi::find_geometry(tabulation.geometry)
                         .required_space(radius, widest, tabulation.geometry_parameters);
   if (!(room.largest_gap > 0))
     section.fail("geometry", "leaves no room for the sphere; give it a larger radius");
@@ -143,4 +146,4 @@ Tabulation read_tabulation(const TomlSection& section, double viscosity, double 
   return tabulation;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -11,7 +11,7 @@
 #include "viscontact/case_file/dotted_keys.hpp"
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 struct TomlSection::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
@@ -231,4 +231,4 @@ void TomlSection::finish() const {
     }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

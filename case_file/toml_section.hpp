@@ -12,7 +12,7 @@
 
 #include "viscontact/common/allowed.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// A table of a TOML file. All functions that read a value throw Error(kBadInput), with the file,
 /// the line, the key and what is allowed, if the key is missing, the value has the wrong type, or
@@ -62,4 +62,4 @@ class TomlSection {
   std::shared_ptr<Node> node_;
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -4,11 +4,12 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
-std::vector<BasisResult> compare_bases(const ForceTable& table, const FitSettings& settings) {
-  auto bases = all_bases();
-  if (settings.basis.name == kOwnTerms) bases.push_back(settings.basis);
+std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
+                                       const FitSettings& settings) {
+  auto bases = lubrication::all_bases();
+  if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
   std::vector<BasisResult> results;
   for (const auto& basis : bases) {
     BasisResult result{std::string(basis.name), {}, ""};
@@ -35,4 +36,4 @@ const BasisResult* best_basis(const std::vector<BasisResult>& results) {
   return best;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -10,20 +10,21 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// A fit in one basis, or the reason why there is none.
 struct BasisResult {
   std::string basis;
-  std::optional<Fit> fit{};
+  std::optional<lubrication::Fit> fit{};
   std::string failure;  ///< message of the error if there is no fit
 };
 
 /// Fits the table in every named basis, and in that of `settings` if it is a list of terms. All
 /// other settings are the same. The error of a basis that fails is kept in its result.
-std::vector<BasisResult> compare_bases(const ForceTable& table, const FitSettings& settings);
+std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
+                                       const FitSettings& settings);
 
 /// The result with the smallest information criterion; null if no result has one.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -13,10 +13,10 @@
 #include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
-double gap_of_row(const ForceTable& table, Eigen::Index row) {
+double gap_of_row(const lubrication::ForceTable& table, Eigen::Index row) {
   return table.rows[static_cast<std::size_t>(row)].gap;
 }
 
@@ -32,14 +32,14 @@ double chi_squared_quantile(double degrees_of_freedom) {
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for a row that a robust loss sets aside.
-bool is_outlier(const FittedSystem& system, Loss loss, Eigen::Index row) {
-  return loss != Loss::kSquared && is_far(system.scaled_residual(row));
+bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index row) {
+  return loss != lubrication::Loss::kSquared && is_far(system.scaled_residual(row));
 }
 
 /// Compares the residual of each row with the error estimate of the same row, because the estimate
 /// of another row may be much larger. Outliers count in chi_squared only.
-void compare_with_estimates(const ForceTable& table, const FittedSystem& system, Loss loss,
-                            FitDiagnostics& d) {
+void compare_with_estimates(const lubrication::ForceTable& table, const FittedSystem& system,
+                            lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
   double chi_squared = 0, chi_squared_of_inliers = 0;
   std::size_t outliers = 0;
@@ -66,7 +66,8 @@ void compare_with_estimates(const ForceTable& table, const FittedSystem& system,
   const bool beyond_quantile =
       chi_squared_of_inliers >
       chi_squared_quantile(static_cast<double>(d.degrees_of_freedom - outliers));
-  d.misfit = beyond_quantile && d.rows_beyond_estimate > 0 ? Misfit::kBasis : Misfit::kData;
+  d.misfit = beyond_quantile && d.rows_beyond_estimate > 0 ? lubrication::Misfit::kBasis
+                                                           : lubrication::Misfit::kData;
 }
 
 /// Leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
@@ -84,27 +85,31 @@ Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
 
 /// True for each row that is alone at the smallest or largest gap of the table. The fit of the
 /// other rows extrapolates to such a row and interpolates to every other one.
-std::vector<bool> end_rows(const ForceTable& table) {
-  const auto [smallest, largest] = std::ranges::minmax(table.rows, {}, &ForceTableRow::gap);
+std::vector<bool> end_rows(const lubrication::ForceTable& table) {
+  const auto [smallest, largest] =
+      std::ranges::minmax(table.rows, {}, &lubrication::ForceTableRow::gap);
   std::vector<bool> is_end;
   for (const auto& row : table.rows)
     is_end.push_back((row.gap == smallest.gap || row.gap == largest.gap) &&
-                     std::ranges::count(table.rows, row.gap, &ForceTableRow::gap) == 1);
+                     std::ranges::count(table.rows, row.gap, &lubrication::ForceTableRow::gap) ==
+                         1);
   return is_end;
 }
 
 /// Replaces `largest` by `row` if the residual of `row` is larger.
-void take_largest(std::optional<LeftOutRow>& largest, const LeftOutRow& row) {
+void take_largest(std::optional<lubrication::LeftOutRow>& largest,
+                  const lubrication::LeftOutRow& row) {
   if (!largest || row.relative_residual > largest->relative_residual) largest = row;
 }
 
-void leave_one_out(const ForceTable& table, const FittedSystem& system, FitDiagnostics& d) {
+void leave_one_out(const lubrication::ForceTable& table, const FittedSystem& system,
+                   lubrication::FitDiagnostics& d) {
   if (d.degrees_of_freedom == 0) return;
   const Eigen::VectorXd leverage = leverages(system.weighted_matrix);
   const auto is_end = end_rows(table);
   const double round_off = 100 * std::numeric_limits<double>::epsilon();
   double squares = 0;
-  std::optional<LeftOutRow> inner, end;
+  std::optional<lubrication::LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
     // This row determines a coefficient alone, so the fit of the other rows does not exist.
     if (1 - leverage(i) < round_off) return;
@@ -122,7 +127,8 @@ void leave_one_out(const ForceTable& table, const FittedSystem& system, FitDiagn
   d.leave_one_out_rms = std::sqrt(squares / static_cast<double>(leverage.size()));
 }
 
-std::optional<double> information_criterion(const FittedSystem& system, const FitDiagnostics& d) {
+std::optional<double> information_criterion(const FittedSystem& system,
+                                            const lubrication::FitDiagnostics& d) {
   const auto n = static_cast<double>(d.rows);
   const auto k = static_cast<double>(d.free_coefficients + 1);
   const double squares = system.weighted_residual.squaredNorm();
@@ -130,8 +136,9 @@ std::optional<double> information_criterion(const FittedSystem& system, const Fi
   return n * std::log(squares / n) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-std::vector<Outlier> outliers(const ForceTable& table, const FittedSystem& system) {
-  std::vector<Outlier> found;
+std::vector<lubrication::Outlier> outliers(const lubrication::ForceTable& table,
+                                           const FittedSystem& system) {
+  std::vector<lubrication::Outlier> found;
   for (Eigen::Index i = 0; i < system.scaled_residual.size(); ++i)
     if (is_far(system.scaled_residual(i)))
       found.push_back({gap_of_row(table, i),
@@ -141,13 +148,13 @@ std::vector<Outlier> outliers(const ForceTable& table, const FittedSystem& syste
 }
 
 /// Warns if the fitted resistance is not positive or does not decrease with the gap.
-void warn_of_shape(const Fit& fit, std::vector<std::string>& warnings) {
+void warn_of_shape(const lubrication::Fit& fit, std::vector<std::string>& warnings) {
   bool positive = true, decreasing = true;
-  for (const double gap : spread_gaps(fit.gap_interval)) {
+  for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     double resistance = 0, slope = 0;
     for (const auto& term : fit.terms) {
       const double weight = -term.coefficient / fit.reference_velocity;
-      const auto found = find_term(term.name).value();
+      const auto found = lubrication::find_term(term.name).value();
       resistance += weight * found.value(gap);
       slope += weight * found.log_slope(gap);
     }
@@ -163,7 +170,7 @@ void warn_of_shape(const Fit& fit, std::vector<std::string>& warnings) {
   }
 }
 
-void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
+void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
     warnings.emplace_back(
@@ -174,7 +181,7 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
       warnings.push_back(
           fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
                       term.name, term.coefficient, term.standard_error));
-    if (term.name != kLeadingTerm || term.standard_error == 0 ||
+    if (term.name != lubrication::kLeadingTerm || term.standard_error == 0 ||
         fit.leading_coefficient.value_or(0) == 0)
       continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
@@ -193,8 +200,9 @@ void warn_of_coefficients(const Fit& fit, const FitDiagnostics& d,
 
 }  // namespace
 
-FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, const Fit& fit) {
-  FitDiagnostics d;
+lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
+                                     const FittedSystem& system, const lubrication::Fit& fit) {
+  lubrication::FitDiagnostics d;
   d.rows = table.rows.size();
   d.free_coefficients = static_cast<std::size_t>(system.weighted_matrix.cols());
   d.degrees_of_freedom = d.rows - d.free_coefficients;
@@ -204,8 +212,9 @@ FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, con
   d.worst_relative_residual = system.relative_residual(worst);
   compare_with_estimates(table, system, fit.loss, d);
   leave_one_out(table, system, d);
-  if (fit.loss == Loss::kSquared) d.information_criterion = information_criterion(system, d);
-  if (fit.loss != Loss::kSquared) d.outliers = outliers(table, system);
+  if (fit.loss == lubrication::Loss::kSquared)
+    d.information_criterion = information_criterion(system, d);
+  if (fit.loss != lubrication::Loss::kSquared) d.outliers = outliers(table, system);
   warn_of_shape(fit, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
   // This threshold is above the 0.05 by which the lecture's five terms miss a row on forty gaps. A
@@ -220,4 +229,4 @@ FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, con
   return d;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

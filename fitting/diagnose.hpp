@@ -7,7 +7,7 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// The least squares problem of a fit: a row for each row of the table, a column for each fitted
 /// coefficient.
@@ -23,6 +23,7 @@ struct FittedSystem {
 };
 
 /// The diagnostics of a fit whose other members are complete.
-FitDiagnostics diagnose(const ForceTable& table, const FittedSystem& system, const Fit& fit);
+lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
+                                     const FittedSystem& system, const lubrication::Fit& fit);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -13,13 +13,13 @@
 #include "viscontact/fitting/diagnose.hpp"
 #include "viscontact/fitting/robust_least_squares.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 /// Throws Error(kBadInput) if F/u differs between rows of equal gap by more than their error
 /// estimates. Stokes flow is linear in the velocity. Rows without an estimate are not checked.
-void check_linearity(const ForceTable& table) {
-  std::map<double, const ForceTableRow*> first_at;
+void check_linearity(const lubrication::ForceTable& table) {
+  std::map<double, const lubrication::ForceTableRow*> first_at;
   for (const auto& row : table.rows) {
     const auto* first = first_at.try_emplace(row.gap, &row).first->second;
     const double allowed = row.relative_error_estimate + first->relative_error_estimate;
@@ -37,8 +37,8 @@ void check_linearity(const ForceTable& table) {
 
 /// The value of the fixed coefficient of 1/q [M L^2/T^2]. Throws Error(kBadInput) if the basis has
 /// no such term, or if neither settings nor table give a value.
-double fixed_leading(const ForceTable& table, const FitSettings& settings) {
-  if (find_named(settings.basis.terms, kLeadingTerm) == nullptr)
+double fixed_leading(const lubrication::ForceTable& table, const FitSettings& settings) {
+  if (find_named(settings.basis.terms, lubrication::kLeadingTerm) == nullptr)
     throw Error(ErrorKind::kBadInput, "the basis has no term 1/q whose coefficient could be fixed");
   if (settings.leading_value) return *settings.leading_value;
   if (!table.leading_coefficient)
@@ -48,7 +48,7 @@ double fixed_leading(const ForceTable& table, const FitSettings& settings) {
   return -*table.leading_coefficient * table.rows.front().reference_velocity;
 }
 
-void check_gaps(const ForceTable& table, const FitSettings& settings) {
+void check_gaps(const lubrication::ForceTable& table, const FitSettings& settings) {
   if (settings.fix_leading && settings.basis.terms.size() == 1)
     throw Error(ErrorKind::kBadInput,
                 "the only coefficient is fixed, so that there is nothing to fit; give more terms");
@@ -74,11 +74,12 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
-bool is_fixed(const Term& term, const FitSettings& settings) {
-  return settings.fix_leading && term.name == kLeadingTerm;
+bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
+  return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
 
-Equations assemble(const ForceTable& table, const FitSettings& settings, double fixed) {
+Equations assemble(const lubrication::ForceTable& table, const FitSettings& settings,
+                   double fixed) {
   const auto rows = static_cast<Eigen::Index>(table.rows.size());
   const auto columns =
       static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.fix_leading ? 1 : 0);
@@ -98,14 +99,14 @@ Equations assemble(const ForceTable& table, const FitSettings& settings, double 
         equations.terms(i, column++) = value;
     }
   }
-  if (settings.weights == Weights::kRelative)
+  if (settings.weights == lubrication::Weights::kRelative)
     equations.weight = equations.force.cwiseAbs().cwiseInverse();
   return equations;
 }
 
 /// Sets coefficients and covariance. A fixed coefficient has a row and a column of zeros.
 void set_coefficients(const LeastSquaresSolution& solution, const FitSettings& settings,
-                      double fixed, Fit& fit) {
+                      double fixed, lubrication::Fit& fit) {
   std::vector<Eigen::Index> columns;  // column in the solution; -1 if fixed
   Eigen::Index free = 0;
   for (const auto& term : settings.basis.terms) {
@@ -141,7 +142,8 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
-Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table,
+                                 const FitSettings& settings) {
   check_linearity(table);
   check_gaps(table, settings);
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
@@ -150,13 +152,14 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
       solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
                                  equations.weight.cwiseProduct(equations.left), settings.loss);
 
-  Fit fit;
+  lubrication::Fit fit;
   fit.basis = settings.basis.name;
   fit.reference_velocity = table.rows.front().reference_velocity;
   fit.viscosity = table.viscosity;
   fit.radius = table.radius;
-  fit.gap_interval = {std::ranges::min_element(table.rows, {}, &ForceTableRow::gap)->gap,
-                      std::ranges::max_element(table.rows, {}, &ForceTableRow::gap)->gap};
+  fit.gap_interval = {
+      std::ranges::min_element(table.rows, {}, &lubrication::ForceTableRow::gap)->gap,
+      std::ranges::max_element(table.rows, {}, &lubrication::ForceTableRow::gap)->gap};
   fit.weights = settings.weights;
   fit.loss = settings.loss;
   fit.geometry = table.geometry;
@@ -167,7 +170,7 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();
   fit.rms_relative_residual = std::sqrt(system.relative_residual.array().square().mean());
   if (!std::isfinite(fit.rms_relative_residual) ||
-      std::ranges::any_of(fit.terms, [](const FitTerm& term) {
+      std::ranges::any_of(fit.terms, [](const lubrication::FitTerm& term) {
         return !std::isfinite(term.coefficient) || !std::isfinite(term.standard_error);
       }))
     throw Error(
@@ -177,11 +180,12 @@ Fit fit_force_table(const ForceTable& table, const FitSettings& settings) {
   return fit;
 }
 
-Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights) {
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table, std::string_view basis,
+                                 lubrication::Weights weights) {
   FitSettings settings;
-  settings.basis = find_basis(basis);
+  settings.basis = lubrication::find_basis(basis);
   settings.weights = weights;
   return fit_force_table(table, settings);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

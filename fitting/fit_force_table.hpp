@@ -9,13 +9,13 @@
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  Basis basis = find_basis("lecture");
-  Weights weights = Weights::kRelative;
-  Loss loss = Loss::kSquared;
+  lubrication::Basis basis = lubrication::find_basis("lecture");
+  lubrication::Weights weights = lubrication::Weights::kRelative;
+  lubrication::Loss loss = lubrication::Loss::kSquared;
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
   /// (ForceTable::leading_coefficient).
   bool fix_leading = false;
@@ -30,10 +30,11 @@ struct FitSettings {
 /// of equal gap have values of F/u that differ by more than their error estimates, or if a
 /// coefficient is to be fixed that the basis or the table does not have; and Error(kNotConverged)
 /// from the least squares.
-Fit fit_force_table(const ForceTable& table, const FitSettings& settings);
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings);
 
 /// The same with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
 /// basis, too.
-Fit fit_force_table(const ForceTable& table, std::string_view basis, Weights weights);
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table, std::string_view basis,
+                                 lubrication::Weights weights);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

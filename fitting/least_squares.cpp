@@ -14,7 +14,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -165,4 +165,4 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   return solution;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

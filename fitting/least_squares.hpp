@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
@@ -22,4 +22,4 @@ struct LeastSquaresSolution {
 LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
                                          const Eigen::VectorXd& right_hand_side);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -12,16 +12,16 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
-std::unique_ptr<ceres::LossFunction> make_loss(Loss loss) {
+std::unique_ptr<ceres::LossFunction> make_loss(lubrication::Loss loss) {
   switch (loss) {
-    case Loss::kHuber:
+    case lubrication::Loss::kHuber:
       return std::make_unique<ceres::HuberLoss>(1.345);
-    case Loss::kCauchy:
+    case lubrication::Loss::kCauchy:
       return std::make_unique<ceres::CauchyLoss>(2.385);
-    case Loss::kSquared:
+    case lubrication::Loss::kSquared:
       break;
   }
   return std::make_unique<ceres::TrivialLoss>();
@@ -99,22 +99,23 @@ Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
 }  // namespace
 
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
-                                          const Eigen::VectorXd& right_hand_side, Loss loss) {
+                                          const Eigen::VectorXd& right_hand_side,
+                                          lubrication::Loss loss) {
   RobustSolution solution;
   solution.least_squares = solve_least_squares(matrix, right_hand_side);
   solution.row_weights = Eigen::VectorXd::Ones(matrix.rows());
   solution.scale =
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
-  if (loss == Loss::kSquared) return solution;
+  if (loss == lubrication::Loss::kSquared) return solution;
   // Huber's sum has one minimum, Cauchy's may have several. The iteration with Cauchy's loss starts
   // from Huber's solution to find the minimum that most rows agree on.
   const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
-  iterate(matrix, right_hand_side, *make_loss(Loss::kHuber), solution);
-  if (loss != Loss::kHuber) iterate(matrix, right_hand_side, *function, solution);
+  iterate(matrix, right_hand_side, *make_loss(lubrication::Loss::kHuber), solution);
+  if (loss != lubrication::Loss::kHuber) iterate(matrix, right_hand_side, *function, solution);
   solution.least_squares.covariance =
       robust_covariance(matrix, right_hand_side, plain, *function, solution);
   return solution;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -5,7 +5,7 @@
 #include "viscontact/fitting/least_squares.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// The solution, with what the loss made of the rows.
 struct RobustSolution {
@@ -24,6 +24,7 @@ struct RobustSolution {
 /// squares. Arguments and errors are those of solve_least_squares(). Throws Error(kNotConverged)
 /// also if the weights do not converge.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
-                                          const Eigen::VectorXd& right_hand_side, Loss loss);
+                                          const Eigen::VectorXd& right_hand_side,
+                                          lubrication::Loss loss);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

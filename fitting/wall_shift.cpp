@@ -8,14 +8,17 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
-double resistance_of(const ForceTableRow& row) { return -row.force / row.reference_velocity; }
+double resistance_of(const lubrication::ForceTableRow& row) {
+  return -row.force / row.reference_velocity;
+}
 
 /// The gap at which the smooth wall has this resistance, by bisection in ln q. The resistance
 /// decreases with the gap.
-double smooth_gap_of(const LubricationForce& smooth, double resistance, const ForceTableRow& row) {
+double smooth_gap_of(const lubrication::LubricationForce& smooth, double resistance,
+                     const lubrication::ForceTableRow& row) {
   auto [low, high] = smooth.interval();
   if (!(resistance <= smooth.resistance(low) && resistance >= smooth.resistance(high)))
     throw Error(
@@ -32,7 +35,8 @@ double smooth_gap_of(const LubricationForce& smooth, double resistance, const Fo
 
 }  // namespace
 
-WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth) {
+WallShift fit_wall_shift(const lubrication::ForceTable& rough,
+                         const lubrication::LubricationForce& smooth) {
   if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the table is of viscosity {} and radius {} and the fit of viscosity "
@@ -88,4 +92,4 @@ WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth
   return result;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -7,7 +7,7 @@
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// The result for one row of the rough wall's table.
 struct ShiftedRow {
@@ -35,6 +35,7 @@ struct WallShift {
 /// rough wall is that near a smooth wall at a larger distance. Throws Error(kBadInput) if viscosity
 /// or radius of table and smooth force differ, or if the drag of a row is outside the range of the
 /// smooth force in its interval; Error(kNotConverged) if the least squares fail.
-WallShift fit_wall_shift(const ForceTable& rough, const LubricationForce& smooth);
+WallShift fit_wall_shift(const lubrication::ForceTable& rough,
+                         const lubrication::LubricationForce& smooth);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -9,7 +9,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 // The packages of Debian 12 (FreeFEM 4.11) and 13 (4.15) look for their own files in folders that
@@ -113,4 +113,4 @@ std::string freefem_version(const FreeFem& freefem) {
   return version;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -12,7 +12,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/system/process.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// The FreeFEM program, the folder of the scripts, and what ends a process before it is done.
 struct FreeFem {
@@ -53,4 +53,4 @@ std::string line_after(const std::string& output, std::string_view prefix);
 /// not answer within its time limit.
 std::string freefem_version(const FreeFem& freefem);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -6,7 +6,7 @@
 
 #include "viscontact/common/named.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using Parameters = std::span<const double>;
@@ -83,4 +83,4 @@ const Geometry& find_geometry(std::string_view name) {
   return require_named(kGeometries, name, "geometry");
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -9,7 +9,7 @@
 
 #include "viscontact/common/allowed.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// A parameter of a geometry: a key of `geometry` in the case file and a flag of the script.
 struct GeometryParameter {
@@ -53,4 +53,4 @@ struct Geometry {
 /// The geometry with this name. Throws Error(kBadInput), which lists the names, if there is none.
 const Geometry& find_geometry(std::string_view name);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 /// Reads the meshes that pictures.idp writes.
@@ -153,4 +153,4 @@ std::string write_vtu(const Flow& flow) {
   return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

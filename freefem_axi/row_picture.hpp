@@ -8,7 +8,7 @@
 
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// What an edge of a boundary is. A wall is a no-slip wall or the neighbour; an interface is inside
 /// the fluid, or where unbounded fluid is cut off.
@@ -41,7 +41,7 @@ struct Flow {
 
 /// A row with what a picture shows of it.
 struct RowPicture {
-  ForceTableRow row;
+  lubrication::ForceTableRow row;
   Flow flow;  ///< on the finest mesh
   /// The mesh that the finest mesh was made from, by repeated division of triangles into four.
   CurvedMesh coarsest;
@@ -56,4 +56,4 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
 /// data velocity, pressure and stream_function in the units of the case.
 std::string write_vtu(const Flow& flow);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 /// The version of FreeFEM. It is asked before the first row, so that a missing FreeFEM is reported
@@ -100,10 +100,11 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
                             points.size(), fmt::join(failures, "; ")));
 }
 
-ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
-                    const std::filesystem::path& table_path, const TabulateReport& report) {
+lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
+                                 const std::filesystem::path& table_path,
+                                 const TabulateReport& report) {
   compute_rows({freefem, jobs, ""}, tabulation, grid_of(tabulation), table_path, report);
   return assemble_table(tabulation, read_row_record(table_path, tabulation_hash(tabulation)));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

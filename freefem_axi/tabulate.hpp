@@ -9,7 +9,7 @@
 
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 struct TabulateProgress {
   std::size_t rows_done = 0, rows = 0;
@@ -37,7 +37,8 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
 
 /// Computes all rows as compute_rows() does and returns the table. The caller removes the journals
 /// after the table has been written.
-ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
-                    const std::filesystem::path& table_path, const TabulateReport& report);
+lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
+                                 const std::filesystem::path& table_path,
+                                 const TabulateReport& report);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -15,7 +15,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 // Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
@@ -96,7 +96,7 @@ std::optional<double> leading_coefficient(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   if (geometry.leading_factor == nullptr) return std::nullopt;
   const double coefficient =
-      stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
+      lubrication::stokes_resistance(tabulation.viscosity, tabulation.radius) * tabulation.radius *
       geometry.leading_factor(tabulation.radius, tabulation.geometry_parameters);
   if (!std::isfinite(coefficient)) return std::nullopt;  // too large for a table
   return coefficient;
@@ -145,9 +145,10 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) 
   return {tabulation.viscosity, speed};
 }
 
-ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity,
-                        const std::vector<std::string>& further_arguments, std::string* output) {
+lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation,
+                                     double gap, double reference_velocity,
+                                     const std::vector<std::string>& further_arguments,
+                                     std::string* output) {
   const auto start = std::chrono::steady_clock::now();
   const auto scale = solve_scale(tabulation, reference_velocity);
   auto scaled = tabulation;
@@ -160,7 +161,7 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   const auto [force, estimate, unknowns, order] =
       read_answer(result, gap, reference_velocity, freefem.row_limit);
 
-  ForceTableRow row;
+  lubrication::ForceTableRow row;
   row.gap = gap;
   row.reference_velocity = reference_velocity;
   row.force = force * scale.viscosity * scale.speed;
@@ -171,8 +172,8 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
                             "to 1",
                             format_number(gap), format_number(reference_velocity), force,
                             scale.viscosity, scale.speed));
-  row.drag_factor =
-      -force / (stokes_resistance(scaled.viscosity, tabulation.radius) * scaled_velocity);
+  row.drag_factor = -force / (lubrication::stokes_resistance(scaled.viscosity, tabulation.radius) *
+                              scaled_velocity);
   row.relative_error_estimate = estimate;
   row.degrees_of_freedom = unknowns;
   row.observed_order = order;
@@ -180,4 +181,4 @@ ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, do
   return row;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -10,7 +10,7 @@
 #include "viscontact/freefem_axi/geometry.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// A closed no-slip cylinder on the axis [L].
 struct Container {
@@ -70,9 +70,9 @@ SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 /// If `output` is not null, it is set to everything that FreeFEM printed, in the units of
 /// solve_scale(). Throws Error(kExternalProgram) with the last lines of FreeFEM if it fails or
 /// exceeds its time limit, and Error(kBadInput) if the force is outside the range of a double.
-ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                        double reference_velocity,
-                        const std::vector<std::string>& further_arguments = {},
-                        std::string* output = nullptr);
+lubrication::ForceTableRow solve_row(const FreeFem& freefem, const Tabulation& tabulation,
+                                     double gap, double reference_velocity,
+                                     const std::vector<std::string>& further_arguments = {},
+                                     std::string* output = nullptr);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -9,7 +9,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 const std::array<std::string, 8> kColumns = {
@@ -110,4 +110,4 @@ std::string write_force_table(const ForceTable& table) {
   return text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

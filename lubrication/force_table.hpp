@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// The result at one gap and one velocity.
 struct ForceTableRow {
@@ -58,4 +58,4 @@ ForceTable read_force_table(const std::filesystem::path& path);
 /// has as many digits as are needed to read the same double back.
 std::string write_force_table(const ForceTable& table);
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

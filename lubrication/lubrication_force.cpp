@@ -16,7 +16,7 @@
 #include "viscontact/lubrication/spread_gaps.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 // Range of gap/radius in which lambda and its integral are normal doubles of full precision.
@@ -264,4 +264,4 @@ double LubricationForce::gap_of_impulse(double impulse_wanted) const {
                                  excess_and_slope, settled));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

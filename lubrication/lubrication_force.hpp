@@ -10,7 +10,7 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// What the force is at gaps below the fitted interval [q1, q2] (physics.md (3.3)).
 enum class BelowInterval {
@@ -113,4 +113,4 @@ class LubricationForce {
   double impulse_at_radius_ = 0;
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 // All five functions come from R = lambda - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
@@ -215,4 +215,4 @@ double plane_drag_integral(double eps) {
 
 double plane_drag_regular_integral(double eps) { return regular_integral(eps, std::log(eps)); }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

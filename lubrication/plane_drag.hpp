@@ -3,7 +3,7 @@
 // values are without dimension. A change must keep the error bound below.
 #pragma once
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 // The argument is eps = gap/radius > 0, and lambda = drag/(6 pi mu r |u|):
 // 1/eps - (1/5) ln eps + 0.97 + ... near contact, 1 + (9/8)/(1 + eps) + ... far away.
@@ -29,4 +29,4 @@ double plane_drag_integral(double eps);
 /// int_0^eps (lambda(s) - 1/s) ds, > 0.
 double plane_drag_regular_integral(double eps);
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// `count` >= 2 gaps [L] in geometric progression on an interval 0 < first < second, whose ends are
 /// the first and the last of them exactly.
@@ -22,4 +22,4 @@ inline std::vector<double> spread_gaps(const std::array<double, 2>& interval, in
   return gaps;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// Stokes' resistance 6 pi mu r [M/T] of a sphere of radius r [L] > 0 in an unbounded fluid of
 /// viscosity mu [M/(L T)] > 0 (Stokes 1851).
@@ -11,4 +11,4 @@ inline double stokes_resistance(double viscosity, double radius) {
   return 6 * std::numbers::pi * viscosity * radius;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -12,7 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 // Keeps each expression both as text and as code, so that an exported fit computes what was fitted.
@@ -121,4 +121,4 @@ Basis parse_terms(std::string_view names) {
   return basis;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that a sum of
 /// terms computes it once.
@@ -78,4 +78,4 @@ const Basis& find_basis(std::string_view name);
 /// Error(kBadInput) if a name is not that of a term, or if a term is named twice.
 Basis parse_terms(std::string_view names);
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

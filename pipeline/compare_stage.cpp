@@ -14,22 +14,22 @@
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Warns if the trajectories were made from different cases or fits, because the distances between
 /// them then have two causes. Trajectories that the user wrote have no such record and are skipped.
-void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
+void warn_of_different_inputs(const std::vector<reduced_model::Trajectory>& trajectories) {
   for (const auto* key : {"case", "fit"}) {
-    const Trajectory* first = nullptr;
+    const reduced_model::Trajectory* first = nullptr;
     for (const auto& trajectory : trajectories) {
       if (!trajectory.provenance.contains(key)) continue;
       if (first == nullptr) first = &trajectory;
       if (trajectory.provenance.at(key) == first->provenance.at(key)) continue;
-      warn(fmt::format("viscontact: warning: {} and {} were made from different {}s", first->model,
-                       trajectory.model, key));
+      terminal::warn(fmt::format("viscontact: warning: {} and {} were made from different {}s",
+                                 first->model, trajectory.model, key));
       break;
     }
   }
@@ -38,14 +38,15 @@ void warn_of_different_inputs(const std::vector<Trajectory>& trajectories) {
 /// The index of a trajectory's model in the registry of models; the size of the registry if the
 /// file is not named after a model.
 std::ptrdiff_t rank_of(const fs::path& file) {
-  const auto choice = known_model(file.stem().string());
-  return choice ? choice->model - all_models().data() : std::ssize(all_models());
+  const auto choice = reduced_model::known_model(file.stem().string());
+  return choice ? choice->model - reduced_model::all_models().data()
+                : std::ssize(reduced_model::all_models());
 }
 
 /// The trajectory files of a folder: those in its trajectories/ if it is a run's folder, otherwise
 /// the .csv files in the folder itself. Throws Error(kBadInput) if the folder does not exist.
 std::vector<fs::path> trajectory_files(const fs::path& folder) {
-  const auto inner = RunFolder{folder}.trajectories();
+  const auto inner = results::RunFolder{folder}.trajectories();
   const fs::path place = fs::is_directory(inner) ? inner : folder;
   if (!fs::is_directory(place))
     throw_bad_input({folder.string()}, "is not a folder with trajectories");
@@ -65,13 +66,15 @@ std::vector<fs::path> files_of_models(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".csv" && rank_of(entry.path()) < std::ssize(all_models()))
+    if (entry.path().extension() == ".csv" &&
+        rank_of(entry.path()) < std::ssize(reduced_model::all_models()))
       files.push_back(entry.path());
   return files;
 }
 
-void print_comparison(const Comparison& comparison, bool json) {
-  fmt::print("{}", json ? write_comparison(comparison) : comparison_table(comparison));
+void print_comparison(const reduced_model::Comparison& comparison, bool json) {
+  fmt::print("{}", json ? reduced_model::write_comparison(comparison)
+                        : report::comparison_table(comparison));
 }
 
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
@@ -81,18 +84,20 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
   auto inputs = files;
-  if (const auto failed = RunFolder{folder}.failed_models(); fs::is_regular_file(failed))
+  if (const auto failed = results::RunFolder{folder}.failed_models(); fs::is_regular_file(failed))
     inputs.push_back(failed);
-  const auto provenance = provenance_of(given.empty() ? Inputs{inputs, {}} : Inputs{given, inputs});
-  std::vector<Trajectory> trajectories;
-  for (const auto& file : files) trajectories.push_back(read_trajectory(file));
+  const auto provenance = results::provenance_of(given.empty() ? results::Inputs{inputs, {}}
+                                                               : results::Inputs{given, inputs});
+  std::vector<reduced_model::Trajectory> trajectories;
+  for (const auto& file : files) trajectories.push_back(reduced_model::read_trajectory(file));
   warn_of_different_inputs(trajectories);
-  const auto failed = failures_without(trajectories, RunFolder{folder});
-  auto comparison =
-      compare_trajectories(trajectories, reference_among(trajectories, failed, reference_model));
+  const auto failed = results::failures_without(trajectories, results::RunFolder{folder});
+  auto comparison = reduced_model::compare_trajectories(
+      trajectories, results::reference_among(trajectories, failed, reference_model));
   comparison.failed_models = failed;
-  write_output(comparison_path, TextKind::kJson, write_comparison(comparison), provenance);
+  results::write_output(comparison_path, TextKind::kJson,
+                        reduced_model::write_comparison(comparison), provenance);
   print_comparison(comparison, json);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -7,13 +7,13 @@
 
 #include "viscontact/reduced_model/comparison.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The CSV files of a folder that are named after models; none if the folder does not exist.
 std::vector<std::filesystem::path> files_of_models(const std::filesystem::path& folder);
 
 /// Prints a comparison to standard output, as a table or as JSON.
-void print_comparison(const Comparison& comparison, bool json);
+void print_comparison(const reduced_model::Comparison& comparison, bool json);
 
 /// Compares the trajectories of a folder, and those in the files `others`, and writes the
 /// comparison to `comparison_path`. `given` are the files of the user from which the same command
@@ -25,4 +25,4 @@ void compare_stage(const std::filesystem::path& folder,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,
                    const std::vector<std::filesystem::path>& given, bool json);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

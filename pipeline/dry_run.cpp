@@ -11,14 +11,14 @@
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/sweep/sweep_file.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 /// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
 /// each, at gaps of 0.01 and 0.3. The time is constant down to a relative accuracy of 1e-5 (kKnee),
 /// because the coarsest meshes suffice there. Below, it grows by a factor of 2.8 = 10^kPower for
 /// each decade of the accuracy. Two spheres take 2.5 times as long as one sphere.
-double typical_seconds(const Tabulation& tabulation) {
+double typical_seconds(const freefem_axi::Tabulation& tabulation) {
   constexpr double kCoarse = 1.3, kKnee = 1e-5, kPower = 0.45, kSecondSphere = 2.5;
   const double finer = std::max(1.0, kKnee / tabulation.relative_accuracy);
   return kCoarse * std::pow(finer, kPower) * (tabulation.geometry == "sphere" ? kSecondSphere : 1);
@@ -44,11 +44,11 @@ std::string duration(double seconds) {
 
 DryRun dry_run(const CaseTable& one) {
   const auto& tabulation = one.tabulation();
-  const auto grid = grid_of(tabulation);
+  const auto grid = freefem_axi::grid_of(tabulation);
   DryRun run{one.table.string(), grid.size(), 0, typical_seconds(tabulation),
              "the shipped tables' rows"};
-  const auto record = read_row_record(one.table, one.hash());
-  run.finished = grid.size() - missing_points(record, grid).size();
+  const auto record = freefem_axi::read_row_record(one.table, one.hash());
+  run.finished = grid.size() - freefem_axi::missing_points(record, grid).size();
   if (record.finished.empty()) return run;
   run.seconds_per_row = 0;
   for (const auto& [point, row] : record.finished)
@@ -57,14 +57,14 @@ DryRun dry_run(const CaseTable& one) {
   return run;
 }
 
-DryRun dry_run(const Sweep& sweep, const std::string& output, const StopToken& stop) {
-  const std::uint64_t size = sweep_size(sweep.plan());
+DryRun dry_run(const sweep::Sweep& sweep, const std::string& output, const StopToken& stop) {
+  const std::uint64_t size = sweep::sweep_size(sweep.plan());
   std::vector<std::uint64_t> sample = {0, size / 2, size - 1};
   sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
   const auto start = std::chrono::steady_clock::now();
   for (const auto index : sample) (void)sweep.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  return {output, size, finished_rows(sweep, output, VISCONTACT_VERSION),
+  return {output, size, sweep::finished_rows(sweep, output, VISCONTACT_VERSION),
           spent.count() / static_cast<double>(sample.size()),
           fmt::format("{} of its rows, just computed", sample.size())};
 }
@@ -89,4 +89,4 @@ std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json) {
   return text + fmt::format("{} with {} at once\n", duration(total), jobs);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -8,7 +8,7 @@
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/sweep/sweep.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The number of rows of one output and their time.
 struct DryRun {
@@ -26,10 +26,10 @@ DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`; computes up to three of its rows to measure
 /// them.
-DryRun dry_run(const Sweep& sweep, const std::string& output, const StopToken& stop);
+DryRun dry_run(const sweep::Sweep& sweep, const std::string& output, const StopToken& stop);
 
 /// A line for each output, then the time for all of them if `jobs` rows are computed at once; the
 /// same as JSON if `json` is true.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -16,54 +16,58 @@
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace fs = std::filesystem;
 
-void fit_stage(const fs::path& table_path, const fs::path& fit_path, const FitSettings& settings,
-               const Provenance& provenance, const StopToken& stop) {
-  const auto table = read_force_table(table_path);
+void fit_stage(const fs::path& table_path, const fs::path& fit_path,
+               const fitting::FitSettings& settings, const results::Provenance& provenance,
+               const StopToken& stop) {
+  const auto table = lubrication::read_force_table(table_path);
   stop.throw_if_stop_requested();
-  Fit fit = with_place(table_path.string(), [&] { return fit_force_table(table, settings); });
+  lubrication::Fit fit =
+      with_place(table_path.string(), [&] { return fitting::fit_force_table(table, settings); });
   if (fs::is_regular_file(table_path))  // a pipe cannot be read a second time
-    fit.table_sha256 = content_sha256(read_file(table_path));
-  fit.versions = library_versions();
+    fit.table_sha256 = results::content_sha256(read_file(table_path));
+  fit.versions = results::library_versions();
   stop.throw_if_stop_requested();
   for (const auto& warning : fit.diagnostics->warnings)
-    warn(fmt::format("fit: warning: {}", warning));
-  const std::string text = write_fit(fit);
-  if (has_content(fit_path, text)) {
-    say(fmt::format("fit: {} is up to date", fit_path.string()));
+    terminal::warn(fmt::format("fit: warning: {}", warning));
+  const std::string text = lubrication::write_fit(fit);
+  if (results::has_content(fit_path, text)) {
+    terminal::say(fmt::format("fit: {} is up to date", fit_path.string()));
     return;
   }
-  write_output(fit_path, TextKind::kJson, text, provenance);
-  say(fit_in_words(fit));
+  results::write_output(fit_path, TextKind::kJson, text, provenance);
+  terminal::say(report::fit_in_words(fit));
 }
 
-void compare_bases_stage(const fs::path& table_path, const FitSettings& settings,
+void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings& settings,
                          const fs::path& plot_path, bool json, const StopToken& stop) {
-  const auto provenance = provenance_of({{table_path}, {}});
-  const auto table = read_force_table(table_path);
-  const auto results = compare_bases(table, settings);
-  if (std::ranges::none_of(results,
-                           [](const BasisResult& result) { return result.fit.has_value(); }))
+  const auto provenance = results::provenance_of({{table_path}, {}});
+  const auto table = lubrication::read_force_table(table_path);
+  const auto results = fitting::compare_bases(table, settings);
+  if (std::ranges::none_of(
+          results, [](const fitting::BasisResult& result) { return result.fit.has_value(); }))
     throw_bad_input({table_path.string()}, results.front().failure);
   // The numbers come first because the picture needs gnuplot, which may be missing.
-  fmt::print("{}", json ? basis_json(results) : basis_table(results));
-  write_output(plot_path, TextKind::kSvg, plot_bases(table, results, stop), provenance);
+  fmt::print("{}", json ? report::basis_json(results) : report::basis_table(results));
+  results::write_output(plot_path, TextKind::kSvg, report::plot_bases(table, results, stop),
+                        provenance);
 }
 
 void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs::path& shift_path,
                  const fs::path& plot_path, const StopToken& stop) {
-  const auto provenance = provenance_of({{table_path, fit_path}, {}});
-  const auto rough = read_force_table(table_path);
+  const auto provenance = results::provenance_of({{table_path, fit_path}, {}});
+  const auto rough = lubrication::read_force_table(table_path);
   const auto shift = with_place(table_path.string() + ", " + fit_path.string(), [&] {
-    return fit_wall_shift(rough, LubricationForce(read_fit(fit_path)));
+    return fitting::fit_wall_shift(rough,
+                                   lubrication::LubricationForce(lubrication::read_fit(fit_path)));
   });
   std::string text = write_csv_comments(
       {{"viscontact", "wall shift"},
        {"geometry", rough.geometry},
-       {"table", content_sha256(read_file(table_path))},
-       {"fit", content_sha256(read_file(fit_path))},
+       {"table", results::content_sha256(read_file(table_path))},
+       {"fit", results::content_sha256(read_file(fit_path))},
        {"shift", format_number(shift.shift)},
        {"largest_relative_residual", format_number(shift.largest_relative_residual)},
        {"rms_relative_residual", format_number(shift.rms_relative_residual)},
@@ -73,13 +77,13 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
     text += fmt::format("{},{},{},{}\n", format_number(row.gap), format_number(row.shift),
                         format_number(row.relative_residual),
                         format_number(row.relative_error_estimate));
-  write_output(shift_path, TextKind::kHashComment, text, provenance);
+  results::write_output(shift_path, TextKind::kHashComment, text, provenance);
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
   // The picture comes last because it needs gnuplot, which may be missing.
   if (!plot_path.empty())
-    write_output(plot_path, TextKind::kSvg, plot_wall_shift(shift, rough.geometry, stop),
-                 provenance);
+    results::write_output(plot_path, TextKind::kSvg,
+                          report::plot_wall_shift(shift, rough.geometry, stop), provenance);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

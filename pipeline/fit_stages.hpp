@@ -8,16 +8,18 @@
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// Fits the table in `table_path` and writes the fit to `fit_path`. If the file there differs in
 /// its provenance only, it is left as it is. Throws as read_force_table and fit_force_table do.
 void fit_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
-               const FitSettings& settings, const Provenance& provenance, const StopToken& stop);
+               const fitting::FitSettings& settings, const results::Provenance& provenance,
+               const StopToken& stop);
 
 /// Fits a table in every basis, prints the fits side by side and draws their residuals (SVG).
 /// Throws Error(kBadInput) if no basis can be fitted, Error(kExternalProgram) if gnuplot fails.
-void compare_bases_stage(const std::filesystem::path& table_path, const FitSettings& settings,
+void compare_bases_stage(const std::filesystem::path& table_path,
+                         const fitting::FitSettings& settings,
                          const std::filesystem::path& plot_path, bool json, const StopToken& stop);
 
 /// Fits how far below its crests a rough wall acts like a smooth wall (fitting/wall_shift.hpp),
@@ -27,4 +29,4 @@ void shift_stage(const std::filesystem::path& table_path, const std::filesystem:
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path,
                  const StopToken& stop);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

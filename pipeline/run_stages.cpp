@@ -23,7 +23,7 @@
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 bool is_fit(const fs::path& path) {
   if (!fs::is_regular_file(path)) return false;
   try {
-    (void)read_fit(path);
+    (void)lubrication::read_fit(path);
     return true;
   } catch (const Error&) {
     return false;
@@ -42,18 +42,20 @@ bool is_fit(const fs::path& path) {
 /// True if `path` is a comparison with this reference.
 bool has_reference(const fs::path& path, const std::string& model) {
   try {
-    return fs::is_regular_file(path) && read_comparison(path).reference_model == model;
+    return fs::is_regular_file(path) &&
+           reduced_model::read_comparison(path).reference_model == model;
   } catch (const Error&) {
     return false;
   }
 }
 
 /// True if the report used uncertainty.json, which has since been deleted.
-bool uncertainty_is_lost(const RunFolder& run) {
+bool uncertainty_is_lost(const results::RunFolder& run) {
   if (fs::exists(run.uncertainty())) return false;
   try {
-    const auto provenance = read_provenance(run.report());
-    return provenance && std::ranges::any_of(provenance->inputs, [&](const InputFile& input) {
+    const auto provenance = results::read_provenance(run.report());
+    return provenance &&
+           std::ranges::any_of(provenance->inputs, [&](const results::InputFile& input) {
              return fs::path(input.file).filename() == run.uncertainty().filename();
            });
   } catch (const Error&) {  // the report is missing or damaged, so it will be made anyway
@@ -63,46 +65,49 @@ bool uncertainty_is_lost(const RunFolder& run) {
 
 /// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
 /// Called before any work is done, because the tabulation can take hours.
-void check_outputs_of_run(const RunFolder& run, bool writes_fit) {
+void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
   // The folder of an earlier run may hold a copy of a fit that the user wrote by hand.
   const bool is_copy = holds_a_run(run) && is_fit(run.fit());
-  if (writes_fit && !is_copy) refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
-  refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
-  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
-  refuse_other_kind(run.failed_models(), "", "failed_models.json");
-  check_report_files(run.path);
+  if (writes_fit && !is_copy) results::refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
+  results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
+  results::refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  results::refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  report::check_report_files(run.path);
   for (const auto& file : files_of_models(run.trajectories()))
-    refuse_other_kind(file, "", "trajectory");
+    results::refuse_other_kind(file, "", "trajectory");
 }
 
 /// Makes or finds the fit that the case asks for, and returns its path. `given` are the files of
 /// the user.
-fs::path provide_fit(const Case& c, const RunFolder& run, const std::vector<fs::path>& given,
-                     int jobs, const StopToken& stop) {
-  const auto& request = required_fit(c);
+fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
+                     const std::vector<fs::path>& given, int jobs, const StopToken& stop) {
+  const auto& request = case_file::required_fit(c);
   if (request.file) return *request.file;
   if (request.exact) {
-    const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
-    if (!has_content(run.fit(), text))
-      write_output(run.fit(), TextKind::kJson, text, provenance_of({given, {}}));
+    const std::string text =
+        lubrication::write_fit(lubrication::exact_plane_fit(c.viscosity, c.radius));
+    if (!results::has_content(run.fit(), text))
+      results::write_output(run.fit(), TextKind::kJson, text, results::provenance_of({given, {}}));
     return run.fit();
   }
   const auto models = models_to_run(c);
   check_run(c, models);
   warn_of_gaps_outside(c, models, stop);
-  refuse_other_kind(run.table(), "# case: ", "table");
+  results::refuse_other_kind(run.table(), "# case: ", "table");
   tabulate_stage({{c, run.table()}}, jobs, stop);
   stop.throw_if_stop_requested();
-  fit_stage(run.table(), run.fit(), request.settings, provenance_of({given, {run.table()}}), stop);
+  fit_stage(run.table(), run.fit(), request.settings,
+            results::provenance_of({given, {run.table()}}), stop);
   return run.fit();
 }
 
 }  // namespace
 
-void run_stages(const Case& c, const fs::path& folder, int jobs, bool json, const StopToken& stop) {
-  const RunFolder run{folder};
-  const auto& request = required_fit(c);
-  (void)required_motion(c);
+void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool json,
+                const StopToken& stop) {
+  const results::RunFolder run{folder};
+  const auto& request = case_file::required_fit(c);
+  (void)case_file::required_motion(c);
   check_case_copies(run, c);  // before the long tabulation
   check_outputs_of_run(run, !request.file);
   auto given = files_of_motion(c);
@@ -114,19 +119,19 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json, cons
   const OutsideFit outside{request.below, request.above};
   const std::string fit_text = read_file(fit);
   const auto made_from = identity_of_trajectory(c, fit_text, outside);
-  auto failed = recorded_failures(run, made_from);
-  std::erase_if(failed, [&](const FailedModel& model) {
+  auto failed = results::recorded_failures(run, made_from);
+  std::erase_if(failed, [&](const results::FailedModel& model) {
     return std::ranges::find(models, model.model) == models.end();
   });
   const bool simulated = std::ranges::all_of(models, [&](const std::string& model) {
-    return std::ranges::find(failed, model, &FailedModel::model) != failed.end() ||
+    return std::ranges::find(failed, model, &results::FailedModel::model) != failed.end() ||
            is_simulated(run, model, made_from);
   });
   bool is_current = simulated && fs::exists(run.case_file()) && !uncertainty_is_lost(run);
   if (is_current) {
-    say("simulate: trajectories are up to date");
-    is_current = has_reference(run.comparison(), reference_without(models, failed)) &&
-                 report_is_current(folder);
+    terminal::say("simulate: trajectories are up to date");
+    is_current = has_reference(run.comparison(), results::reference_without(models, failed)) &&
+                 report::report_is_current(folder);
   } else {
     const auto results = simulate_case(c, {fit, fit_text}, models, outside, stop);
     stop.throw_if_stop_requested();
@@ -136,20 +141,22 @@ void run_stages(const Case& c, const fs::path& folder, int jobs, bool json, cons
     remove_file(run.report());
     for (const auto& file : files_of_models(run.trajectories())) remove_file(file);
     write_simulated(run, c, results,
-                    provenance_of(request.file ? Inputs{given, {}} : Inputs{given, {fit}}));
+                    results::provenance_of(request.file ? results::Inputs{given, {}}
+                                                        : results::Inputs{given, {fit}}));
     failed = results.failed;
   }
   if (is_current) {
-    say("compare, report: up to date");
-    print_comparison(read_comparison(run.comparison()), json);
+    terminal::say("compare, report: up to date");
+    print_comparison(reduced_model::read_comparison(run.comparison()), json);
   } else {
     stop.throw_if_stop_requested();
-    compare_stage(folder, {}, reference_without(models, failed), run.comparison(), given, json);
+    compare_stage(folder, {}, results::reference_without(models, failed), run.comparison(), given,
+                  json);
     stop.throw_if_stop_requested();
-    write_report(folder, given, stop);
+    report::write_report(folder, given, stop);
   }
   // This error is thrown last, so that the results of the other models are complete.
-  if (!failed.empty()) throw error_of(failed, models.size() - failed.size(), c.path);
+  if (!failed.empty()) throw results::error_of(failed, models.size() - failed.size(), c.path);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -6,14 +6,14 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// Tabulates, fits, simulates, compares and reports into a run's folder. A stage whose inputs did
 /// not change is not run again. Errors of the case, and files that must not be replaced, are found
 /// before the tabulation starts. If models failed, the error of the first is thrown after
 /// everything else is written. If `json` is true, the comparison is printed as JSON. If `stop`
 /// requests a stop, throws Error(kInterrupted); what is finished stays.
-void run_stages(const Case& c, const std::filesystem::path& folder, int jobs, bool json,
+void run_stages(const case_file::Case& c, const std::filesystem::path& folder, int jobs, bool json,
                 const StopToken& stop);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

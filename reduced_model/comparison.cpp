@@ -12,7 +12,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// Gap and velocity of a trajectory at increasing times, linear between its rows.
@@ -199,4 +199,4 @@ Comparison read_comparison(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

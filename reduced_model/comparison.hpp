@@ -12,7 +12,7 @@
 
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// What is said of one trajectory.
 struct ModelComparison {
@@ -56,4 +56,4 @@ Comparison read_comparison(const std::filesystem::path& path);
 /// The text of the comparison file.
 std::string write_comparison(const Comparison& comparison);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

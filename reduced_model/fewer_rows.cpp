@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 bool in_contact(const TrajectoryRow& row) { return row.gamma && *row.gamma < 0; }
@@ -55,4 +55,4 @@ std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, in
   return result;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

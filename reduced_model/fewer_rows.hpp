@@ -5,7 +5,7 @@
 
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// About `count` >= 2 of the rows, in their order. They are the rows next after `count` equidistant
 /// times, and the rows that a comparison needs: the first, the last, the first with the smallest
@@ -14,4 +14,4 @@ namespace viscontact {
 /// only the first and the last of them count. If there are at most `count` rows, all are returned.
 std::vector<TrajectoryRow> fewer_rows(const std::vector<TrajectoryRow>& rows, int count);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

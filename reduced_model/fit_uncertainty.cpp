@@ -13,7 +13,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/json.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// A matrix L with L L^T = covariance, which may be singular. It is made from the eigenvectors of
@@ -61,12 +61,14 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 
 }  // namespace
 
-FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
-                             BelowInterval below, AboveInterval above, std::size_t draws) {
-  if (below == BelowInterval::kError) below = BelowInterval::kLubricationLimit;
-  if (above == AboveInterval::kError) above = AboveInterval::kStokesLimit;
+FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
+                             lubrication::BelowInterval below, lubrication::AboveInterval above,
+                             std::size_t draws) {
+  if (below == lubrication::BelowInterval::kError)
+    below = lubrication::BelowInterval::kLubricationLimit;
+  if (above == lubrication::AboveInterval::kError) above = lubrication::AboveInterval::kStokesLimit;
   const auto instants = instants_of(motion, times);
-  const auto gaps_with = [&](const LubricationForce& force, double share,
+  const auto gaps_with = [&](const lubrication::LubricationForce& force, double share,
                              std::vector<double>& gaps) {
     const double start = force.impulse(motion.initial_gap);
     for (std::size_t i = 0; i < instants.size(); ++i)
@@ -78,7 +80,7 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
       fit.diagnostics ? fit.diagnostics->largest_inlier_residual : fit.largest_relative_residual;
   const double estimate = fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0;
   result.misfit = std::min(1.0, residual + estimate + residual * estimate);
-  const LubricationForce force(fit, below, above);
+  const lubrication::LubricationForce force(fit, below, above);
   std::vector<double> gaps(instants.size()), less(instants.size()), more(instants.size());
   gaps_with(force, 1, gaps);
   gaps_with(force, 1 - result.misfit, less);
@@ -89,7 +91,7 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
   std::normal_distribution<double> normal;
   std::vector<std::vector<double>> drawn(instants.size());
   std::vector<double> of_draw(instants.size());
-  Fit one = fit;
+  lubrication::Fit one = fit;
   for (std::size_t draw = 0; draw < draws; ++draw) {
     Eigen::VectorXd z(root.cols());
     for (auto& component : z) component = normal(random);
@@ -97,7 +99,7 @@ FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t t
     for (std::size_t i = 0; i < one.terms.size(); ++i)
       one.terms[i].coefficient = fit.terms[i].coefficient + shift(static_cast<Eigen::Index>(i));
     try {
-      gaps_with(LubricationForce(one, below, above), 1, of_draw);
+      gaps_with(lubrication::LubricationForce(one, below, above), 1, of_draw);
     } catch (const Error&) {
       ++result.refused;
       continue;
@@ -163,4 +165,4 @@ FitUncertainty read_uncertainty(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

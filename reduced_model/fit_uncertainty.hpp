@@ -12,7 +12,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// A gap of the motion without inertia at one time, with two intervals for it.
 struct UncertainGap {
@@ -55,9 +55,9 @@ inline constexpr std::size_t kDraws = 10000;
 /// motion.end_time; 0 asks for q_min alone. Equal arguments give equal numbers. Throws the Error of
 /// LubricationForce if the fit itself is impossible, and Error(kNotConverged) if no draw is
 /// possible.
-FitUncertainty propagate_fit(const Motion& motion, const Fit& fit, std::size_t times,
-                             BelowInterval below = BelowInterval::kError,
-                             AboveInterval above = AboveInterval::kError,
+FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
+                             lubrication::BelowInterval below = lubrication::BelowInterval::kError,
+                             lubrication::AboveInterval above = lubrication::AboveInterval::kError,
                              std::size_t draws = kDraws);
 
 /// The text of the file uncertainty.json.
@@ -66,4 +66,4 @@ std::string write_uncertainty(const FitUncertainty& uncertainty);
 /// Reads uncertainty.json. Throws Error(kBadInput) for another file.
 FitUncertainty read_uncertainty(const std::filesystem::path& path);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -6,7 +6,7 @@
 
 #include "viscontact/common/allowed.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 struct Motion;
 
@@ -27,4 +27,4 @@ struct ModelParameter {
   constexpr std::string_view name() const { return key.substr(key.find('.') + 1); }
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Impulses on the sphere along the outward normal [M L/T] and works done on it [M L^2/T^2], from
 /// the start of the motion to its end:
@@ -41,4 +41,4 @@ inline constexpr std::array kBudgetEntries = {
     BudgetEntry{"drag_work", &MomentumEnergyBudget::drag_work},
     BudgetEntry{"solid_work", &MomentumEnergyBudget::solid_work}};
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -9,7 +9,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 double Motion::parameter(const ModelParameter& which) const {
   const auto found = parameters.find(which.key);
@@ -56,4 +56,4 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   return times;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -12,7 +12,7 @@
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 #include "viscontact/reduced_model/model_parameter.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)):
 /// m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
@@ -78,4 +78,4 @@ inline double step_time(int index, int count, double end, double step) {
 std::vector<double> row_times(const Motion& motion,
                               const ModelParameter& spacing = kReferenceTimeStep);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

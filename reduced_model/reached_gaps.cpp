@@ -5,10 +5,10 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
-                                        const LubricationForce& force) {
+                                        const lubrication::LubricationForce& force) {
   try {
     const Trajectory trajectory = simulate(choice, motion, force);
     const auto [low, high] = std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
@@ -25,4 +25,4 @@ std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion&
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

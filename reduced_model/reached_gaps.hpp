@@ -6,7 +6,7 @@
 
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The smallest and the largest gap [L] at which a model evaluates the whole drag R in a motion.
 struct ReachedGaps {
@@ -20,6 +20,6 @@ struct ReachedGaps {
 /// `smallest` is the thickness of the film recovered from gamma, because that film is computed from
 /// the drag. Returns nothing if the model evaluates no drag, or if the motion cannot be computed.
 std::optional<ReachedGaps> reached_gaps(const ModelChoice& choice, const Motion& motion,
-                                        const LubricationForce& force);
+                                        const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

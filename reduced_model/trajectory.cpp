@@ -8,7 +8,7 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 const std::array<std::string, 7> kColumns = {
@@ -104,4 +104,4 @@ std::string write_trajectory(const Trajectory& trajectory) {
   return text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

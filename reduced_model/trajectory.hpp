@@ -12,7 +12,7 @@
 #include "viscontact/common/optional_double.hpp"
 #include "viscontact/reduced_model/momentum_energy_budget.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The state at one time.
 struct TrajectoryRow {
@@ -58,4 +58,4 @@ Trajectory read_trajectory(const std::filesystem::path& path);
 /// The text of the trajectory file (CSV).
 std::string write_trajectory(const Trajectory& trajectory);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -10,16 +10,16 @@
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/report_plots.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
-Plot plot_fit(const ForceTable& table, const Fit& fit) {
+Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit) {
   PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
   PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
   PlotCurve residual{"fit - table, in size", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
   PlotCurve estimate{
       "table's own error estimate", {kVermilion, 0, {}, PointKind::kSquare, 0.6}, {}};
-  const LubricationForce force(fit);
-  const double stokes = stokes_resistance(fit.viscosity, fit.radius);
+  const lubrication::LubricationForce force(fit);
+  const double stokes = lubrication::stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
     // A row outside the fit's interval belongs to another table than that of the fit.
@@ -59,24 +59,26 @@ Plot plot_fit(const ForceTable& table, const Fit& fit) {
            residuals}};
 }
 
-Plot plot_uncertainty(const FitUncertainty& uncertainty) {
+Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty) {
   PlotPanel panel{"Gap without inertia: intervals around the fit's, relative",
                   {"time t"},
                   {"q / q of the fit - 1"},
                   {}};
   const auto curve = [&](const char* legend, const CurveStyle& style,
-                         std::array<double, 2> UncertainGap::*interval, std::size_t end) {
+                         std::array<double, 2> reduced_model::UncertainGap::*interval,
+                         std::size_t end) {
     PlotCurve result{legend, style, {}};
     for (const auto& gap : uncertainty.gaps)
       result.points.emplace_back(gap.time, (gap.*interval)[end] / gap.gap - 1);
     panel.curves.push_back(result);
   };
   const CurveStyle random{kBlue}, misfit{kVermilion, 2, {8, 5}};
-  curve("95 % of the draws of coefficients", random, &UncertainGap::random, 0);
-  curve("", random, &UncertainGap::random, 1);
-  curve("drag off by the largest misfit everywhere", misfit, &UncertainGap::misfit, 0);
-  curve("", misfit, &UncertainGap::misfit, 1);
+  curve("95 % of the draws of coefficients", random, &reduced_model::UncertainGap::random, 0);
+  curve("", random, &reduced_model::UncertainGap::random, 1);
+  curve("drag off by the largest misfit everywhere", misfit, &reduced_model::UncertainGap::misfit,
+        0);
+  curve("", misfit, &reduced_model::UncertainGap::misfit, 1);
   return {"uncertainty", 440, {panel}};
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -1,10 +1,10 @@
 // The files of report/page and report/particles/page, as they are built into the executable
-// (cmake/embed_texts.cmake).
+// (report/embed_texts.cmake).
 #pragma once
 
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::report {
 
 std::string_view uplot_script();
 std::string_view uplot_style();
@@ -14,4 +14,4 @@ std::string_view report_style();
 std::string_view particles_script();
 std::string_view particles_style();
 
-}  // namespace viscontact
+}  // namespace viscontact::report

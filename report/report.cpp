@@ -22,7 +22,7 @@
 #include "viscontact/results/run_results.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 constexpr std::string_view kPlotNames[] = {
@@ -36,11 +36,11 @@ struct Picture {
 
 constexpr std::string_view kStillPicture = "<div class=still><svg";
 
-std::vector<Plot> plots_of(const RunResults& run) {
-  const auto& motion = required_motion(run.c);
+std::vector<Plot> plots_of(const results::RunResults& run) {
+  const auto& motion = case_file::required_motion(run.c);
   // Below the fit's interval, the lubrication limit is used here without asking: only pictures
   // depend on it, and trajectories reach that far only if the user has allowed a limit there.
-  const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
+  const lubrication::LubricationForce force(run.fit, lubrication::BelowInterval::kLubricationLimit);
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
                              plot_gaps(run.trajectories),
                              plot_gaps_logarithmic(run.trajectories, motion, force),
@@ -100,7 +100,7 @@ std::string figures(const std::vector<Picture>& pictures,
   return text;
 }
 
-std::string warnings_box(const RunResults& run) {
+std::string warnings_box(const results::RunResults& run) {
   const auto warnings = warnings_of(run);
   if (warnings.empty())
     return fmt::format(
@@ -115,10 +115,10 @@ std::string warnings_box(const RunResults& run) {
                      items);
 }
 
-std::string summary(const RunResults& run) {
+std::string summary(const results::RunResults& run) {
   const auto& comparison = run.comparison;
-  const auto reference =
-      std::ranges::find(comparison.models, comparison.reference_model, &ModelComparison::model);
+  const auto reference = std::ranges::find(comparison.models, comparison.reference_model,
+                                           &reduced_model::ModelComparison::model);
   std::string text = fmt::format(
       "<p class=summary>{} model{} of motion of one sphere{}, compared with <code>{}</code>",
       comparison.models.size(), comparison.models.size() == 1 ? "" : "s",
@@ -133,7 +133,7 @@ std::string summary(const RunResults& run) {
   return text + ".</p>\n";
 }
 
-std::string page_of(const RunResults& run, const std::vector<Picture>& pictures) {
+std::string page_of(const results::RunResults& run, const std::vector<Picture>& pictures) {
   // The Content-Security-Policy forbids the browser to load anything from elsewhere.
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
@@ -177,7 +177,7 @@ void warn_or_throw(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const GnuplotMissing& missing) {
-    warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
+    terminal::warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
   }
@@ -186,23 +186,24 @@ void warn_or_throw(const std::exception_ptr& failure) {
 }  // namespace
 
 void check_report_files(const std::filesystem::path& folder) {
-  const RunFolder run{folder};
-  refuse_other_kind(run.report(), "id=\"provenance\"", "report");
+  const results::RunFolder run{folder};
+  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
   for (const auto name : kPlotNames)
-    refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
+    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
 }
 
 bool report_is_current(const std::filesystem::path& folder) {
-  const RunFolder run{folder};
+  const results::RunFolder run{folder};
   try {
     if (!std::filesystem::exists(run.report())) return false;
     const auto page = read_file(run.report());
     if (page.find(kStillPicture) == std::string::npos) return false;
-    const auto provenance = provenance_in(page, run.report().string());
+    const auto provenance = results::provenance_in(page, run.report().string());
     if (!provenance) return false;
     // Pipes (without a hash) are skipped, because their content is in the copy of the case.
     for (const auto& input : provenance->inputs)
-      if (!input.sha256.empty() && !change_of(input, provenance->folder).empty()) return false;
+      if (!input.sha256.empty() && !results::change_of(input, provenance->folder).empty())
+        return false;
     return std::ranges::all_of(kPlotNames, [&](std::string_view name) {
       return page.find(fmt::format("\"plots/{}.svg\"", name)) == std::string::npos ||
              std::filesystem::exists(run.plot(std::string(name)));
@@ -215,23 +216,24 @@ bool report_is_current(const std::filesystem::path& folder) {
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {
   check_report_files(folder);
-  const auto run = read_run(folder);
-  const auto files = files_of(run);
-  const auto provenance = provenance_of(given.empty() ? Inputs{files, {}} : Inputs{given, files});
+  const auto run = results::read_run(folder);
+  const auto files = results::files_of(run);
+  const auto provenance = results::provenance_of(given.empty() ? results::Inputs{files, {}}
+                                                               : results::Inputs{given, files});
   std::exception_ptr failure;
   auto pictures = draw(plots_of(run), failure, stop);
   const auto page = page_of(run, pictures);
   std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
   for (const auto& [plot, svg] : pictures)
-    write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
-  write_output(run.folder.report(), TextKind::kHtml, page, provenance);
+    results::write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
+  results::write_output(run.folder.report(), TextKind::kHtml, page, provenance);
   // Plots of an earlier report that this report does not have are removed.
   for (const auto name : kPlotNames)
     if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
         pictures.end())
       remove_file(run.folder.plot(std::string(name)));
-  say(fmt::format("report: {}", run.folder.report().string()));
+  terminal::say(fmt::format("report: {}", run.folder.report().string()));
   if (failure) warn_or_throw(failure);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -7,7 +7,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// Writes report.html into a run's folder from its case, fit, trajectories, comparison and table
 /// (if there is one), and its plots into plots/. If gnuplot cannot be run, a warning says so and
@@ -28,4 +28,4 @@ void check_report_files(const std::filesystem::path& folder);
 /// report without still pictures is never current, because gnuplot may have been installed since.
 bool report_is_current(const std::filesystem::path& folder);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -9,7 +9,7 @@
 
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 /// The text with % doubled, because gnuplot reads the name of a tick as a format.
@@ -148,4 +148,4 @@ std::string json_of(const Plot& plot) {
   return text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

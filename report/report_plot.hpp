@@ -9,7 +9,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
 
@@ -65,4 +65,4 @@ std::string svg_of(const Plot& plot, const StopToken& stop = {});
 /// The plot as JSON for report/page/report.js; the text may stand in a script element.
 std::string json_of(const Plot& plot);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -12,7 +12,7 @@
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 /// The warnings so far.
@@ -29,15 +29,15 @@ struct Warnings {
 std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
 
 /// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
-void add_extrapolation(Warnings& warnings, const RunResults& run) {
+void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   if (run.fit.terms.empty()) return;  // exact
   const auto [low, high] = run.fit.gap_interval;
-  const LubricationForce force(run.fit, BelowInterval::kLubricationLimit);
+  const lubrication::LubricationForce force(run.fit, lubrication::BelowInterval::kLubricationLimit);
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = known_model(trajectory.model);
+    const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->exact_drag) continue;
     const auto [first, last] =
-        std::ranges::minmax_element(trajectory.rows, {}, &TrajectoryRow::gap);
+        std::ranges::minmax_element(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap);
     const double smallest = first->gap, largest = last->gap;
     const bool contact = choice->model->contact != nullptr;
     // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
@@ -58,7 +58,7 @@ void add_extrapolation(Warnings& warnings, const RunResults& run) {
   }
 }
 
-void add_failed_models(Warnings& warnings, const RunResults& run) {
+void add_failed_models(Warnings& warnings, const results::RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
     warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
                  failed.reason);
@@ -67,8 +67,8 @@ void add_failed_models(Warnings& warnings, const RunResults& run) {
 /// Warns if the residuals are larger than the table's error estimates. Each residual is compared
 /// with the error estimate of its own row, because that of another row may be much larger. A fit
 /// file of an earlier version does not have this comparison.
-void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
-  if (d.misfit != Misfit::kBasis) return;
+void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostics& d) {
+  if (d.misfit != lubrication::Misfit::kBasis) return;
   if (const auto& worst = d.worst_to_estimate)
     warnings.add("fit.json",
                  "The fit is coarser than the table: {} of {} rows have a relative residual "
@@ -83,7 +83,7 @@ void add_coarser_than_table(Warnings& warnings, const FitDiagnostics& d) {
                  d.chi_squared.value_or(0), d.degrees_of_freedom);
 }
 
-void add_poor_fit(Warnings& warnings, const Fit& fit) {
+void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
     warnings.add("fit.json",
@@ -97,23 +97,23 @@ void add_poor_fit(Warnings& warnings, const Fit& fit) {
   add_coarser_than_table(warnings, *diagnostics);
 }
 
-void add_unmet_accuracy(Warnings& warnings, const RunResults& run) {
+void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
   if (!run.table || !run.c.tabulation) return;
   const double asked = run.c.tabulation->relative_accuracy;
   const auto unmet = std::ranges::count_if(
       run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
   if (unmet == 0) return;
-  const auto worst =
-      std::ranges::max_element(run.table->rows, {}, &ForceTableRow::relative_error_estimate);
+  const auto worst = std::ranges::max_element(run.table->rows, {},
+                                              &lubrication::ForceTableRow::relative_error_estimate);
   warnings.add("table.csv",
                "Accuracy not met: {} of {} rows of the table have an error estimate above the "
                "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
                unmet, run.table->rows.size(), asked, worst->relative_error_estimate, worst->gap);
 }
 
-void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
+void add_passage_through_plane(Warnings& warnings, const results::RunResults& run) {
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = known_model(trajectory.model);
+    const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
     warnings.add(trajectory_name(trajectory.model),
                  "The sphere of {} goes through the plane at time {:.4g}, which no "
@@ -124,13 +124,14 @@ void add_passage_through_plane(Warnings& warnings, const RunResults& run) {
 
 /// Warns if models that do not compute the solid contact have gaps at which the rough surfaces
 /// would touch.
-void add_roughness(Warnings& warnings, const RunResults& run) {
+void add_roughness(Warnings& warnings, const results::RunResults& run) {
   const auto& motion = run.c.motion.value();
   const double roughness = motion.roughness[0] + motion.roughness[1];
   for (const auto& trajectory : run.trajectories) {
-    const auto choice = known_model(trajectory.model);
+    const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr) continue;
-    const double smallest = std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
+    const double smallest =
+        std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
     if (smallest < roughness)
       warnings.add(trajectory_name(trajectory.model),
                    "{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
@@ -139,7 +140,7 @@ void add_roughness(Warnings& warnings, const RunResults& run) {
   }
 }
 
-void add_refused_draws(Warnings& warnings, const RunResults& run) {
+void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
   if (!run.uncertainty) return;
   const auto& u = *run.uncertainty;
   if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
@@ -151,8 +152,8 @@ void add_refused_draws(Warnings& warnings, const RunResults& run) {
 
 /// Warns of files that were made from other inputs: the hash that they record differs from that of
 /// the file in the folder.
-void add_other_origin(Warnings& warnings, const RunResults& run) {
-  const auto fit_hash = content_sha256(read_file(run.folder.fit()));
+void add_other_origin(Warnings& warnings, const results::RunResults& run) {
+  const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
   const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},
                                                         {"fit", fit_hash}};
   for (const auto& trajectory : run.trajectories)
@@ -164,10 +165,10 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
                    key);
     }
   if (run.table && !run.fit.table_sha256.empty() &&
-      run.fit.table_sha256 != content_sha256(read_file(run.folder.table())))
+      run.fit.table_sha256 != results::content_sha256(read_file(run.folder.table())))
     warnings.add("fit.json", "The fit was made from another table than the one in this folder");
   for (const auto& model : run.comparison.models)
-    if (std::ranges::find(run.trajectories, model.model, &Trajectory::model) ==
+    if (std::ranges::find(run.trajectories, model.model, &reduced_model::Trajectory::model) ==
         run.trajectories.end())
       warnings.add("comparison.json",
                    "The trajectory of {} is not in this folder and in no plot; copy it into "
@@ -177,7 +178,7 @@ void add_other_origin(Warnings& warnings, const RunResults& run) {
 
 }  // namespace
 
-std::vector<ReportWarning> warnings_of(const RunResults& run) {
+std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
   Warnings warnings;
   add_failed_models(warnings, run);
   add_extrapolation(warnings, run);
@@ -190,4 +191,4 @@ std::vector<ReportWarning> warnings_of(const RunResults& run) {
   return warnings.all;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

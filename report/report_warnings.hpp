@@ -6,7 +6,7 @@
 
 #include "viscontact/results/run_results.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// A warning of the report.
 struct ReportWarning {
@@ -23,6 +23,6 @@ inline constexpr double kManyRefused = 0.01;
 /// The warnings of a run, in this order: drag from outside the fit's interval, a poor fit, rows
 /// less accurate than was asked, spheres that go through the plane, files that were not made from
 /// each other. Empty if there is nothing to warn of.
-std::vector<ReportWarning> warnings_of(const RunResults& run);
+std::vector<ReportWarning> warnings_of(const results::RunResults& run);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

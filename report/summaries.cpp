@@ -10,31 +10,31 @@
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 std::string number_or_dash(const std::optional<double>& number, const char* format) {
   return number ? fmt::format(fmt::runtime(format), *number) : "-";
 }
 
-std::string misfit_in_words(const FitDiagnostics& d) {
+std::string misfit_in_words(const lubrication::FitDiagnostics& d) {
   if (!d.chi_squared) return "";
   return fmt::format(
       "; chi-squared {:.3g} for {} degrees of freedom{}", *d.chi_squared, d.degrees_of_freedom,
-      d.misfit == Misfit::kBasis  ? ": the misfit is the basis's, not the data's"
-      : d.misfit != Misfit::kData ? ""
-      : d.outliers.empty()        ? ": the data explain the residuals"
-                                  : ": but for the outliers, the data explain the residuals");
+      d.misfit == lubrication::Misfit::kBasis  ? ": the misfit is the basis's, not the data's"
+      : d.misfit != lubrication::Misfit::kData ? ""
+      : d.outliers.empty()                     ? ": the data explain the residuals"
+                           : ": but for the outliers, the data explain the residuals");
 }
 
 /// The residual of the left-out row as text, or a dash if there is no such row.
-std::string left_out(const std::optional<LeftOutRow>& row, const char* format) {
+std::string left_out(const std::optional<lubrication::LeftOutRow>& row, const char* format) {
   return number_or_dash(row ? std::optional(row->relative_residual) : std::nullopt, format);
 }
 
 }  // namespace
 
-std::string fit_in_words(const Fit& fit) {
+std::string fit_in_words(const lubrication::Fit& fit) {
   const auto& d = fit.diagnostics.value();
   std::string text = fmt::format(
       "fit: basis {}, largest relative residual {:.2g} at gap {:.4g}, left one out {} between the "
@@ -48,7 +48,7 @@ std::string fit_in_words(const Fit& fit) {
   return text;
 }
 
-std::string basis_table(const std::vector<BasisResult>& results) {
+std::string basis_table(const std::vector<fitting::BasisResult>& results) {
   constexpr const char* kLine = "{:<20} {:>6} {:>11} {:>9} {:>14} {:>9} {:>11} {:>10} {:>8}\n";
   std::string text = fmt::format(fmt::runtime(kLine), "basis", "terms", "largest res.", "rms",
                                  "left out inner", "end", "chi2/dof", "condition", "AICc");
@@ -71,21 +71,22 @@ std::string basis_table(const std::vector<BasisResult>& results) {
                     number_or_dash(reduced, "{:.2g}"), fmt::format("{:.1e}", fit.condition_number),
                     number_or_dash(d.information_criterion, "{:.1f}"));
   }
-  if (const auto* best = best_basis(results)) text += fmt::format("least AICc: {}\n", best->basis);
+  if (const auto* best = fitting::best_basis(results))
+    text += fmt::format("least AICc: {}\n", best->basis);
   return text;
 }
 
-std::string basis_json(const std::vector<BasisResult>& results) {
+std::string basis_json(const std::vector<fitting::BasisResult>& results) {
   auto json = nlohmann::ordered_json::array();
   for (const auto& result : results)
-    json.push_back(result.fit ? nlohmann::ordered_json::parse(write_fit(*result.fit))
+    json.push_back(result.fit ? nlohmann::ordered_json::parse(lubrication::write_fit(*result.fit))
                               : nlohmann::ordered_json(
                                     {{"basis", result.basis}, {"failure", result.failure}}));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results,
-                       const StopToken& stop) {
+std::string plot_bases(const lubrication::ForceTable& table,
+                       const std::vector<fitting::BasisResult>& results, const StopToken& stop) {
   constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
   Panel panel{"Relative residuals of the fits",
               "gap q",
@@ -112,7 +113,7 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
       const auto& row = table.rows[i];
       double force = 0;
       for (const auto& term : result.fit->terms)
-        force += term.coefficient * find_term(term.name).value().value(row.gap);
+        force += term.coefficient * lubrication::find_term(term.name).value().value(row.gap);
       const double residual = std::abs(force * row.reference_velocity / u0 / row.force - 1);
       // A logarithmic axis has no zero, so a residual of 0 is not drawn.
       curve.points.emplace_back(row.gap, residual > 0 ? residual : std::nan(""));
@@ -128,7 +129,7 @@ std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& 
   return draw_svg({panel}, 860, 520, stop);
 }
 
-std::string comparison_table(const Comparison& comparison) {
+std::string comparison_table(const reduced_model::Comparison& comparison) {
   constexpr std::string_view kLine = "{:<30} {:>12} {:>9} {:>15} {:>16} {:>10}\n";
   std::string text = fmt::format(kLine, "model", "smallest gap", "at time", "film from gamma",
                                  "in contact", "sup |dq|");
@@ -146,4 +147,4 @@ std::string comparison_table(const Comparison& comparison) {
   return text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

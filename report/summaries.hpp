@@ -8,25 +8,26 @@
 #include "viscontact/fitting/basis_comparison.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// One or a few lines: basis, residuals, the cause of the misfit, outliers.
-std::string fit_in_words(const Fit& fit);
+std::string fit_in_words(const lubrication::Fit& fit);
 
 /// A table with one line for each basis, and a last line that names the best basis.
-std::string basis_table(const std::vector<BasisResult>& results);
+std::string basis_table(const std::vector<fitting::BasisResult>& results);
 
 /// The results as JSON: a list with an object for each basis, which is its fit file, or has "basis"
 /// and "failure" if the fit failed.
-std::string basis_json(const std::vector<BasisResult>& results);
+std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// An SVG of the relative residuals of every basis over the gap, beside the table's error
 /// estimates. Throws Error(kExternalProgram) as draw_svg does.
-std::string plot_bases(const ForceTable& table, const std::vector<BasisResult>& results,
+std::string plot_bases(const lubrication::ForceTable& table,
+                       const std::vector<fitting::BasisResult>& results,
                        const StopToken& stop = {});
 
 /// One line per model: smallest gap and its time, recovered film, times of contact, largest
 /// distance to the reference.
-std::string comparison_table(const Comparison& comparison);
+std::string comparison_table(const reduced_model::Comparison& comparison);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

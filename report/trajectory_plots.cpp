@@ -11,13 +11,13 @@
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/report_plots.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 // A value that interrupts a line.
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
-using Value = double (*)(const TrajectoryRow&);
+using Value = double (*)(const reduced_model::TrajectoryRow&);
 
 /// The style of a model's line. The row of the model in the table of models decides on the row of
 /// kLines; after the last one, the colours begin again with longer dashes. Widths differ, too, so
@@ -31,9 +31,9 @@ CurveStyle line_style(std::string_view model, bool film = false) {
   constexpr Line kLines[] = {{kSkyBlue, 5.0},   {kBlue, 2.0},        {kBlack, 1.6, true},
                              {kOrange, 3.4},    {kBluishGreen, 2.2}, {kReddishPurple, 2.2},
                              {kVermilion, 1.4}, {"#7F7F7F", 2.0},    {"#8C564B", 1.6}};
-  const auto choice = known_model(model);
+  const auto choice = reduced_model::known_model(model);
   if (!choice) return {"#B8A100", 2.0, {}};
-  const auto row = static_cast<std::size_t>(choice->model - all_models().data());
+  const auto row = static_cast<std::size_t>(choice->model - reduced_model::all_models().data());
   const auto cycle = row / std::size(kLines);
   const Line& line = kLines[row % std::size(kLines)];
   CurveStyle style{line.colour, line.width, {}};
@@ -51,23 +51,22 @@ CurveStyle line_style(std::string_view model, bool film = false) {
 }
 
 std::string legend_of(std::string_view model) {
-  const auto choice = known_model(model);
-  return choice ? description_of(*choice) : std::string(model);
+  const auto choice = reduced_model::known_model(model);
+  return choice ? reduced_model::description_of(*choice) : std::string(model);
 }
 
 /// Rows of a trajectory, few enough for a page. The rows are divided into runs of n rows; the first
 /// row of each run is kept, and the rows in which `value` is smallest and largest, so that no
 /// extreme is lost.
-std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows,
-                                          std::size_t trajectories, Value value) {
+std::vector<const reduced_model::TrajectoryRow*> thinned(
+    const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
   // At most 400 runs for a trajectory and about 3200 for all of them keep the page small.
   constexpr std::size_t kRuns = 400, kRunsOfAll = 3200;
-  std::vector<const TrajectoryRow*> kept;
+  std::vector<const reduced_model::TrajectoryRow*> kept;
   const std::size_t run =
       std::max<std::size_t>(1, rows.size() / std::min(kRuns, 1 + kRunsOfAll / trajectories));
-  const auto less = [&](const TrajectoryRow& a, const TrajectoryRow& b) {
-    return value(a) < value(b);
-  };
+  const auto less = [&](const reduced_model::TrajectoryRow& a,
+                        const reduced_model::TrajectoryRow& b) { return value(a) < value(b); };
   for (std::size_t i = 0; i < rows.size(); i += run) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), i + run));
@@ -81,26 +80,28 @@ std::vector<const TrajectoryRow*> thinned(const std::vector<TrajectoryRow>& rows
 }
 
 /// The curve of `y` over time. If its rows must be thinned, the extremes of `kept` remain.
-PlotCurve curve_of(const Trajectory& trajectory, std::size_t trajectories, Value y, Value kept) {
+PlotCurve curve_of(const reduced_model::Trajectory& trajectory, std::size_t trajectories, Value y,
+                   Value kept) {
   PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
   for (const auto* row : thinned(trajectory.rows, trajectories, kept))
     curve.points.emplace_back(row->time, y(*row));
   return curve;
 }
 
-double gap_of(const TrajectoryRow& row) { return row.gap; }
+double gap_of(const reduced_model::TrajectoryRow& row) { return row.gap; }
 
 }  // namespace
 
-Plot plot_gaps(const std::vector<Trajectory>& trajectories) {
+Plot plot_gaps(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{"Gap between sphere and plane", {"time t"}, {"gap q"}, {}};
   for (const auto& trajectory : trajectories)
     panel.curves.push_back(curve_of(trajectory, trajectories.size(), gap_of, gap_of));
   return {"gap", 520, {panel}};
 }
 
-Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Motion& motion,
-                           const LubricationForce& force) {
+Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& trajectories,
+                           const reduced_model::Motion& motion,
+                           const lubrication::LubricationForce& force) {
   PlotPanel panel{"Gap, logarithmic", {"time t"}, {"gap q", true}, {}};
   std::vector<std::pair<double, double>> through;
   // The axis must show the gaps of models without contact and the recovered films. The gaps of
@@ -109,8 +110,9 @@ Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Mo
   for (const auto& trajectory : trajectories) {
     PlotCurve curve{legend_of(trajectory.model), line_style(trajectory.model), {}};
     PlotCurve film{"", line_style(trajectory.model, true), {}};
-    const auto choice = known_model(trajectory.model);
-    const LubricationForce own_force = choice ? drag_of(*choice, force) : force;
+    const auto choice = reduced_model::known_model(trajectory.model);
+    const lubrication::LubricationForce own_force =
+        choice ? reduced_model::drag_of(*choice, force) : force;
     const auto contact = choice && choice->model->contact != nullptr
                              ? std::optional(choice->model->contact(motion, own_force))
                              : std::nullopt;
@@ -151,23 +153,23 @@ Plot plot_gaps_logarithmic(const std::vector<Trajectory>& trajectories, const Mo
   return {"gap_logarithmic", 560, {panel}};
 }
 
-Plot plot_gamma(const std::vector<Trajectory>& trajectories) {
+Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
       "Adhesion potential: the impulse that the film has absorbed", {"time t"}, {"gamma"}, {}};
   for (const auto& trajectory : trajectories)
     if (trajectory.rows.back().gamma)
       panel.curves.push_back(curve_of(
           trajectory, trajectories.size(),
-          [](const TrajectoryRow& row) { return row.gamma ? *row.gamma : kGap; },
-          [](const TrajectoryRow& row) { return row.gamma ? *row.gamma : 0; }));
+          [](const reduced_model::TrajectoryRow& row) { return row.gamma ? *row.gamma : kGap; },
+          [](const reduced_model::TrajectoryRow& row) { return row.gamma ? *row.gamma : 0; }));
   return {"gamma", 440, {panel}};
 }
 
-Plot plot_solid_force(const std::vector<Trajectory>& trajectories) {
+Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
       "What the solid carries; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
   double load = 0;
-  const Value solid_of = [](const TrajectoryRow& row) {
+  const Value solid_of = [](const reduced_model::TrajectoryRow& row) {
     return row.solid_force ? *row.solid_force : 0;
   };
   for (const auto& trajectory : trajectories) {
@@ -182,7 +184,7 @@ Plot plot_solid_force(const std::vector<Trajectory>& trajectories) {
   return {"solid_force", 440, {panel}};
 }
 
-Plot plot_external_force(const ExternalForce& force, double end_time) {
+Plot plot_external_force(const reduced_model::ExternalForce& force, double end_time) {
   // Each jump of the force has two points, so that it is drawn as a step.
   PlotPanel panel{"External force", {"time t"}, {"f"}, {}};
   PlotCurve curve{"external force", {kBlack}, {}};
@@ -211,7 +213,8 @@ Plot plot_external_force(const ExternalForce& force, double end_time) {
   return {"external_force", 340, {panel}};
 }
 
-Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<PublishedGap>& published) {
+Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
+                       const std::optional<case_file::PublishedGap>& published) {
   // Each model has a row; the first model is at the top.
   const auto rows = comparison.models.size();
   PlotPanel panel{"Thinnest film of each model", {"gap q"}, {}, {}};
@@ -255,4 +258,4 @@ Plot plot_minimal_gaps(const Comparison& comparison, const std::optional<Publish
   return {"thinnest_film", 180 + 34 * static_cast<int>(rows), {panel}};
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace viscontact {
+namespace viscontact::results {
 namespace {
 
 constexpr ExitCode kExitCodes[] = {
@@ -39,4 +39,4 @@ ErrorKind kind_of_exit_code(int exit_code) {
   return *row->kind;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

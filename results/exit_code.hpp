@@ -8,7 +8,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 struct ExitCode {
   std::optional<ErrorKind> kind;  ///< nothing: success
@@ -25,4 +25,4 @@ int exit_code_of(ErrorKind kind);
 /// The kind of error that has this exit code. Throws std::out_of_range if no kind has it.
 ErrorKind kind_of_exit_code(int exit_code);
 
-}  // namespace viscontact
+}  // namespace viscontact::results

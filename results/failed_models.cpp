@@ -10,7 +10,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/exit_code.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -68,11 +68,12 @@ Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                            failed.front().reason, others, written));
 }
 
-std::vector<ModelWithoutTrajectory> failures_without(const std::vector<Trajectory>& trajectories,
-                                                     const RunFolder& run) {
-  std::vector<ModelWithoutTrajectory> failed;
+std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
+    const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run) {
+  std::vector<reduced_model::ModelWithoutTrajectory> failed;
   for (const auto& model : read_failed_models(run.failed_models()))
-    if (std::ranges::find(trajectories, model.model, &Trajectory::model) == trajectories.end())
+    if (std::ranges::find(trajectories, model.model, &reduced_model::Trajectory::model) ==
+        trajectories.end())
       failed.push_back({model.model, model.reason});
   return failed;
 }
@@ -88,11 +89,12 @@ std::string reference_without(const std::vector<std::string>& models,
   return computed.front();
 }
 
-std::string reference_among(const std::vector<Trajectory>& trajectories,
-                            const std::vector<ModelWithoutTrajectory>& failed,
+std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
+                            const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked) {
   const std::string reference = asked.empty() ? std::string(kUsualReference) : asked;
-  const auto found = std::ranges::find(failed, reference, &ModelWithoutTrajectory::model);
+  const auto found =
+      std::ranges::find(failed, reference, &reduced_model::ModelWithoutTrajectory::model);
   if (found == failed.end()) return reference;
   if (asked.empty()) return trajectories.front().model;
   throw Error(ErrorKind::kBadInput,
@@ -101,4 +103,4 @@ std::string reference_among(const std::vector<Trajectory>& trajectories,
                           reference, found->reason));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -11,7 +11,7 @@
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// A model that failed, and why.
 struct FailedModel {
@@ -39,8 +39,8 @@ Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
 /// The models in the record of the folder that have none of these trajectories.
-std::vector<ModelWithoutTrajectory> failures_without(const std::vector<Trajectory>& trajectories,
-                                                     const RunFolder& run);
+std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
+    const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
 /// The reference that `run` compares `models` (at least one) with: `inertial` if it was computed,
 /// else the first model that was computed, else `inertial`.
@@ -50,8 +50,8 @@ std::string reference_without(const std::vector<std::string>& models,
 /// The reference that `compare` uses: `asked`, or if this is empty `inertial`, or if `inertial`
 /// failed the model of the first trajectory. Throws Error(kBadInput) with the recorded reason if
 /// the model `asked` failed.
-std::string reference_among(const std::vector<Trajectory>& trajectories,
-                            const std::vector<ModelWithoutTrajectory>& failed,
+std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
+                            const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked);
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -10,7 +10,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 namespace {
 
 /// The first MiB of a file. Throws Error(kBadInput) that names the path if it cannot be read.
@@ -59,4 +59,4 @@ void refuse_other_kind(const std::filesystem::path& path, std::string_view marke
                   kind));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

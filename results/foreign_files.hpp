@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// True if Viscontact wrote the file at `path`, which must exist. Only the first MiB is read,
 /// because every output records its provenance there and a restart file can be a gigabyte long.
@@ -20,4 +20,4 @@ bool is_written_by_viscontact(const std::filesystem::path& path);
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind);
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -16,7 +16,7 @@
 #include "viscontact/common/text/json.hpp"
 #include "viscontact/results/versions.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 namespace {
 
 // A line is a provenance if it contains this name followed by this beginning of an object.
@@ -284,4 +284,4 @@ void write_output(const std::filesystem::path& path, TextKind kind, const std::s
   write_file(path, output_text(path, kind, text, std::move(provenance)));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

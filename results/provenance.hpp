@@ -10,7 +10,7 @@
 
 #include "viscontact/common/text/text_kind.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// A file that an output was made from.
 struct InputFile {
@@ -96,4 +96,4 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);
 
-}  // namespace viscontact
+}  // namespace viscontact::results

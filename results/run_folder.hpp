@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// The message for a folder that another process has locked (LockedFolder).
 inline constexpr const char* kFolderIsHeld =
@@ -37,4 +37,4 @@ struct RunFolder {
   std::filesystem::path report() const { return path / "report.html"; }
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::results

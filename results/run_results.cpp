@@ -5,16 +5,17 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 namespace {
 
 /// True if the table in the folder belongs to the run. This is so if the fit was made from it, and
 /// also if the case asks for a fit of a table: then the report warns if the table is another one. A
 /// case with `exact` or `file` in [fit] needs no table, so that table.csv may be the table of an
 /// earlier case or any file of the user.
-bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
+bool has_table(const RunFolder& run, const case_file::Case& c, const lubrication::Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;
-  const bool needs_none = is_exact_plane(fit) || (c.fit && (c.fit->exact || c.fit->file));
+  const bool needs_none =
+      lubrication::is_exact_plane(fit) || (c.fit && (c.fit->exact || c.fit->file));
   return !needs_none || content_sha256(read_file(run.table())) == fit.table_sha256;
 }
 
@@ -23,21 +24,22 @@ bool has_table(const RunFolder& run, const Case& c, const Fit& fit) {
 RunResults read_run(const std::filesystem::path& folder) {
   const RunFolder run{folder};
   RunResults results{run,
-                     read_case(run.case_file()),
-                     read_fit(run.fit()),
-                     read_comparison(run.comparison()),
+                     case_file::read_case(run.case_file()),
+                     lubrication::read_fit(run.fit()),
+                     reduced_model::read_comparison(run.comparison()),
                      {},
                      {},
                      {}};
   for (const auto& model : results.comparison.models)
     if (const auto file = run.trajectory(model.model); std::filesystem::exists(file))
-      results.trajectories.push_back(read_trajectory(file));
+      results.trajectories.push_back(reduced_model::read_trajectory(file));
   if (results.trajectories.empty())
     throw_bad_input({run.trajectories().string()},
                     "has no trajectory of the models that the comparison names");
-  if (has_table(run, results.c, results.fit)) results.table = read_force_table(run.table());
+  if (has_table(run, results.c, results.fit))
+    results.table = lubrication::read_force_table(run.table());
   if (std::filesystem::exists(run.uncertainty()))
-    results.uncertainty = read_uncertainty(run.uncertainty());
+    results.uncertainty = reduced_model::read_uncertainty(run.uncertainty());
   return results;
 }
 
@@ -51,4 +53,4 @@ std::vector<std::filesystem::path> files_of(const RunResults& results) {
   return files;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -13,19 +13,19 @@
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// The results of a run.
 struct RunResults {
   RunFolder folder;
-  Case c;
-  Fit fit;
-  Comparison comparison;
+  case_file::Case c;
+  lubrication::Fit fit;
+  reduced_model::Comparison comparison;
   /// The trajectories of the models in the comparison, as far as their files exist; at least one.
-  std::vector<Trajectory> trajectories;
+  std::vector<reduced_model::Trajectory> trajectories;
   /// The table that the fit was made from; nothing if the run needs no table.
-  std::optional<ForceTable> table;
-  std::optional<FitUncertainty> uncertainty;
+  std::optional<lubrication::ForceTable> table;
+  std::optional<reduced_model::FitUncertainty> uncertainty;
 };
 
 /// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or if a file
@@ -35,4 +35,4 @@ RunResults read_run(const std::filesystem::path& folder);
 /// The files that the results were read from.
 std::vector<std::filesystem::path> files_of(const RunResults& results);
 
-}  // namespace viscontact
+}  // namespace viscontact::results

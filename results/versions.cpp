@@ -10,7 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 std::map<std::string, std::string> library_versions() {
   return {{"Viscontact", VISCONTACT_VERSION},
@@ -22,11 +22,11 @@ std::map<std::string, std::string> library_versions() {
 
 std::string freefem_version_or_not_found(const StopToken& stop) {
   try {
-    return freefem_version(default_freefem(stop));
+    return freefem_axi::freefem_version(freefem_axi::default_freefem(stop));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kExternalProgram) throw;
     return "not found";
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -6,7 +6,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::results {
 
 /// The versions of Viscontact and of the libraries it was built with, by name.
 std::map<std::string, std::string> library_versions();
@@ -14,4 +14,4 @@ std::map<std::string, std::string> library_versions();
 /// The version that FreeFEM reports, or "not found" if FreeFEM cannot be run.
 std::string freefem_version_or_not_found(const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::results

@@ -21,7 +21,7 @@
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 constexpr std::array kModelColumns = {"minimal_gap",
@@ -42,11 +42,12 @@ std::string as_field(std::string text) {
   return text;
 }
 
-double thinnest(const ModelComparison& model) {
+double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
 }
 
-std::string model_fields(const ModelComparison& model, const ModelComparison* reference) {
+std::string model_fields(const reduced_model::ModelComparison& model,
+                         const reduced_model::ModelComparison* reference) {
   std::string text = fmt::format(",{},{}", format_number(model.minimal_gap),
                                  format_number(model.minimal_gap_time));
   text += "," + (model.recovered_minimal_gap ? format_number(*model.recovered_minimal_gap) : "");
@@ -79,7 +80,7 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
     std::vector<std::string_view> sections = {"fluid", "sphere", "motion"};
-    std::ranges::copy(model_sections(), std::back_inserter(sections));
+    std::ranges::copy(reduced_model::model_sections(), std::back_inserter(sections));
     const auto last = sections.back();
     sections.pop_back();
     throw Error(ErrorKind::kWrongUsage,
@@ -87,8 +88,9 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
                             "varies keys of [{}] and [{}]",
                             key, fmt::join(sections, "], ["), last));
   }
-  if (std::ranges::none_of(models,
-                           [&](const auto& model) { return depends_on(find_model(model), key); }))
+  if (std::ranges::none_of(models, [&](const auto& model) {
+        return reduced_model::depends_on(reduced_model::find_model(model), key);
+      }))
     throw Error(ErrorKind::kWrongUsage,
                 fmt::format("{} cannot be varied, because none of the models that are run depends "
                             "on it ({}); leave it out, or add a model that depends on it",
@@ -97,17 +99,17 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
 
 }  // namespace
 
-SweepPlan planned(const Case& c) {
-  const SweepRequest request = c.sweep.value_or(SweepRequest{});
-  const FitRequest fit = c.fit.value_or(FitRequest{});
+SweepPlan planned(const case_file::Case& c) {
+  const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
+  const case_file::FitRequest fit = c.fit.value_or(case_file::FitRequest{});
   SweepPlan plan;
   plan.case_path = c.path;
   plan.below = fit.below;
   plan.above = fit.above;
   if (fit.file)
-    plan.fit = read_fit(*fit.file);
+    plan.fit = lubrication::read_fit(*fit.file);
   else if (fit.exact)
-    plan.fit = exact_plane_fit(c.viscosity, c.radius);
+    plan.fit = lubrication::exact_plane_fit(c.viscosity, c.radius);
   for (const auto& text : request.vary) {
     try {
       plan.variations.push_back(parse_variation(text));
@@ -149,7 +151,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
   for (const auto& variation : plan_.variations) keys.push_back(variation.key);
   refuse_doubles(keys, "the key");
   refuse_doubles(plan_.models, "the model");
-  for (const auto& model : plan_.models) (void)find_model(model);
+  for (const auto& model : plan_.models) (void)reduced_model::find_model(model);
   for (const auto& key : keys) refuse_useless(key, plan_.models);
   if (std::ranges::find(plan_.models, plan_.reference) == plan_.models.end())
     throw Error(
@@ -157,7 +159,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
         fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
                     plan_.reference, fmt::join(plan_.models, ", ")));
   for (const std::uint64_t index : {std::uint64_t{0}, sweep_size(plan_) - 1})
-    (void)required_motion(case_at(index));
+    (void)case_file::required_motion(case_at(index));
 }
 
 std::vector<std::pair<std::string, double>> Sweep::point(std::uint64_t index) const {
@@ -165,11 +167,11 @@ std::vector<std::pair<std::string, double>> Sweep::point(std::uint64_t index) co
                            : grid_point(plan_.variations, index);
 }
 
-Case Sweep::case_at(std::uint64_t index) const {
+case_file::Case Sweep::case_at(std::uint64_t index) const {
   const auto numbers = point(index);
   try {
-    Case c = case_.with(numbers);
-    if (!is_exact_plane(plan_.fit) && c.radius != plan_.fit.radius)
+    case_file::Case c = case_.with(numbers);
+    if (!lubrication::is_exact_plane(plan_.fit) && c.radius != plan_.fit.radius)
       throw_bad_input(
           {plan_.case_path.string()},
           fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is of one "
@@ -192,18 +194,20 @@ std::string Sweep::key_fields(std::uint64_t index) const {
 
 std::string Sweep::row(std::uint64_t index, const StopToken& stop) const {
   std::string text = key_fields(index);
-  std::vector<Trajectory> trajectories;
+  std::vector<reduced_model::Trajectory> trajectories;
   std::string failure;
   try {
-    const Case c = case_at(index);
-    const Fit fit = is_exact_plane(plan_.fit) ? exact_plane_fit(c.viscosity, c.radius)
-                                              : with_viscosity(plan_.fit, c.viscosity);
-    const LubricationForce force(fit, plan_.below, plan_.above);
-    Motion motion = required_motion(c);
+    const case_file::Case c = case_at(index);
+    const lubrication::Fit fit = lubrication::is_exact_plane(plan_.fit)
+                                     ? lubrication::exact_plane_fit(c.viscosity, c.radius)
+                                     : lubrication::with_viscosity(plan_.fit, c.viscosity);
+    const lubrication::LubricationForce force(fit, plan_.below, plan_.above);
+    reduced_model::Motion motion = case_file::required_motion(c);
     motion.stop = stop;
     for (const auto& model : plan_.models) {
       try {
-        trajectories.push_back(simulate(find_model(model), motion, force));
+        trajectories.push_back(
+            reduced_model::simulate(reduced_model::find_model(model), motion, force));
       } catch (const Error& error) {
         if (error.kind() == ErrorKind::kInterrupted) throw;
         failure += fmt::format("{}{}", failure.empty() ? "" : " | ", error.what());
@@ -213,17 +217,18 @@ std::string Sweep::row(std::uint64_t index, const StopToken& stop) const {
     if (error.kind() == ErrorKind::kInterrupted) throw;
     failure = error.what();
   }
-  const auto of_model = [](const Comparison& comparison, std::string_view name) {
-    return &*std::ranges::find(comparison.models, name, &ModelComparison::model);
+  const auto of_model = [](const reduced_model::Comparison& comparison, std::string_view name) {
+    return &*std::ranges::find(comparison.models, name, &reduced_model::ModelComparison::model);
   };
   const auto has = [&](std::string_view name) {
-    return std::ranges::find(trajectories, name, &Trajectory::model) != trajectories.end();
+    return std::ranges::find(trajectories, name, &reduced_model::Trajectory::model) !=
+           trajectories.end();
   };
   const bool referred = has(plan_.reference);
-  std::optional<Comparison> comparison;
+  std::optional<reduced_model::Comparison> comparison;
   if (!trajectories.empty())
-    comparison =
-        compare_trajectories(trajectories, referred ? plan_.reference : trajectories.front().model);
+    comparison = reduced_model::compare_trajectories(
+        trajectories, referred ? plan_.reference : trajectories.front().model);
   for (const auto& model : plan_.models)
     text += has(model) ? model_fields(*of_model(*comparison, model),
                                       referred ? of_model(*comparison, plan_.reference) : nullptr)
@@ -286,4 +291,4 @@ std::uint64_t run_sweep(
   return taken;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -13,14 +13,14 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/sweep/variation.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 
 /// What is computed at each point of a sweep.
 struct SweepPlan {
   std::filesystem::path case_path;
-  Fit fit;  ///< multiplied by the viscosity of each point over that of the fit
-  BelowInterval below = BelowInterval::kError;
-  AboveInterval above = AboveInterval::kError;
+  lubrication::Fit fit;  ///< multiplied by the viscosity of each point over that of the fit
+  lubrication::BelowInterval below = lubrication::BelowInterval::kError;
+  lubrication::AboveInterval above = lubrication::AboveInterval::kError;
   std::vector<Variation> variations;  ///< at least one
   /// Number of random points; 0: the whole grid.
   std::uint64_t samples = 0;
@@ -34,7 +34,7 @@ struct SweepPlan {
 /// The plan of the section [sweep] and the fit of a case. Variations, fit and reference are empty
 /// if the case does not give them. Throws Error(kBadInput) if a range in [sweep] is not valid or
 /// the fit file cannot be read.
-SweepPlan planned(const Case& c);
+SweepPlan planned(const case_file::Case& c);
 
 /// "inertial" if it is one of the models, otherwise the first model.
 std::string default_reference(const std::vector<std::string>& models);
@@ -70,11 +70,11 @@ class Sweep {
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 
  private:
-  Case case_at(std::uint64_t index) const;
+  case_file::Case case_at(std::uint64_t index) const;
   std::vector<std::pair<std::string, double>> point(std::uint64_t index) const;
 
   SweepPlan plan_;
-  CaseTemplate case_;
+  case_file::CaseTemplate case_;
 };
 
 /// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
@@ -85,4 +85,4 @@ std::uint64_t run_sweep(
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -20,16 +20,16 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Hash of everything that determines the rows of a sweep.
 std::string identity_of(const SweepPlan& plan) {
-  std::string text = read_file(plan.case_path) + write_fit(plan.fit);
+  std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
   // The files from which the case reads an external force.
-  for (const auto& file : read_case(plan.case_path).force_files) text += read_file(file);
+  for (const auto& file : case_file::read_case(plan.case_path).force_files) text += read_file(file);
   for (const auto& v : plan.variations) {
     text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
                         v.logarithmic, v.count);
@@ -41,14 +41,15 @@ std::string identity_of(const SweepPlan& plan) {
 }
 
 std::string header_of(const SweepPlan& plan, const std::string& version) {
-  return write_csv_comments({{"viscontact", "sweep"},
-                             {"case", sha256(read_file(plan.case_path))},
-                             {"fit", sha256(write_fit(plan.fit))},
-                             {"reference", plan.reference},
-                             {"revision of the models", std::to_string(kModelsRevision)},
-                             {"rows", std::to_string(sweep_size(plan))},
-                             {"sweep", identity_of(plan)},
-                             {"version of Viscontact", version}}) +
+  return write_csv_comments(
+             {{"viscontact", "sweep"},
+              {"case", sha256(read_file(plan.case_path))},
+              {"fit", sha256(lubrication::write_fit(plan.fit))},
+              {"reference", plan.reference},
+              {"revision of the models", std::to_string(reduced_model::kModelsRevision)},
+              {"rows", std::to_string(sweep_size(plan))},
+              {"sweep", identity_of(plan)},
+              {"version of Viscontact", version}}) +
          fmt::format("{}\n", fmt::join(sweep_columns(plan), ","));
 }
 
@@ -184,4 +185,4 @@ std::uint64_t finished_rows(const Sweep& sweep, const fs::path& path, const std:
   return std::max(whole ? whole->rows : 0, begun ? begun->rows : 0);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

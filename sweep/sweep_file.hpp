@@ -9,7 +9,7 @@
 
 #include "viscontact/sweep/sweep.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 
 /// Computes the missing rows of a sweep and writes them into a CSV file. Until all rows are there,
 /// they are in PATH.part, in order. A later call keeps the rows in that file if they belong to the
@@ -43,4 +43,4 @@ SweepOutcome read_outcome(const SweepPlan& plan, const std::filesystem::path& pa
 std::uint64_t finished_rows(const Sweep& sweep, const std::filesystem::path& path,
                             const std::string& version);
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

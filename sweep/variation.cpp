@@ -10,7 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 constexpr double kMostValues = 1e9;
@@ -131,4 +131,4 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
   return points;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::sweep {
 
 /// A key and its values: a list, or a range with `count` values from `first` to `last`, at equal
 /// distances or in geometric progression.
@@ -45,4 +45,4 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
 /// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace viscontact {
+namespace viscontact::terminal {
 namespace {
 
 constexpr const char* kEraseLine = "\r\033[K";
@@ -61,4 +61,4 @@ std::string coloured(std::string_view word, Colour colour, int descriptor) {
   return fmt::format("\033[{}m{}\033[0m", static_cast<int>(colour), word);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::terminal

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::terminal {
 
 /// Replaces the progress line by `text` if standard error is a terminal that understands escape
 /// sequences; otherwise does nothing.
@@ -43,4 +43,4 @@ enum class Colour { kRed = 31, kGreen = 32, kYellow = 33 };
 /// is.
 std::string coloured(std::string_view word, Colour colour, int descriptor);
 
-}  // namespace viscontact
+}  // namespace viscontact::terminal

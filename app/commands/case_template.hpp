@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-namespace viscontact {
+namespace viscontact::app {
 
 /// The text of case_template.toml.
 std::string_view case_template();
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace viscontact {
+namespace viscontact::app {
 
 void add_compare(CLI::App& app);
 /// Sets `healthy` to false if the command runs and something is missing or wrong.
@@ -21,4 +21,4 @@ void add_simulate(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_tabulate(CLI::App& app);
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -20,7 +20,7 @@
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 struct Finding {
@@ -33,14 +33,14 @@ using Report = std::function<void(const Finding&)>;
 /// Solves a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so wide
 /// that it changes the drag factor by less than 1e-4. kBrenner is the drag factor by the series of
 /// Brenner (1961).
-Finding solve_known_row(const FreeFem& freefem) {
+Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;
-  Tabulation tabulation;
+  freefem_axi::Tabulation tabulation;
   tabulation.viscosity = tabulation.radius = 1;
-  tabulation.container = Container{40, 80};
+  tabulation.container = freefem_axi::Container{40, 80};
   tabulation.relative_accuracy = kTolerance;
-  const auto row = solve_row(freefem, tabulation, 0.1, -1);
+  const auto row = freefem_axi::solve_row(freefem, tabulation, 0.1, -1);
   const double error = std::abs(row.drag_factor / kBrenner - 1);
   return {error < kTolerance,
           fmt::format("FreeFEM solves gap 0.1: drag factor {:.7g}, relative error {:.1e}, {:.1f} s",
@@ -49,11 +49,12 @@ Finding solve_known_row(const FreeFem& freefem) {
 
 void examine_freefem(const Report& report) {
   try {
-    auto freefem = default_freefem(interrupt_token());
+    auto freefem = freefem_axi::default_freefem(interrupt_token());
     // The row takes about a second, so the shorter time limit is enough.
     freefem.row_limit = freefem.version_limit;
-    report({true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_version(freefem),
-                              freefem.executable, freefem.script_folder.string())});
+    report(
+        {true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_axi::freefem_version(freefem),
+                           freefem.executable, freefem.script_folder.string())});
     report(solve_known_row(freefem));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;
@@ -72,8 +73,9 @@ Finding examine_gnuplot() {
 }
 
 void print_line(const Finding& finding) {
-  const auto word = finding.good ? coloured("ok     ", Colour::kGreen, STDOUT_FILENO)
-                                 : coloured("MISSING", Colour::kRed, STDOUT_FILENO);
+  const auto word = finding.good
+                        ? terminal::coloured("ok     ", terminal::Colour::kGreen, STDOUT_FILENO)
+                        : terminal::coloured("MISSING", terminal::Colour::kRed, STDOUT_FILENO);
   fmt::print("{} {}\n", word, finding.what);
 }
 
@@ -85,7 +87,7 @@ bool examine(bool json) {
     findings.push_back(finding);
     if (!json) print_line(finding);
   };
-  for (const auto& [program, version] : library_versions())
+  for (const auto& [program, version] : results::library_versions())
     report({true, fmt::format("{} {}", program, version)});
   report(examine_gnuplot());
   examine_freefem(report);
@@ -108,4 +110,4 @@ void add_doctor(CLI::App& app, bool& healthy) {
   command->callback([&healthy, json] { healthy = examine(*json); });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -17,16 +17,16 @@
 #include "viscontact/pipeline/fit_stages.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 /// Reads the value of --fix, which fixes the leading coefficient. No value, "1/q" or "theory" fixes
 /// it at its value by lubrication theory; "1/q=56.5" fixes it at 56.5. Throws Error(kWrongUsage)
 /// for any other value.
-void read_fix(const std::string& word, FitSettings& settings) {
+void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
-  if (word.empty() || word == kLeadingTerm || word == "theory") return;
-  const std::string prefix = std::string(kLeadingTerm) + "=";
+  if (word.empty() || word == lubrication::kLeadingTerm || word == "theory") return;
+  const std::string prefix = std::string(lubrication::kLeadingTerm) + "=";
   settings.leading_value =
       word.starts_with(prefix) ? parse_number(word.substr(prefix.size())) : std::nullopt;
   if (!settings.leading_value)
@@ -43,12 +43,13 @@ struct FitOptions {
 };
 
 void fit_table(const FitOptions& o) {
-  FitSettings settings;
+  fitting::FitSettings settings;
   settings.basis = o.terms_option->count() == 0
-                       ? from_option("--basis", [&] { return find_basis(o.basis); })
-                       : from_option("--terms", [&] { return parse_terms(o.terms); });
-  settings.weights = from_option("--weights", [&] { return parse_weights(o.weights); });
-  settings.loss = from_option("--loss", [&] { return parse_loss(o.loss); });
+                       ? from_option("--basis", [&] { return lubrication::find_basis(o.basis); })
+                       : from_option("--terms", [&] { return lubrication::parse_terms(o.terms); });
+  settings.weights =
+      from_option("--weights", [&] { return lubrication::parse_weights(o.weights); });
+  settings.loss = from_option("--loss", [&] { return lubrication::parse_loss(o.loss); });
   if (o.fix_option->count() > 0) read_fix(o.fix, settings);
   const bool fits = o.output_option->count() > 0;
   if (!fits && !o.compare_bases)
@@ -62,17 +63,20 @@ void fit_table(const FitOptions& o) {
   if (fits) outputs.push_back(o.fit);
   if (o.compare_bases) outputs.push_back(plot.string());
   check_outputs(outputs);
-  if (fits) refuse_other_kind(o.fit, "\"gap_interval\"", "fit");
-  if (o.compare_bases) refuse_other_kind(plot, "<svg", "picture");
+  if (fits) results::refuse_other_kind(o.fit, "\"gap_interval\"", "fit");
+  if (o.compare_bases) results::refuse_other_kind(plot, "<svg", "picture");
   std::optional<Error> without_picture;
   try {
-    if (o.compare_bases) compare_bases_stage(o.table, settings, plot, o.json, interrupt_token());
+    if (o.compare_bases)
+      pipeline::compare_bases_stage(o.table, settings, plot, o.json, interrupt_token());
   } catch (const Error& error) {
     // The fit does not need gnuplot, so it is written before this error is thrown.
     if (error.kind() != ErrorKind::kExternalProgram) throw;
     without_picture = error;
   }
-  if (fits) fit_stage(o.table, o.fit, settings, provenance_of({{o.table}, {}}), interrupt_token());
+  if (fits)
+    pipeline::fit_stage(o.table, o.fit, settings, results::provenance_of({{o.table}, {}}),
+                        interrupt_token());
   if (without_picture) throw Error(*without_picture);
 }
 
@@ -83,13 +87,13 @@ void add_fit(CLI::App& app) {
   auto o = std::make_shared<FitOptions>();
   add_value(*command, "TABLE", o->table, kFile, "table of forces (CSV)")->required();
   o->output_option = add_value(*command, "-o,--output", o->fit, kFile, "fit to write (JSON)");
-  auto* basis =
-      add_value(*command, "--basis", o->basis, names_of(all_bases(), "|"), "terms of the formula")
-          ->capture_default_str();
-  o->terms_option =
-      add_value(*command, "--terms", o->terms, "TERM,...",
-                "a basis of your own: terms, separated by commas, from: " + names_of(all_terms()))
-          ->excludes(basis);
+  auto* basis = add_value(*command, "--basis", o->basis, names_of(lubrication::all_bases(), "|"),
+                          "terms of the formula")
+                    ->capture_default_str();
+  o->terms_option = add_value(*command, "--terms", o->terms, "TERM,...",
+                              "a basis of your own: terms, separated by commas, from: " +
+                                  names_of(lubrication::all_terms()))
+                        ->excludes(basis);
   add_value(*command, "--weights", o->weights, "relative|absolute",
             "residuals: relative to the force, or absolute")
       ->capture_default_str();
@@ -128,9 +132,9 @@ void add_shift(CLI::App& app) {
     auto outputs = std::vector{o->shift};
     if (!o->plot.empty()) outputs.push_back(o->plot);
     check_outputs(outputs);
-    refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
-    if (!o->plot.empty()) refuse_other_kind(o->plot, "<svg", "picture");
-    shift_stage(o->table, o->fit, o->shift, o->plot, interrupt_token());
+    results::refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
+    if (!o->plot.empty()) results::refuse_other_kind(o->plot, "<svg", "picture");
+    pipeline::shift_stage(o->table, o->fit, o->shift, o->plot, interrupt_token());
   });
 }
 
@@ -141,30 +145,32 @@ void add_export(CLI::App& app) {
   auto* command = app.add_subcommand("export", "write a fit as code or numbers for other programs");
   auto o = std::make_shared<Options>();
   std::string targets;
-  for (const auto& target : export_targets())
+  for (const auto& target : fitting::export_targets())
     targets +=
         fmt::format("{}{} ({})", targets.empty() ? "" : ", ", target.name, target.description);
   add_value(*command, "FIT", o->fit, kFile, "fit (JSON)")->required();
-  add_value(*command, "--to", o->target, names_of(export_targets(), "|"), targets)->required();
+  add_value(*command, "--to", o->target, names_of(fitting::export_targets(), "|"), targets)
+      ->required();
   auto* output = add_value(*command, "-o,--output", o->output, kFile,
                            "file to write; default: standard output");
   command->callback([o, output] {
     if (output->count() > 0) {
       check_outputs({o->output});
-      refuse_other_kind(o->output, "written by 'viscontact export'", "export");
+      results::refuse_other_kind(o->output, "written by 'viscontact export'", "export");
     }
-    (void)from_option("--to",
-                      [&] { return &require_named(export_targets(), o->target, "export target"); });
-    const Fit fit = read_fit(o->fit);
+    (void)from_option("--to", [&] {
+      return &require_named(fitting::export_targets(), o->target, "export target");
+    });
+    const lubrication::Fit fit = lubrication::read_fit(o->fit);
     const auto text = with_place(o->fit, [&] {
-      return export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
+      return fitting::export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
     });
     if (output->count() > 0)
-      write_output(o->output, find_named(export_targets(), o->target)->kind, text,
-                   without_folders(provenance_of({{o->fit}, {}})));
+      results::write_output(o->output, find_named(fitting::export_targets(), o->target)->kind, text,
+                            results::without_folders(results::provenance_of({{o->fit}, {}})));
     else
       fmt::print("{}", text);
   });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

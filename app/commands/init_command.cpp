@@ -12,7 +12,7 @@
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 void add_init(CLI::App& app) {
   auto* command = app.add_subcommand("init", "write a case with comments to begin with");
@@ -32,9 +32,9 @@ void add_init(CLI::App& app) {
     };
     auto results = path;
     results.replace_extension(path.has_extension() ? "" : ".results");
-    say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file, named(*file),
-                    named(results.string())));
+    terminal::say(fmt::format("init: {}; edit it, then: viscontact run {} -o {}", *file,
+                              named(*file), named(results.string())));
   });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -7,11 +7,11 @@
 #include "viscontact/app/interrupt.hpp"
 #include "viscontact/pipeline/particles/particles_stage.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 void add_particles(CLI::App& app) {
   auto* command = app.add_subcommand("particles", "simulate many particles with viscous contact");
-  auto o = std::make_shared<ParticlesRequest>();
+  auto o = std::make_shared<pipeline::ParticlesRequest>();
   o->threads = default_jobs();
   add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
   add_value(*command, "-o,--output", o->folder, kFolder,
@@ -24,8 +24,8 @@ void add_particles(CLI::App& app) {
   command->callback([o] {
     check_outputs({o->folder});
     o->stop = interrupt_token();
-    run_particles(*o);
+    pipeline::run_particles(*o);
   });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -19,7 +19,7 @@
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,7 +75,7 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
 /// The command of the provenance, changed so that it writes to `o.output`. Throws
 /// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder and
 /// is not.
-std::vector<std::string> with_output(const RerunOptions& o, const Provenance& provenance) {
+std::vector<std::string> with_output(const RerunOptions& o, const results::Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
     auto& word = command[place.word];
@@ -129,7 +129,7 @@ std::vector<std::string> with_output(const RerunOptions& o, const Provenance& pr
 /// Changes the provenance for files that have moved to the folder `to`. Absolute paths below the
 /// folder in which the command ran become paths below `to`, so that nothing is read or written in
 /// the old folder.
-void move_to(Provenance& provenance, const fs::path& to) {
+void move_to(results::Provenance& provenance, const fs::path& to) {
   const std::string from = provenance.folder + "/";
   // A provenance without a folder has no absolute paths either (without_folders).
   const bool tells_folder = !provenance.folder.empty();
@@ -138,7 +138,7 @@ void move_to(Provenance& provenance, const fs::path& to) {
       word.replace(begin, from.size(), (to / "").string());
   };
   for (std::size_t i = 2; i < provenance.command.size(); ++i)
-    move(provenance.command[i], path_in_word(provenance.command[i]));
+    move(provenance.command[i], results::path_in_word(provenance.command[i]));
   for (auto& input : provenance.inputs) move(input.file, 0);
   move(provenance.output, 0);
   provenance.folder = to.string();
@@ -161,7 +161,7 @@ std::string in_words(const std::vector<std::string>& command) {
 }
 
 void rerun(const RerunOptions& o) {
-  auto provenance = read_provenance(o.file);
+  auto provenance = results::read_provenance(o.file);
   if (!provenance || provenance->command.empty())
     throw_bad_input({o.file},
                     "does not say how it was made, because it has no line 'provenance'; every file "
@@ -179,7 +179,8 @@ void rerun(const RerunOptions& o) {
                     o.file, made_in));
   std::vector<std::string> changes;
   for (const auto& input : provenance->inputs)
-    if (const auto change = input.intermediate ? "" : change_of(input, folder); !change.empty())
+    if (const auto change = input.intermediate ? "" : results::change_of(input, folder);
+        !change.empty())
       changes.push_back(change);
   const std::string list = fmt::format("{}", fmt::join(changes, "; "));
   if (!changes.empty() && !o.changed_inputs && !o.dry_run)
@@ -194,16 +195,16 @@ void rerun(const RerunOptions& o) {
   std::erase(command, "--gather");
   if (const auto ours = provenance->versions.find("Viscontact");
       ours != provenance->versions.end() && ours->second != VISCONTACT_VERSION)
-    warn(fmt::format("rerun: warning: the file was made by Viscontact {}, and this is {}",
-                     ours->second, VISCONTACT_VERSION));
-  if (!changes.empty()) warn("rerun: warning: " + list);
+    terminal::warn(fmt::format("rerun: warning: the file was made by Viscontact {}, and this is {}",
+                               ours->second, VISCONTACT_VERSION));
+  if (!changes.empty()) terminal::warn("rerun: warning: " + list);
   const std::string words =
       fmt::format("cd {} && {}", shell_word(folder.string()), in_words(command));
   if (o.dry_run) {
     fmt::print("{}\n", words);
     return;
   }
-  say("rerun: " + words);
+  terminal::say("rerun: " + words);
   if (::chdir(folder.c_str()) != 0)
     throw_bad_input({folder.string()}, fmt::format("the folder in which it was made cannot be "
                                                    "entered ({})",
@@ -237,4 +238,4 @@ void add_rerun(CLI::App& app) {
   command->callback([o] { rerun(*o); });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

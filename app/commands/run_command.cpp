@@ -17,7 +17,7 @@
 #include "viscontact/report/report.hpp"
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 void add_run(CLI::App& app) {
   struct Options {
@@ -36,9 +36,9 @@ void add_run(CLI::App& app) {
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
-    const Case c = read_case(o->case_file);
-    const LockedFolder ours(o->folder, kFolderIsHeld);
-    run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
+    const case_file::Case c = case_file::read_case(o->case_file);
+    const LockedFolder ours(o->folder, results::kFolderIsHeld);
+    pipeline::run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
   });
 }
 
@@ -59,8 +59,9 @@ void add_simulate(CLI::App& app) {
             "folder; writes trajectories/MODEL.csv in it, and copies of case and fit")
       ->required();
   add_value(*command, "--models", o->models, kModels,
-            "comma-separated; default: those of the case, else " + names_of(default_models()) +
-                "; on request: " + names_of(models_on_request()))
+            "comma-separated; default: those of the case, else " +
+                names_of(reduced_model::default_models()) +
+                "; on request: " + names_of(reduced_model::models_on_request()))
       ->delimiter(',');
   auto* limit = add_value(*command, "--lubrication-limit", o->lubrication_limit, "fitted|theory",
                           "below the fit's smallest gap, let the drag grow as k/q instead "
@@ -75,16 +76,17 @@ void add_simulate(CLI::App& app) {
   command->callback([o, limit] {
     check_outputs({o->folder});
     check_models("--models", o->models);
-    const Case c = read_case(o->case_file);
+    const case_file::Case c = case_file::read_case(o->case_file);
     // Options that are not given are as in the case.
-    const FitRequest request = c.fit.value_or(FitRequest{});
-    OutsideFit outside{request.below, request.above};
+    const case_file::FitRequest request = c.fit.value_or(case_file::FitRequest{});
+    pipeline::OutsideFit outside{request.below, request.above};
     if (limit->count() > 0)
-      outside.below = o->lubrication_limit == "theory" ? BelowInterval::kTheoryLimit
-                                                       : BelowInterval::kLubricationLimit;
-    if (o->stokes_limit) outside.above = AboveInterval::kStokesLimit;
-    const LockedFolder ours(o->folder, kFolderIsHeld);
-    simulate_stage(c, {o->fit, o->folder, o->models, outside, interrupt_token()});
+      outside.below = o->lubrication_limit == "theory"
+                          ? lubrication::BelowInterval::kTheoryLimit
+                          : lubrication::BelowInterval::kLubricationLimit;
+    if (o->stokes_limit) outside.above = lubrication::AboveInterval::kStokesLimit;
+    const LockedFolder ours(o->folder, results::kFolderIsHeld);
+    pipeline::simulate_stage(c, {o->fit, o->folder, o->models, outside, interrupt_token()});
   });
 }
 
@@ -108,14 +110,15 @@ void add_compare(CLI::App& app) {
             "comparison to write (JSON); default: DIR/comparison.json");
   add_json(*command, o->json);
   command->callback([o] {
-    const std::filesystem::path output =
-        o->output.empty() ? RunFolder{o->folder}.comparison() : std::filesystem::path(o->output);
-    refuse_other_kind(output, "\"reference_model\"", "comparison");
+    const std::filesystem::path output = o->output.empty()
+                                             ? results::RunFolder{o->folder}.comparison()
+                                             : std::filesystem::path(o->output);
+    results::refuse_other_kind(output, "\"reference_model\"", "comparison");
     std::optional<LockedFolder> ours;
     if (o->output.empty() && std::filesystem::is_directory(o->folder))
-      ours.emplace(o->folder, kFolderIsHeld);
-    compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output, {},
-                  o->json);
+      ours.emplace(o->folder, results::kFolderIsHeld);
+    pipeline::compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output,
+                            {}, o->json);
   });
 }
 
@@ -126,9 +129,9 @@ void add_report(CLI::App& app) {
   add_value(*command, "DIR", *folder, kFolder, "folder of a run")->required();
   command->callback([folder] {
     std::optional<LockedFolder> ours;
-    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, kFolderIsHeld);
-    write_report(*folder, {}, interrupt_token());
+    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, results::kFolderIsHeld);
+    report::write_report(*folder, {}, interrupt_token());
   });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -20,7 +20,7 @@
 #include "viscontact/sweep/sweep_file.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 struct SweepOptions {
@@ -33,13 +33,14 @@ struct SweepOptions {
 
 /// The plan of the sweep: options of the command line; where they are missing, the case's section
 /// [sweep].
-SweepPlan plan_of(const SweepOptions& o, const Case& c) {
-  SweepPlan plan = planned(c);
-  if (!o.fit.empty()) plan.fit = read_fit(o.fit);
+sweep::SweepPlan plan_of(const SweepOptions& o, const case_file::Case& c) {
+  sweep::SweepPlan plan = sweep::planned(c);
+  if (!o.fit.empty()) plan.fit = lubrication::read_fit(o.fit);
   if (!o.vary.empty()) {
     plan.variations.clear();
     for (const auto& text : o.vary)
-      plan.variations.push_back(from_option("--vary", [&] { return parse_variation(text); }));
+      plan.variations.push_back(
+          from_option("--vary", [&] { return sweep::parse_variation(text); }));
   }
   if (o.samples > 0) plan.samples = o.samples;
   plan.seed = o.seed;
@@ -55,18 +56,19 @@ SweepPlan plan_of(const SweepOptions& o, const Case& c) {
 /// What to draw, by the options of the command line. Where they are missing, the case's section
 /// [sweep] decides if the sweep has its keys and columns; otherwise the first varied keys are the
 /// axes and the smallest gaps are drawn. Throws Error(kWrongUsage) for a map of random samples.
-SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan) {
-  const SweepRequest request = c.sweep.value_or(SweepRequest{});
+report::SweepPlot picture_of(const SweepOptions& o, const case_file::Case& c,
+                             const sweep::SweepPlan& plan) {
+  const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
   const auto is_varied = [&](const std::string& key) {
-    return std::ranges::find(plan.variations, key, &Variation::key) != plan.variations.end();
+    return std::ranges::find(plan.variations, key, &sweep::Variation::key) != plan.variations.end();
   };
-  const auto columns = sweep_columns(plan);
+  const auto columns = sweep::sweep_columns(plan);
   const auto is_there = [&](const std::string& column) {
     const auto slash = column.find('/');
     return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
            (slash == std::string::npos || is_varied(column.substr(slash + 1)));
   };
-  SweepPlot picture{o.x, o.y, o.columns};
+  report::SweepPlot picture{o.x, o.y, o.columns};
   for (auto* axis : {&picture.x, &picture.y})
     if (*axis == "motion.mass") *axis = "sphere.mass";
   if (picture.x.empty() && picture.y.empty()) {
@@ -76,11 +78,13 @@ SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan
   if (picture.columns.empty() && std::ranges::all_of(request.plot, is_there))
     picture.columns = request.plot;
   if (picture.x.empty()) {
-    const auto free = std::ranges::find_if(
-        plan.variations, [&](const Variation& v) { return v.key != picture.y && v.count > 1; });
+    const auto free = std::ranges::find_if(plan.variations, [&](const sweep::Variation& v) {
+      return v.key != picture.y && v.count > 1;
+    });
     picture.x = free != plan.variations.end() ? free->key : plan.variations[0].key;
-    const auto other = std::ranges::find_if(
-        plan.variations, [&](const Variation& v) { return v.key != picture.x && v.count > 1; });
+    const auto other = std::ranges::find_if(plan.variations, [&](const sweep::Variation& v) {
+      return v.key != picture.x && v.count > 1;
+    });
     if (picture.y.empty() && plan.samples == 0 && other != plan.variations.end())
       picture.y = other->key;
   }
@@ -93,8 +97,8 @@ SweepPlot picture_of(const SweepOptions& o, const Case& c, const SweepPlan& plan
 }
 
 /// Throws Error(kWrongUsage) if the sweep does not have the axes and columns of the picture.
-void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
-  const auto columns = sweep_columns(plan);
+void check_columns(const report::SweepPlot& picture, const sweep::SweepPlan& plan) {
+  const auto columns = sweep::sweep_columns(plan);
   const auto check = [&](const std::string& name) {
     if (std::ranges::find(columns, name) != columns.end()) return;
     throw Error(ErrorKind::kWrongUsage,
@@ -103,7 +107,7 @@ void check_columns(const SweepPlot& picture, const SweepPlan& plan) {
   };
   for (const auto& axis : {picture.x, picture.y}) {
     if (axis.empty()) continue;
-    const auto key = std::ranges::find(plan.variations, axis, &Variation::key);
+    const auto key = std::ranges::find(plan.variations, axis, &sweep::Variation::key);
     if (key == plan.variations.end() || (key->count < 2 && plan.samples == 0))
       throw Error(
           ErrorKind::kWrongUsage,
@@ -138,7 +142,7 @@ class Remaining {
 };
 
 /// Says which models failed, "; ... failed at 3 points"; empty if none failed at any point.
-std::string failures_in_words(const SweepOutcome& outcome) {
+std::string failures_in_words(const sweep::SweepOutcome& outcome) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");
   };
@@ -153,45 +157,49 @@ std::string failures_in_words(const SweepOutcome& outcome) {
 void run(const SweepOptions& o) {
   check_models("--models", o.models);
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
-  refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
-  if (!o.plot.empty()) refuse_other_kind(o.plot, "<svg", "picture");
-  const Case c = read_case(o.case_file);
-  SweepPlan plan = plan_of(o, c);
+  results::refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
+  if (!o.plot.empty()) results::refuse_other_kind(o.plot, "<svg", "picture");
+  const case_file::Case c = case_file::read_case(o.case_file);
+  sweep::SweepPlan plan = plan_of(o, c);
   if (plan.variations.empty())
     throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan.fit.basis.empty())
     throw Error(ErrorKind::kWrongUsage,
                 "the case names no drag to run with (file or exact in its section [fit]); give a "
                 "fit with --fit");
-  const Sweep sweep(std::move(plan));
-  const SweepPlot picture = o.plot.empty() ? SweepPlot{} : picture_of(o, c, sweep.plan());
+  const sweep::Sweep sweep(std::move(plan));
+  const report::SweepPlot picture =
+      o.plot.empty() ? report::SweepPlot{} : picture_of(o, c, sweep.plan());
   if (!o.plot.empty()) check_columns(picture, sweep.plan());
 
   if (o.dry_run) {
-    fmt::print("{}", dry_run_text({dry_run(sweep, o.output, interrupt_token())}, o.jobs, o.json));
+    fmt::print("{}", pipeline::dry_run_text({pipeline::dry_run(sweep, o.output, interrupt_token())},
+                                            o.jobs, o.json));
     return;
   }
-  auto files = files_of_motion(c);
+  auto files = pipeline::files_of_motion(c);
   if (!o.fit.empty())
     files.emplace_back(o.fit);
   else if (c.fit && c.fit->file)
     files.emplace_back(*c.fit->file);
-  const auto provenance = provenance_of({files, {}});
+  const auto provenance = results::provenance_of({files, {}});
 
   Remaining remaining;
-  ProgressTimer progress;
-  const auto computed = write_sweep(
+  terminal::ProgressTimer progress;
+  const auto computed = sweep::write_sweep(
       sweep, o.output, o.jobs, VISCONTACT_VERSION,
-      output_text(o.output, TextKind::kHashComment, "", provenance),
+      results::output_text(o.output, TextKind::kHashComment, "", provenance),
       [&](std::uint64_t done, std::uint64_t size) {
         if (!progress.is_due()) return;
-        show_progress(fmt::format("sweep: {} of {}{}", done, size, remaining.after(done, size)));
+        terminal::show_progress(
+            fmt::format("sweep: {} of {}{}", done, size, remaining.after(done, size)));
       },
       interrupt_token());
-  clear_progress();
-  const auto size = sweep_size(sweep.plan());
-  const auto outcome = read_outcome(sweep.plan(), o.output);
-  say((computed == 0
+  terminal::clear_progress();
+  const auto size = sweep::sweep_size(sweep.plan());
+  const auto outcome = sweep::read_outcome(sweep.plan(), o.output);
+  terminal::say(
+      (computed == 0
            ? fmt::format("sweep: {} is up to date", o.output)
            : fmt::format(
                  "sweep: {} rows in {}{}", size, o.output,
@@ -203,8 +211,9 @@ void run(const SweepOptions& o) {
                             "at the first point: {}",
                             o.output, outcome.first_failure));
   if (!o.plot.empty())
-    write_output(o.plot, TextKind::kSvg, plot_sweep(o.output, picture, interrupt_token()),
-                 provenance_of(Inputs{files, {o.output}}));
+    results::write_output(o.plot, TextKind::kSvg,
+                          report::plot_sweep(o.output, picture, interrupt_token()),
+                          results::provenance_of(results::Inputs{files, {o.output}}));
 }
 
 }  // namespace
@@ -251,4 +260,4 @@ void add_sweep(CLI::App& app) {
   command->callback([o] { run(*o); });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

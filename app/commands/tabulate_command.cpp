@@ -16,7 +16,7 @@
 #include "viscontact/pipeline/tabulate/slurm.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 
 namespace {
 
@@ -35,35 +35,38 @@ void tabulate_cases(const TabulateOptions& o) {
   if (!slurm && (o.tasks > 0 || !o.slurm_options.empty()))
     throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
   check_outputs({o.output});
-  const auto share = o.task.empty() ? Share() : parse_share(o.task);
-  const auto tables = read_case_tables(o.case_files, o.output);
-  for (const auto& one : tables) refuse_other_kind(one.table.string(), "# case: ", "table");
+  const auto share = o.task.empty() ? pipeline::Share() : pipeline::parse_share(o.task);
+  const auto tables = pipeline::read_case_tables(o.case_files, o.output);
+  for (const auto& one : tables)
+    results::refuse_other_kind(one.table.string(), "# case: ", "table");
   // The gaps of the pictures of each table are checked before any work is done.
   std::vector<std::vector<double>> pictures;
   if (o.plot_option->count() > 0)
     for (const auto& one : tables) {
-      pictures.push_back(gaps_to_picture(one.tabulation(), o.plot));
-      check_pictures(pictures.back(), picture_folder(one.table));
+      pictures.push_back(pipeline::gaps_to_picture(one.tabulation(), o.plot));
+      pipeline::check_pictures(pictures.back(), pipeline::picture_folder(one.table));
     }
   if (o.dry_run) {
-    std::vector<DryRun> runs;
-    for (const auto& one : tables) runs.push_back(dry_run(one));
-    fmt::print("{}", dry_run_text(runs, o.jobs, o.json));
+    std::vector<pipeline::DryRun> runs;
+    for (const auto& one : tables) runs.push_back(pipeline::dry_run(one));
+    fmt::print("{}", pipeline::dry_run_text(runs, o.jobs, o.json));
     return;
   }
   if (slurm)
-    submit_to_slurm(tables, {o.output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
-                             o.jobs_option->count() > 0 ? std::optional(o.jobs) : std::nullopt,
-                             o.slurm_options, interrupt_token()});
+    pipeline::submit_to_slurm(
+        tables, {o.output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
+                 o.jobs_option->count() > 0 ? std::optional(o.jobs) : std::nullopt, o.slurm_options,
+                 interrupt_token()});
   else if (o.gather)
-    gather_stage(tables, slurm_folder(o.output), interrupt_token());
+    pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
   else if (!o.task.empty())
-    share_stage(tables, share, o.jobs, interrupt_token());
+    pipeline::share_stage(tables, share, o.jobs, interrupt_token());
   else
-    tabulate_stage(tables, o.jobs, interrupt_token());
+    pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    picture_stage(tables[i].tabulation(), pictures[i], picture_folder(tables[i].table),
-                  tables[i].c.path, interrupt_token());
+    pipeline::picture_stage(tables[i].tabulation(), pictures[i],
+                            pipeline::picture_folder(tables[i].table), tables[i].c.path,
+                            interrupt_token());
 }
 
 }  // namespace
@@ -111,4 +114,4 @@ void add_tabulate(CLI::App& app) {
   command->callback([o] { tabulate_cases(*o); });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -10,7 +10,7 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
@@ -30,7 +30,7 @@ std::vector<std::string> names_of_option(const CLI::Option& option) {
 /// The words that the option's value can be, if it is a choice of words; otherwise empty.
 std::vector<std::string> words_for(const CLI::Option& option) {
   std::string type = option.get_type_name();
-  if (type == kModel || type == kModels) type = names_of(all_models(), "|");
+  if (type == kModel || type == kModels) type = names_of(reduced_model::all_models(), "|");
   if (type.find('|') == std::string::npos || type.starts_with('[')) return {};
   return CLI::detail::split(type, '|');
 }
@@ -174,4 +174,4 @@ _viscontact "$@"
                      names, cases);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

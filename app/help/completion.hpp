@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace viscontact {
+namespace viscontact::app {
 
 /// A script for bash that completes commands, options, words of a choice and files. It is to be
 /// sourced, or installed as "viscontact" in bash's folder of completions.
@@ -17,4 +17,4 @@ std::string bash_completion(const CLI::App& app);
 /// A function for zsh, with descriptions, to be installed as "_viscontact" in a folder of fpath.
 std::string zsh_completion(const CLI::App& app);
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -11,7 +11,7 @@
 
 #include "viscontact/results/exit_code.hpp"
 
-namespace viscontact {
+namespace viscontact::app {
 namespace {
 
 constexpr std::array kEnvironment = {
@@ -62,7 +62,7 @@ std::string option_item(const CLI::Option& option) {
 
 std::string help_footer() {
   std::string text = "Exit codes:\n";
-  for (const auto& [kind, code, meaning] : exit_codes())
+  for (const auto& [kind, code, meaning] : results::exit_codes())
     text += fmt::format("  {:<26}{}\n", code, meaning);
   text += "Environment:\n";
   for (const auto& [name, meaning] : kEnvironment)
@@ -85,7 +85,7 @@ std::string manual(const CLI::App& app, const std::string& version) {
     for (const auto* option : command->get_options()) text += option_item(*option);
   }
   text += ".SH EXIT STATUS\n";
-  for (const auto& [kind, code, meaning] : exit_codes())
+  for (const auto& [kind, code, meaning] : results::exit_codes())
     text += item(std::to_string(code), std::string(meaning));
   text += ".SH ENVIRONMENT\n";
   for (const auto& [name, meaning] : kEnvironment) text += item(name, meaning);
@@ -94,4 +94,4 @@ std::string manual(const CLI::App& app, const std::string& version) {
          "viscontact rerun results/fit.json \\-o again.json\n.fi\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::app

@@ -8,7 +8,7 @@ namespace CLI {
 class App;
 }
 
-namespace viscontact {
+namespace viscontact::app {
 
 /// The text of --help below the commands: exit codes and environment variables.
 std::string help_footer();
@@ -16,4 +16,4 @@ std::string help_footer();
 /// The page viscontact(1) in the language roff: every command with its options.
 std::string manual(const CLI::App& app, const std::string& version);
 
-}  // namespace viscontact
+}  // namespace viscontact::app

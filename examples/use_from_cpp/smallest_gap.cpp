@@ -32,44 +32,47 @@
 namespace {
 
 /// A sphere of mass 20, at rest at gap 1, is pushed towards the plane until t = 2, then pulled back. Viscontact has no units of its own: those of the table.
-viscontact::Motion lecture_motion() {
-  const std::vector<viscontact::ExternalForce::Piece> pieces = {{.until = 2, .value = -200},
-                                                                {.until = 4, .value = 200}};
-  viscontact::Motion motion{.mass = 20,
-                            .initial_gap = 1,
-                            .initial_velocity = 0,
-                            .end_time = 4,
-                            .external_force = viscontact::ExternalForce(pieces)};
-  motion.set(viscontact::kReferenceTimeStep, 1e-3);  // the rows of `inertial` are as far apart
-  motion.set(viscontact::kRelativeTolerance, 1e-9);
-  motion.set(viscontact::kContactTimeStep, 1e-3);
+viscontact::reduced_model::Motion lecture_motion() {
+  const std::vector<viscontact::reduced_model::ExternalForce::Piece> pieces = {
+      {.until = 2, .value = -200}, {.until = 4, .value = 200}};
+  viscontact::reduced_model::Motion motion{
+      .mass = 20,
+      .initial_gap = 1,
+      .initial_velocity = 0,
+      .end_time = 4,
+      .external_force = viscontact::reduced_model::ExternalForce(pieces)};
+  motion.set(viscontact::reduced_model::kReferenceTimeStep,
+             1e-3);  // the rows of `inertial` are as far apart
+  motion.set(viscontact::reduced_model::kRelativeTolerance, 1e-9);
+  motion.set(viscontact::reduced_model::kContactTimeStep, 1e-3);
   return motion;
 }
 
 void print_smallest_gaps(const std::string& table_file) {
   // The table: one row for each gap and velocity. A user's own needs the columns gap, reference_velocity and force only.
-  const viscontact::ForceTable table = viscontact::read_force_table(table_file);
+  const viscontact::lubrication::ForceTable table =
+      viscontact::lubrication::read_force_table(table_file);
 
   // The fit: coefficients of a basis, and how far to trust them.
-  const viscontact::Fit fit =
-      viscontact::fit_force_table(table, "lecture", viscontact::Weights::kRelative);
+  const viscontact::lubrication::Fit fit = viscontact::fitting::fit_force_table(
+      table, "lecture", viscontact::lubrication::Weights::kRelative);
   std::printf("%zu rows, fitted by", table.rows.size());
   for (const auto& term : fit.terms)
     std::printf("%s %s", &term == &fit.terms.front() ? "" : ",", term.name.c_str());
   std::printf(": largest residual %.2g %%\n", 100 * fit.largest_relative_residual);
 
   // The force as a function: F_lub(q, u) = -R(q) u in the interval of the gaps that were fitted; outside, asking is an error.
-  const viscontact::LubricationForce force(fit);
+  const viscontact::lubrication::LubricationForce force(fit);
   std::printf("R(q = 0.01) = %.6g\n\n", force.resistance(0.01));
 
   // The models of motion. all_models() has every one.
-  const viscontact::Motion motion = lecture_motion();
+  const viscontact::reduced_model::Motion motion = lecture_motion();
   std::printf("%-16s %12s %10s\n", "model", "q_min", "at time");
   for (const char* name : {"inertial", "viscous_contact"}) {
-    const viscontact::Trajectory trajectory =
-        viscontact::simulate(viscontact::find_model(name), motion, force);
-    const viscontact::TrajectoryRow lowest =
-        *std::ranges::min_element(trajectory.rows, {}, &viscontact::TrajectoryRow::gap);
+    const viscontact::reduced_model::Trajectory trajectory = viscontact::reduced_model::simulate(
+        viscontact::reduced_model::find_model(name), motion, force);
+    const viscontact::reduced_model::TrajectoryRow lowest = *std::ranges::min_element(
+        trajectory.rows, {}, &viscontact::reduced_model::TrajectoryRow::gap);
     std::printf("%-16s %12.6g %10.6g\n", name, lowest.gap, lowest.time);
   }
 }

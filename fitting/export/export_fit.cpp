@@ -15,19 +15,19 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 /// R = sum of weight * value, Gamma = sum of weight * antiderivative - offset.
 struct Sum {
-  std::vector<std::pair<double, Term>> terms;
+  std::vector<std::pair<double, lubrication::Term>> terms;
   double offset = 0;
 };
 
 /// The sum for a fit, in the order of all_terms(), as in LubricationForce.
-Sum sum_of(const Fit& fit) {
+Sum sum_of(const lubrication::Fit& fit) {
   Sum sum;
-  for (const auto& term : all_terms())
+  for (const auto& term : lubrication::all_terms())
     if (const auto* fitted = find_named(fit.terms, term.name); fitted != nullptr)
       sum.terms.emplace_back(-fitted->coefficient / fit.reference_velocity, term);
   for (const auto& [weight, term] : sum.terms)
@@ -57,8 +57,8 @@ std::string c_literal(double number) {
 }
 
 /// The text "weight * (formula) + ..." with a line for each term.
-std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
-                       std::string_view between) {
+std::string terms_text(const Sum& sum, lubrication::Formula lubrication::Term::*formula,
+                       Literal literal, std::string_view between) {
   std::string text;
   for (const auto& [weight, term] : sum.terms)
     text += fmt::format("{}({}) * ({})", text.empty() ? "" : between, literal(weight),
@@ -67,7 +67,7 @@ std::string terms_text(const Sum& sum, Formula Term::*formula, Literal literal,
 }
 
 /// What a reader must know to use the numbers, one line for each fact.
-std::vector<std::string> facts(const Fit& fit, std::string_view source) {
+std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view source) {
   const auto version = fit.versions.find("Viscontact");
   std::vector<std::string> lines = {
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
@@ -96,15 +96,15 @@ std::vector<std::string> facts(const Fit& fit, std::string_view source) {
   return lines;
 }
 
-std::string commented(const Fit& fit, std::string_view source, std::string_view mark) {
+std::string commented(const lubrication::Fit& fit, std::string_view source, std::string_view mark) {
   std::string text;
   for (const auto& line : facts(fit, source)) text += fmt::format("{} {}\n", mark, line);
   return text;
 }
 
-std::string write_c_header(const Fit& fit, std::string_view source) {
+std::string write_c_header(const lubrication::Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, Formula Term::*formula,
+  const auto function = [&](std::string_view name, lubrication::Formula lubrication::Term::*formula,
                             const std::string& tail) {
     return fmt::format(
         "static inline double viscontact_{}(double gap) {{\n"
@@ -121,16 +121,17 @@ std::string write_c_header(const Fit& fit, std::string_view source) {
              "#include <math.h>\n\n#define VISCONTACT_SMALLEST_GAP {}\n"
              "#define VISCONTACT_LARGEST_GAP {}\n\n",
              c_literal(fit.gap_interval[0]), c_literal(fit.gap_interval[1])) +
-         "// R(q), > 0.\n" + function("resistance", &Term::value, "") + "// Gamma(q).\n" +
-         function("impulse", &Term::antiderivative,
+         "// R(q), > 0.\n" + function("resistance", &lubrication::Term::value, "") +
+         "// Gamma(q).\n" +
+         function("impulse", &lubrication::Term::antiderivative,
                   fmt::format("\n      - ({})", c_literal(sum.offset))) +
          "// F(q, u).\nstatic inline double viscontact_force(double gap, double velocity) {\n"
          "  return -viscontact_resistance(gap) * velocity;\n}\n\n#endif\n";
 }
 
-std::string write_fortran(const Fit& fit, std::string_view source) {
+std::string write_fortran(const lubrication::Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, Formula Term::*formula,
+  const auto function = [&](std::string_view name, lubrication::Formula lubrication::Term::*formula,
                             const std::string& tail) {
     return fmt::format(
         "  elemental function viscontact_{0}(gap) result(answer)\n"
@@ -155,8 +156,9 @@ std::string write_fortran(const Fit& fit, std::string_view source) {
              "  real(real64), parameter :: smallest_gap = {}, largest_gap = {}\n"
              "contains\n\n",
              fortran_literal(fit.gap_interval[0]), fortran_literal(fit.gap_interval[1])) +
-         "  ! R(q), > 0.\n" + function("resistance", &Term::value, "") + "  ! Gamma(q).\n" +
-         function("impulse", &Term::antiderivative,
+         "  ! R(q), > 0.\n" + function("resistance", &lubrication::Term::value, "") +
+         "  ! Gamma(q).\n" +
+         function("impulse", &lubrication::Term::antiderivative,
                   fmt::format(" &\n      - ({})", fortran_literal(sum.offset))) +
          "  ! F(q, u).\n"
          "  elemental function viscontact_force(gap, velocity) result(answer)\n"
@@ -167,9 +169,10 @@ std::string write_fortran(const Fit& fit, std::string_view source) {
          "end module\n";
 }
 
-std::string write_python(const Fit& fit, std::string_view source) {
+std::string write_python(const lubrication::Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
-  const auto function = [&](std::string_view name, std::string_view what, Formula Term::*formula,
+  const auto function = [&](std::string_view name, std::string_view what,
+                            lubrication::Formula lubrication::Term::*formula,
                             const std::string& tail) {
     return fmt::format(
         "def {0}(gap):\n"
@@ -186,17 +189,17 @@ std::string write_python(const Fit& fit, std::string_view source) {
          "    if not SMALLEST_GAP <= gap <= LARGEST_GAP:\n"
          "        raise ValueError(f\"gap {gap} is outside [{SMALLEST_GAP}, "
          "{LARGEST_GAP}]\")\n\n\n" +
-         function("resistance", "R(q), > 0.", &Term::value, "") +
-         function("impulse", "Gamma(q).", &Term::antiderivative,
+         function("resistance", "R(q), > 0.", &lubrication::Term::value, "") +
+         function("impulse", "Gamma(q).", &lubrication::Term::antiderivative,
                   fmt::format("\n            - ({})", plain(sum.offset))) +
          "def force(gap, velocity):\n"
          "    \"\"\"F(q, u). Raises ValueError outside the interval.\"\"\"\n"
          "    return -resistance(gap) * velocity\n";
 }
 
-std::string write_json(const Fit& fit, std::string_view source) {
+std::string write_json(const lubrication::Fit& fit, std::string_view source) {
   const Sum sum = sum_of(fit);
-  const LubricationForce force(fit);
+  const lubrication::LubricationForce force(fit);
   nlohmann::ordered_json json;
   json["about"] = facts(fit, source);
   json["formulas"] =
@@ -215,7 +218,7 @@ std::string write_json(const Fit& fit, std::string_view source) {
                              {"antiderivative", term.antiderivative.text}});
   json["impulse_offset"] = sum.offset;
   json["reference_velocity"] = fit.reference_velocity;
-  for (const double gap : spread_gaps(fit.gap_interval)) {
+  for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     json["samples"]["gap"].push_back(gap);
     json["samples"]["resistance"].push_back(force.resistance(gap));
     json["samples"]["impulse"].push_back(force.impulse(gap));
@@ -224,12 +227,12 @@ std::string write_json(const Fit& fit, std::string_view source) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string write_csv(const Fit& fit, std::string_view source) {
-  const LubricationForce force(fit);
+std::string write_csv(const lubrication::Fit& fit, std::string_view source) {
+  const lubrication::LubricationForce force(fit);
   std::string text = commented(fit, source, "#");
   text += fmt::format("# force: at velocity {}\ngap,resistance,impulse,force\n",
                       plain(fit.reference_velocity));
-  for (const double gap : spread_gaps(fit.gap_interval))
+  for (const double gap : lubrication::spread_gaps(fit.gap_interval))
     text += fmt::format("{},{},{},{}\n", plain(gap), plain(force.resistance(gap)),
                         plain(force.impulse(gap)),
                         plain(-force.resistance(gap) * fit.reference_velocity));
@@ -248,9 +251,10 @@ constexpr std::array kTargets = {
 
 std::span<const ExportTarget> export_targets() { return kTargets; }
 
-std::string export_fit(const Fit& fit, std::string_view target, std::string_view source) {
-  (void)LubricationForce(fit);  // refuses a fit whose drag is not positive
+std::string export_fit(const lubrication::Fit& fit, std::string_view target,
+                       std::string_view source) {
+  (void)lubrication::LubricationForce(fit);  // refuses a fit whose drag is not positive
   return require_named(kTargets, target, "export target").write(fit, source);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -9,14 +9,14 @@
 #include "viscontact/common/text/text_kind.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// A language or format.
 struct ExportTarget {
   std::string_view name;         ///< as users type it
   std::string_view description;  ///< a line for --help
   TextKind kind;                 ///< kind of the written text
-  std::string (*write)(const Fit& fit, std::string_view source);
+  std::string (*write)(const lubrication::Fit& fit, std::string_view source);
 };
 
 /// All targets: c-header, fortran, python, json, csv. Each contains the resistance R(q), the force
@@ -28,6 +28,7 @@ std::span<const ExportTarget> export_targets();
 /// The text for one target. `source` is the name of the fit's file, which the text states; it may
 /// be empty. Throws Error(kBadInput) for an unknown target, and the Error of LubricationForce for a
 /// fit with an impossible drag.
-std::string export_fit(const Fit& fit, std::string_view target, std::string_view source = "");
+std::string export_fit(const lubrication::Fit& fit, std::string_view target,
+                       std::string_view source = "");
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

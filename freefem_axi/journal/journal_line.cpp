@@ -11,7 +11,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 constexpr std::string_view kFinished = "row";
@@ -89,4 +89,4 @@ std::optional<JournalLine> read_journal_line(std::string_view line) {
   return JournalLine{hash, failed};
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -10,7 +10,7 @@
 
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// The gap and velocity of a row, by which the rows of a tabulation are told apart.
 struct GridPoint {
@@ -22,7 +22,7 @@ struct GridPoint {
 };
 
 struct FinishedRow {
-  ForceTableRow row;
+  lubrication::ForceTableRow row;
   std::string freefem_version;  ///< version of the FreeFEM that computed it
 };
 
@@ -47,4 +47,4 @@ std::string write_journal_line(const JournalLine& line);
 /// Reads a line (without its line end). Returns nothing if the line is incomplete or damaged.
 std::optional<JournalLine> read_journal_line(std::string_view line);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -14,7 +14,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_file.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 bool ends_with_line_end(int file) {
@@ -47,4 +47,4 @@ void RowJournal::append(const JournalEntry& entry) {
   at_line_start_ = true;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

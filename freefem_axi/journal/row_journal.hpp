@@ -11,7 +11,7 @@
 #include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// The path TABLE.csv.rows, or TABLE.csv.rows.WRITER if there is a writer.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
@@ -36,4 +36,4 @@ class RowJournal {
   bool at_line_start_ = true;
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -18,7 +18,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,11 +71,11 @@ std::vector<GridPoint> grid_of(const Tabulation& tabulation) {
   return grid;
 }
 
-std::optional<ForceTable> find_table(const fs::path& table_path,
-                                     const std::string& tabulation_hash) {
+std::optional<lubrication::ForceTable> find_table(const fs::path& table_path,
+                                                  const std::string& tabulation_hash) {
   if (!fs::is_regular_file(table_path)) return {};
   try {
-    auto table = read_force_table(table_path);
+    auto table = lubrication::read_force_table(table_path);
     if (table.case_hash == tabulation_hash) return table;
   } catch (const Error&) {  // the file is not a table
   }
@@ -113,8 +113,8 @@ std::vector<GridPoint> missing_points(const RowRecord& record,
   return missing;
 }
 
-ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record) {
-  ForceTable table;
+lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record) {
+  lubrication::ForceTable table;
   table.viscosity = tabulation.viscosity;
   table.radius = tabulation.radius;
   table.geometry = geometry_in_words(tabulation);
@@ -154,4 +154,4 @@ void remove_journals(const fs::path& table_path, const std::string& tabulation_h
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

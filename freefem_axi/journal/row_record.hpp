@@ -11,7 +11,7 @@
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// The rows by gap and velocity.
 struct RowRecord {
@@ -25,8 +25,8 @@ struct RowRecord {
 std::vector<GridPoint> grid_of(const Tabulation& tabulation);
 
 /// The table in the file, or nothing if there is none or if it belongs to another tabulation.
-std::optional<ForceTable> find_table(const std::filesystem::path& table_path,
-                                     const std::string& tabulation_hash);
+std::optional<lubrication::ForceTable> find_table(const std::filesystem::path& table_path,
+                                                  const std::string& tabulation_hash);
 
 /// All rows of the tabulation in the journals and in the table.
 RowRecord read_row_record(const std::filesystem::path& table_path,
@@ -37,7 +37,7 @@ std::vector<GridPoint> missing_points(const RowRecord& record,
                                       const std::vector<GridPoint>& points);
 
 /// The table of all rows. No point may be missing.
-ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
+lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
 
 /// Removes the rows of a tabulation from its journals, once its table has been written. Rows of
 /// other tabulations stay, because no table contains them yet; a journal without such rows is
@@ -45,4 +45,4 @@ ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record)
 /// journal cannot be replaced.
 void remove_journals(const std::filesystem::path& table_path, const std::string& tabulation_hash);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/stokes_drag.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 template <class Value>
@@ -78,4 +78,4 @@ Fit with_viscosity(Fit fit, double viscosity) {
   return fit;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

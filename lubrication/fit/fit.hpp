@@ -13,7 +13,7 @@
 
 #include "viscontact/lubrication/fit/fit_diagnostics.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
 enum class Weights { kRelative, kAbsolute };
@@ -102,4 +102,4 @@ Fit parse_fit(const std::string& text, const std::string& file);
 /// The text of the fit file (JSON).
 std::string write_fit(const Fit& fit);
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// What the residuals are due to.
 enum class Misfit {
@@ -96,4 +96,4 @@ struct FitDiagnostics {
   std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -2,7 +2,7 @@
 // readable. Units are those of fit_diagnostics.hpp.
 #include "viscontact/lubrication/fit/fit_diagnostics_json.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 Json number_or_null(const std::optional<double>& number) {
@@ -117,4 +117,4 @@ Json write_diagnostics(const FitDiagnostics& d) {
   return json;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

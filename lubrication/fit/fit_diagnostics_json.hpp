@@ -4,11 +4,11 @@
 #include "viscontact/lubrication/fit/fit_diagnostics.hpp"
 #include "viscontact/lubrication/fit/json_object.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// Throws Error(kBadInput), which names the key, for a missing, unknown or wrong value.
 FitDiagnostics read_diagnostics(const JsonObject& json);
 
 Json write_diagnostics(const FitDiagnostics& diagnostics);
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

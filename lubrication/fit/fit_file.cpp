@@ -10,7 +10,7 @@
 #include "viscontact/lubrication/fit/json_object.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 std::vector<FitTerm> read_terms(const JsonObject& root) {
@@ -140,4 +140,4 @@ std::string write_fit(const Fit& fit) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

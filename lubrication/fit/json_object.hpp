@@ -14,7 +14,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/json.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 
 /// A value as text for a message. An array or object is only called that, because a file may nest
 /// it deeper than the stack allows dump() to go.
@@ -135,4 +135,4 @@ class JsonObject {
   std::string path_;
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

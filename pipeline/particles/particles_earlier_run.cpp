@@ -17,26 +17,26 @@
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// The provenance of a restart file. Only its first 64 kB are read: they contain the provenance,
 /// and the file can be a gigabyte long.
-std::optional<Provenance> provenance_at_head(const fs::path& path) {
+std::optional<results::Provenance> provenance_at_head(const fs::path& path) {
   constexpr std::size_t kHead = 65536;
   std::string head(kHead, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
-  return provenance_in(head, path.string());
+  return results::provenance_in(head, path.string());
 }
 
 /// Says in words how the inputs or the version of the run `before` differ from `now`; empty if they
 /// are the same.
-std::string difference(const Provenance& before, const Provenance& now) {
-  const auto version = [](const Provenance& provenance) {
+std::string difference(const results::Provenance& before, const results::Provenance& now) {
+  const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
     return found == provenance.versions.end() ? std::string() : found->second;
   };
@@ -52,12 +52,12 @@ std::string difference(const Provenance& before, const Provenance& now) {
 
 }  // namespace
 
-FrameTimes frame_times(const ParticlesCase& c, double first_time) {
+FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time) {
   // Times that differ by less than 1e-6 time steps differ by rounding only.
   return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
 }
 
-void check_same_particles(const particles::State& state, const ParticlesCase& c,
+void check_same_particles(const particles::State& state, const case_file::ParticlesCase& c,
                           const fs::path& restart) {
   const auto& p = state.particles;
   const auto differs = [&](const std::string& what) {
@@ -77,8 +77,9 @@ void check_same_particles(const particles::State& state, const ParticlesCase& c,
       differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
 }
 
-std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::path& folder,
-                                           const Provenance& provenance) {
+std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
+                                           const fs::path& folder,
+                                           const results::Provenance& provenance) {
   const auto restart = folder / "restart.bin";
   if (!fs::is_regular_file(restart)) return {};
   try {
@@ -86,7 +87,8 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
     const std::string other =
         before ? difference(*before, provenance) : "does not say what it was made from";
     if (!other.empty()) {
-      say(fmt::format("particles: the run in {} {}, so it is replaced by a run from the start",
+      terminal::say(
+          fmt::format("particles: the run in {} {}, so it is replaced by a run from the start",
                       folder.string(), other));
       return {};
     }
@@ -100,7 +102,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
         c.setting);
     return EarlierRun{std::move(state), std::move(record), std::move(frames)};
   } catch (const Error& error) {
-    say(
+    terminal::say(
         fmt::format("particles: the run in {} cannot be continued ({}), so it is replaced by a run "
                     "from the start",
                     folder.string(), error.what()));
@@ -108,7 +110,7 @@ std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c, const fs::pat
   }
 }
 
-bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& folder) {
+bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c, const fs::path& folder) {
   if (run.state.time < c.end_time - frame_times(c, 0).tiny) return false;
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
   if (!std::ranges::all_of(kParticleResults, is_there)) return false;
@@ -123,4 +125,4 @@ bool is_finished(const EarlierRun& run, const ParticlesCase& c, const fs::path& 
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -10,7 +10,7 @@
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 #include "viscontact/pipeline/particles/particles_record.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The state of an interrupted run, from which it continues.
 struct EarlierRun {
@@ -20,21 +20,21 @@ struct EarlierRun {
 };
 
 /// The times of the frames of a case, in a run that began at `first_time` [T].
-FrameTimes frame_times(const ParticlesCase& c, double first_time);
+FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time);
 
 /// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
 /// contacts with planes that the case does not have.
-void check_same_particles(const particles::State& state, const ParticlesCase& c,
+void check_same_particles(const particles::State& state, const case_file::ParticlesCase& c,
                           const std::filesystem::path& restart);
 
 /// The run in the folder, if it was made from the same inputs by the same version; otherwise
 /// nothing. If the folder has a restart.bin that cannot be used, a message says why.
-std::optional<EarlierRun> find_earlier_run(const ParticlesCase& c,
+std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
                                            const std::filesystem::path& folder,
-                                           const Provenance& provenance);
+                                           const results::Provenance& provenance);
 
 /// True if the run has reached the end time of the case and all its files exist.
-bool is_finished(const EarlierRun& run, const ParticlesCase& c,
+bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c,
                  const std::filesystem::path& folder);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

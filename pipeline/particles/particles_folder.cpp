@@ -10,7 +10,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/foreign_files.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,11 +39,12 @@ std::vector<fs::path> frames_in(const fs::path& folder) {
 }  // namespace
 
 void check_results(const fs::path& folder) {
-  for (const auto* name : kParticleResults) refuse_other_kind(folder / name, "", "result");
-  for (const auto& frame : frames_in(folder)) refuse_other_kind(frame, "", "result");
+  for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
+  for (const auto& frame : frames_in(folder)) results::refuse_other_kind(frame, "", "result");
 }
 
-void check_inputs_stay(const ParticlesCase& c, const fs::path& restart, const fs::path& folder) {
+void check_inputs_stay(const case_file::ParticlesCase& c, const fs::path& restart,
+                       const fs::path& folder) {
   std::error_code none;
   if (!restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(), folder, none))
     throw_bad_input(
@@ -73,4 +74,4 @@ void remove_other_frames(const std::vector<FrameFile>& frames, const fs::path& f
       remove_file(file);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

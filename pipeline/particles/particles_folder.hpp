@@ -8,7 +8,7 @@
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The names of all files of a run, except its frames.
 inline constexpr const char* kParticleResults[] = {
@@ -21,7 +21,7 @@ void check_results(const std::filesystem::path& folder);
 
 /// Throws Error(kBadInput) if a run into `folder` would overwrite one of its inputs: the case, its
 /// file of particles, or `restart`, the file of another run (empty: none).
-void check_inputs_stay(const ParticlesCase& c, const std::filesystem::path& restart,
+void check_inputs_stay(const case_file::ParticlesCase& c, const std::filesystem::path& restart,
                        const std::filesystem::path& folder);
 
 /// Removes all results and frames, so that the folder never contains files of two runs.
@@ -30,4 +30,4 @@ void remove_results(const std::filesystem::path& folder);
 /// Removes the frames in the folder that are not among `frames`.
 void remove_other_frames(const std::vector<FrameFile>& frames, const std::filesystem::path& folder);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -12,7 +12,7 @@
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ double FrameTimes::after(double time) const {
   return first + (std::floor((time + tiny - first) / interval) + 1) * interval;
 }
 
-ParticleFrames::ParticleFrames(fs::path folder, const Provenance& provenance,
+ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& provenance,
                                const particles::Particles& particles)
     : folder_(std::move(folder)), provenance_(provenance) {
   playback_.dimension = particles.dimension;
@@ -47,8 +47,8 @@ void ParticleFrames::add(const Simulation& simulation) {
   const auto& state = simulation.state();
   auto contacts = particles::contacts_of(simulation.setting(), state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
-  write_output(folder_ / name, TextKind::kXml, particles::write_vtp(state.particles, contacts),
-               provenance_);
+  results::write_output(folder_ / name, TextKind::kXml,
+                        particles::write_vtp(state.particles, contacts), provenance_);
   files_.emplace_back(state.time, name);
   if ((files_.size() - 1) % every_ == 0)
     keep(
@@ -103,4 +103,4 @@ std::vector<FrameFile> frames_until(const fs::path& pvd, double time, const Fram
   return files;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

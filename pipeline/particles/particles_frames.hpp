@@ -12,7 +12,7 @@
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The times of frames: multiples of an interval after the first time. A frame is written after the
 /// first step that reaches such a time.
@@ -33,7 +33,7 @@ using FrameFile = std::pair<double, std::string>;
 class ParticleFrames {
  public:
   /// `provenance` must outlive this object.
-  ParticleFrames(std::filesystem::path folder, const Provenance& provenance,
+  ParticleFrames(std::filesystem::path folder, const results::Provenance& provenance,
                  const particles::Particles& particles);
 
   /// Writes a frame of the present state.
@@ -54,7 +54,7 @@ class ParticleFrames {
   void keep(particles::Frame frame);
 
   std::filesystem::path folder_;
-  const Provenance& provenance_;
+  const results::Provenance& provenance_;
   particles::Playback playback_;
   std::vector<FrameFile> files_;
   std::size_t every_ = 1, kept_bytes_ = 0;
@@ -66,4 +66,4 @@ class ParticleFrames {
 std::vector<FrameFile> frames_until(const std::filesystem::path& pvd, double time,
                                     const FrameTimes& times);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

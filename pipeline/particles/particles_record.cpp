@@ -15,7 +15,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -89,7 +89,7 @@ std::string record_comment(const StepTotals& sums) {
   return comment_begin(sums.last_step) + json.dump() + "\n";
 }
 
-std::string run_json(const ParticlesCase& c, const StepTotals& record,
+std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record,
                      const particles::Simulation& simulation) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
   Json json;
@@ -143,4 +143,4 @@ StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last
   return record;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

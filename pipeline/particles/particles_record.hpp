@@ -9,7 +9,7 @@
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/particles/simulation.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// Sums and largest values over the steps of a run: those of this call and those of the interrupted
 /// calls before it in the same folder.
@@ -43,7 +43,7 @@ struct StepRecord : StepTotals {
 std::string record_comment(const StepTotals& sums);
 
 /// The text of run.json at the end of a run with these sums.
-std::string run_json(const ParticlesCase& c, const StepTotals& record,
+std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record,
                      const particles::Simulation& simulation);
 
 /// Reads from steps.csv the record as it was after the step `last_step` (0: before the first step).
@@ -52,4 +52,4 @@ std::string run_json(const ParticlesCase& c, const StepTotals& record,
 /// differs from that in the record.
 StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -30,7 +30,7 @@
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 
 /// The state at the start: that of the case, or that of the restart file. Throws Error(kBadInput)
 /// if the restart file has other particles, or is not earlier than the end of the case.
-particles::State first_state(const ParticlesCase& c, const std::string& restart) {
+particles::State first_state(const case_file::ParticlesCase& c, const std::string& restart) {
   particles::State state;
   if (restart.empty()) {
     state.particles = c.particles;
@@ -68,8 +68,9 @@ particles::State first_state(const ParticlesCase& c, const std::string& restart)
 class Run {
  public:
   /// `record` and `frames` are those of the interrupted run that continues, or new ones.
-  Run(const ParticlesCase& c, Simulation& simulation, fs::path folder, const Provenance& provenance,
-      StepRecord record, ParticleFrames frames, const StopToken& stop)
+  Run(const case_file::ParticlesCase& c, Simulation& simulation, fs::path folder,
+      const results::Provenance& provenance, StepRecord record, ParticleFrames frames,
+      const StopToken& stop)
       : case_(c),
         simulation_(simulation),
         folder_(std::move(folder)),
@@ -100,7 +101,7 @@ class Run {
 
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
-    clear_progress();
+    terminal::clear_progress();
     frames_.end(simulation_);
     save();
     const auto& state = simulation_.state();
@@ -109,9 +110,10 @@ class Run {
     write("final_contacts.csv", TextKind::kHashComment,
           particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
     constexpr int kPanels = 4;  // states in the still picture
-    write("particles.html", TextKind::kHtml, particles_page(frames_.playback(), case_.title));
+    write("particles.html", TextKind::kHtml,
+          report::particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
-          particles_picture(frames_.playback(), case_.title, kPanels));
+          report::particles_picture(frames_.playback(), case_.title, kPanels));
     const auto json = run_json(case_, with_costs(), simulation_);
     write("run.json", TextKind::kJson, json);
     return json;
@@ -124,7 +126,7 @@ class Run {
     return std::chrono::duration<double>(Clock::now() - time).count();
   }
   void write(const char* name, TextKind kind, const std::string& text) const {
-    write_output(folder_ / name, kind, text, provenance_);
+    results::write_output(folder_ / name, kind, text, provenance_);
   }
 
   /// The sums, with computing time and memory of this call and the calls before it.
@@ -155,28 +157,28 @@ class Run {
 
   void tell(const StepReport& report) {
     if (!progress_.is_due()) return;
-    show_progress(fmt::format(
+    terminal::show_progress(fmt::format(
         "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
         case_.end_time, report.contacts, report.iterations, seconds_since(begin_)));
   }
 
-  const ParticlesCase& case_;
+  const case_file::ParticlesCase& case_;
   Simulation& simulation_;
   fs::path folder_;
-  const Provenance& provenance_;
+  const results::Provenance& provenance_;
   ParticleFrames frames_;
   StepRecord record_;
   StepTotals earlier_;  // the sums when restart.bin was last written
   StopToken stop_;
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
-  ProgressTimer progress_;
+  terminal::ProgressTimer progress_;
 };
 
 /// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
 /// interrupted, Error(kNotConverged) if a step did not converge.
-void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
+void warn_or_fail_if_not_converged(const case_file::ParticlesCase& c, const StepTotals& record,
                                    const fs::path& folder, const StopToken& stop) {
-  say(fmt::format(
+  terminal::say(fmt::format(
       "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
       "largest overlap {:.2g} mean radii; {}",
       record.steps, record.last_time,
@@ -184,17 +186,19 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
           static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
       record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
   if (record.unconverged > 0)
-    warn(fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
-                     record.unconverged, record.steps, c.setting.solver.tolerance,
-                     c.setting.solver.impulse_tolerance));
+    terminal::warn(
+        fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
+                    record.unconverged, record.steps, c.setting.solver.tolerance,
+                    c.setting.solver.impulse_tolerance));
   if (record.unresolved > 0)
-    warn(fmt::format(
+    terminal::warn(fmt::format(
         "particles: warning: {} contacts were computed although their particles move past each "
         "other by more than half the sum of their radii even in a {}th of the time step "
         "(steps.csv says when); use a shorter time_step",
         record.unresolved, 1 << Simulation::kMostHalvings));
   if (stop.stop_requested())
-    say(fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
+    terminal::say(
+        fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
                     record.last_time));
   stop.throw_if_stop_requested();
   if (record.unconverged > 0)
@@ -211,25 +215,25 @@ void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& rec
 }
 
 /// Says of a finished run what the call that finished it said, and throws the same error.
-void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
-                   const StopToken& stop) {
-  if (json) fmt::print("{}", without_provenance(read_file(folder / "run.json")));
-  say(fmt::format("particles: {} is up to date", folder.string()));
+void tell_finished(const case_file::ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
+                   bool json, const StopToken& stop) {
+  if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
+  terminal::say(fmt::format("particles: {} is up to date", folder.string()));
   warn_or_fail_if_not_converged(c, run.record, folder, stop);
 }
 
 }  // namespace
 
 void run_particles(const ParticlesRequest& request) {
-  const ParticlesCase c = read_particles_case(request.case_file);
+  const case_file::ParticlesCase c = case_file::read_particles_case(request.case_file);
   std::vector<fs::path> inputs = {c.path};
   if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
   if (!request.restart.empty()) inputs.emplace_back(request.restart);
-  const Provenance provenance = provenance_of({inputs, {}});
+  const results::Provenance provenance = results::provenance_of({inputs, {}});
   const fs::path folder = request.folder;
   check_inputs_stay(c, request.restart, folder);
   auto state = first_state(c, request.restart);
-  const LockedFolder ours(folder, kFolderIsHeld);
+  const LockedFolder ours(folder, results::kFolderIsHeld);
   check_results(folder);
   auto earlier = find_earlier_run(c, folder, provenance);
   if (earlier && is_finished(*earlier, c, folder)) {
@@ -242,8 +246,8 @@ void run_particles(const ParticlesRequest& request) {
     // These are the frames that were written after the last restart.bin, and the frame that was
     // written because of the interrupt.
     remove_other_frames(earlier->frames.files(), folder);
-    say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
-                    folder.string(), earlier->state.time, earlier->state.steps));
+    terminal::say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
+                              folder.string(), earlier->state.time, earlier->state.steps));
     state = std::move(earlier->state);
     record = std::move(earlier->record);
   } else {
@@ -270,4 +274,4 @@ void run_particles(const ParticlesRequest& request) {
   warn_or_fail_if_not_converged(c, run.record(), folder, request.stop);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

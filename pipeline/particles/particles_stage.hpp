@@ -5,7 +5,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The options of the command `particles`.
 struct ParticlesRequest {
@@ -24,4 +24,4 @@ struct ParticlesRequest {
 /// reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
 void run_particles(const ParticlesRequest& request);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -10,7 +10,7 @@
 #include "viscontact/reduced_model/trajectory.hpp"
 #include "viscontact/results/provenance.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 constexpr const char* kBelowKey = "drag below the fit";
@@ -18,27 +18,30 @@ constexpr const char* kAboveKey = "drag above the fit";
 
 }  // namespace
 
-CsvComments identity_of_trajectory(const Case& c, const std::string& fit_text,
+CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
                                    const OutsideFit& outside) {
-  CsvComments comments = {{"case", sha256(c.text)},
-                          {"fit", content_sha256(fit_text)},
-                          {"revision of the models", std::to_string(kModelsRevision)},
-                          {"version of Viscontact", VISCONTACT_VERSION}};
+  CsvComments comments = {
+      {"case", sha256(c.text)},
+      {"fit", results::content_sha256(fit_text)},
+      {"revision of the models", std::to_string(reduced_model::kModelsRevision)},
+      {"version of Viscontact", VISCONTACT_VERSION}};
   std::string forces;
   for (const auto& file : c.force_files) forces += read_file(file);
   if (!c.force_files.empty()) comments["force"] = sha256(forces);
-  if (outside.below != BelowInterval::kError)
-    comments[kBelowKey] =
-        outside.below == BelowInterval::kTheoryLimit ? "theory's limit" : "lubrication limit";
-  if (outside.above != AboveInterval::kError) comments[kAboveKey] = "Stokes' limit";
+  if (outside.below != lubrication::BelowInterval::kError)
+    comments[kBelowKey] = outside.below == lubrication::BelowInterval::kTheoryLimit
+                              ? "theory's limit"
+                              : "lubrication limit";
+  if (outside.above != lubrication::AboveInterval::kError) comments[kAboveKey] = "Stokes' limit";
   return comments;
 }
 
-bool is_simulated(const RunFolder& run, const std::string& model, const CsvComments& identity) {
+bool is_simulated(const results::RunFolder& run, const std::string& model,
+                  const CsvComments& identity) {
   const auto file = run.trajectory(model);
   if (!std::filesystem::is_regular_file(file)) return false;
   try {
-    const auto made_from = read_trajectory(file).provenance;
+    const auto made_from = reduced_model::read_trajectory(file).provenance;
     const auto value = [](const CsvComments& of, const std::string& key) {
       const auto found = of.find(key);
       return found == of.end() ? std::string() : found->second;
@@ -55,4 +58,4 @@ bool is_simulated(const RunFolder& run, const std::string& model, const CsvComme
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -11,19 +11,21 @@
 #include "viscontact/reduced_model/reached_gaps.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
-void check_parameters(const Case& c, const std::vector<std::string>& models) {
-  const auto exact = LubricationForce::exact_plane(c.viscosity, c.radius);
+void check_parameters(const case_file::Case& c, const std::vector<std::string>& models) {
+  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
   with_place(c.path.string(), [&] {
-    for (const auto& name : models) check_model(find_model(name), required_motion(c), exact);
+    for (const auto& name : models)
+      reduced_model::check_model(reduced_model::find_model(name), case_file::required_motion(c),
+                                 exact);
   });
 }
 
-void check_run(const Case& c, const std::vector<std::string>& models) {
-  const auto& gaps = required_tabulation(c).gaps;
-  const auto& request = required_fit(c);
-  const auto& motion = required_motion(c);
+void check_run(const case_file::Case& c, const std::vector<std::string>& models) {
+  const auto& gaps = case_file::required_tabulation(c).gaps;
+  const auto& request = case_file::required_fit(c);
+  const auto& motion = case_file::required_motion(c);
   const std::size_t different = std::set(gaps.begin(), gaps.end()).size();
   const std::size_t terms =
       request.settings.basis.terms.size() - (request.settings.fix_leading ? 1 : 0);
@@ -41,38 +43,38 @@ void check_run(const Case& c, const std::vector<std::string>& models) {
                                 motion.initial_gap, what, bound, model, remedy));
   };
   for (const auto& name : models) {
-    const auto choice = find_model(name);
+    const auto choice = reduced_model::find_model(name);
     if (choice.exact_drag || choice.model->contact != nullptr) continue;
-    if (motion.initial_gap < smallest && request.below == BelowInterval::kError)
+    if (motion.initial_gap < smallest && request.below == lubrication::BelowInterval::kError)
       refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
-    if (motion.initial_gap > largest && request.above == AboveInterval::kError)
+    if (motion.initial_gap > largest && request.above == lubrication::AboveInterval::kError)
       refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
   }
   check_parameters(c, models);
 }
 
-void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models,
+void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,
                           const StopToken& stop) {
   constexpr double kMostSteps = 1e6;  // about a second for each model
-  const auto& tabulation = required_tabulation(c);
-  const auto& request = required_fit(c);
-  Motion motion = required_motion(c);
+  const auto& tabulation = case_file::required_tabulation(c);
+  const auto& request = case_file::required_fit(c);
+  reduced_model::Motion motion = case_file::required_motion(c);
   motion.stop = stop;
-  if (tabulation.geometry != Tabulation().geometry) return;
-  for (const auto& parameter : model_parameters())
+  if (tabulation.geometry != freefem_axi::Tabulation().geometry) return;
+  for (const auto& parameter : reduced_model::model_parameters())
     if (parameter.is_time_step && motion.end_time > kMostSteps * motion.parameter(parameter))
       return;
   const auto [smallest, largest] = std::ranges::minmax(tabulation.gaps);
-  const auto exact = LubricationForce::exact_plane(c.viscosity, c.radius);
+  const auto exact = lubrication::LubricationForce::exact_plane(c.viscosity, c.radius);
   std::string below, above;
   double lowest = smallest, highest = largest;
   const auto add = [](std::string& names, const std::string& name) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
   };
   for (const auto& name : models) {
-    const auto choice = find_model(name);
+    const auto choice = reduced_model::find_model(name);
     if (choice.exact_drag) continue;
-    const auto reached = reached_gaps(choice, motion, exact);
+    const auto reached = reduced_model::reached_gaps(choice, motion, exact);
     if (!reached) continue;
     if (reached->smallest && *reached->smallest < smallest) add(below, name);
     if (reached->largest > largest) add(above, name);
@@ -83,12 +85,12 @@ void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models,
       "simulate: warning: the motion will leave tabulation.gaps, and these models will fail: {}. "
       "With the exact drag of a plane the gap {} to {:.3g}, the {} of tabulation.gaps is {:.3g}. "
       "Tabulate further, or write {} into the section [fit]";
-  if (!below.empty() && request.below == BelowInterval::kError)
-    warn(fmt::format(kWarning, below, "falls", lowest, "smallest", smallest,
-                     "below = \"lubrication_limit\""));
-  if (!above.empty() && request.above == AboveInterval::kError)
-    warn(fmt::format(kWarning, above, "rises", highest, "largest", largest,
-                     "above = \"stokes_limit\""));
+  if (!below.empty() && request.below == lubrication::BelowInterval::kError)
+    terminal::warn(fmt::format(kWarning, below, "falls", lowest, "smallest", smallest,
+                               "below = \"lubrication_limit\""));
+  if (!above.empty() && request.above == lubrication::AboveInterval::kError)
+    terminal::warn(fmt::format(kWarning, above, "rises", highest, "largest", largest,
+                               "above = \"stokes_limit\""));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -7,21 +7,21 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// Throws Error(kBadInput) that names the case if a parameter of a model is wrong. The check uses
 /// the exact drag, because its interval has no ends that a model could leave.
-void check_parameters(const Case& c, const std::vector<std::string>& models);
+void check_parameters(const case_file::Case& c, const std::vector<std::string>& models);
 
 /// Throws Error(kBadInput) that names the case if it has fewer gaps than terms to be fitted, if a
 /// parameter of a model is wrong, or if a model that needs the drag would start outside the gaps
 /// while the case asks for no limit there (`[fit] below`, `above`).
-void check_run(const Case& c, const std::vector<std::string>& models);
+void check_run(const case_file::Case& c, const std::vector<std::string>& models);
 
 /// Warns on standard error if models will leave the interval of the case's gaps, and says how far.
 /// The motion is estimated with the exact drag near a plane in a half-space; therefore other
 /// geometries are not checked. Motions of more than a million steps are not checked either.
-void warn_of_gaps_outside(const Case& c, const std::vector<std::string>& models,
+void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::string>& models,
                           const StopToken& stop);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -4,24 +4,25 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// True if Viscontact has simulated into this folder before. Then the folder has a sub-folder of
 /// trajectories that contains a file that Viscontact wrote, or that is empty because the run was
 /// interrupted.
-bool holds_a_run(const RunFolder& run);
+bool holds_a_run(const results::RunFolder& run);
 
 /// Throws Error(kBadInput) if a copy of the case or of its force files would replace a different
 /// file of the same name in a folder without a run, because that file is the user's. In a folder
 /// with a run, that file is the copy that the earlier run made, and it may be replaced.
-void check_case_copies(const RunFolder& run, const Case& c);
+void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 
 /// The same check for the copy of the fit.
-void check_fit_copy(const RunFolder& run, const std::string& fit_text);
+void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
 /// Makes the folder of trajectories, then writes the copies. The order matters: holds_a_run knows
 /// by the folder of trajectories that the copies may be replaced, even if the run is interrupted
 /// here.
-void write_copies(const RunFolder& run, const Case& c, const std::string& fit_text);
+void write_copies(const results::RunFolder& run, const case_file::Case& c,
+                  const std::string& fit_text);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

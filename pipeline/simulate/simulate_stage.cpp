@@ -19,22 +19,24 @@
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// The effect of the fit's errors on the motion without inertia (JSON). Empty if the fit is exact,
 /// or if this motion cannot be computed; then a warning says why.
-std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFit& outside) {
+std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
+                           const OutsideFit& outside) {
   constexpr std::size_t kTimes = 81;
-  if (is_exact_plane(fit)) return "";
+  if (lubrication::is_exact_plane(fit)) return "";
   try {
-    return write_uncertainty(propagate_fit(motion, fit, kTimes, outside.below, outside.above));
+    return reduced_model::write_uncertainty(
+        reduced_model::propagate_fit(motion, fit, kTimes, outside.below, outside.above));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;
-    warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
-                     error.what()));
+    terminal::warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
+                               error.what()));
     return "";
   }
 }
@@ -42,14 +44,18 @@ std::string uncertainty_of(const Motion& motion, const Fit& fit, const OutsideFi
 /// Says, as the end of a message, how far a model goes beyond the fit's interval; empty if it stays
 /// inside or if no estimate is possible. For the estimate, the drag outside the interval is given
 /// by its limits.
-std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, const Fit& fit,
+std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
+                             const reduced_model::Motion& motion, const lubrication::Fit& fit,
                              OutsideFit outside) {
-  if (choice.exact_drag || is_exact_plane(fit)) return "";
-  const auto [low, high] = LubricationForce(fit, outside.below, outside.above).interval();
-  if (outside.below == BelowInterval::kError) outside.below = BelowInterval::kLubricationLimit;
-  if (outside.above == AboveInterval::kError) outside.above = AboveInterval::kStokesLimit;
-  const auto reached =
-      reached_gaps(choice, motion, LubricationForce(fit, outside.below, outside.above));
+  if (choice.exact_drag || lubrication::is_exact_plane(fit)) return "";
+  const auto [low, high] =
+      lubrication::LubricationForce(fit, outside.below, outside.above).interval();
+  if (outside.below == lubrication::BelowInterval::kError)
+    outside.below = lubrication::BelowInterval::kLubricationLimit;
+  if (outside.above == lubrication::AboveInterval::kError)
+    outside.above = lubrication::AboveInterval::kStokesLimit;
+  const auto reached = reduced_model::reached_gaps(
+      choice, motion, lubrication::LubricationForce(fit, outside.below, outside.above));
   if (!reached) return "";
   std::string text;
   if (reached->smallest && *reached->smallest < low)
@@ -66,8 +72,9 @@ std::string estimate_of_gaps(const ModelChoice& choice, const Motion& motion, co
 }
 
 /// The record of a model for which simulate() threw this error.
-FailedModel failure_of(const ModelChoice& choice, const Error& error, const Motion& motion,
-                       const Fit& fit, const OutsideFit& outside) {
+results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
+                                const reduced_model::Motion& motion, const lubrication::Fit& fit,
+                                const OutsideFit& outside) {
   std::string reason = error.what();
   const std::string prefix = fmt::format("model {}: ", choice.name);
   if (reason.starts_with(prefix)) reason.erase(0, prefix.size());
@@ -77,8 +84,8 @@ FailedModel failure_of(const ModelChoice& choice, const Error& error, const Moti
 }
 
 /// The force of the fit, after a check that the fit was made for the case.
-LubricationForce force_for(const Case& c, const Fit& fit, const fs::path& fit_path,
-                           const OutsideFit& outside) {
+lubrication::LubricationForce force_for(const case_file::Case& c, const lubrication::Fit& fit,
+                                        const fs::path& fit_path, const OutsideFit& outside) {
   // A fit for another viscosity could be scaled, but a fit for another radius could not. Neither is
   // done without the user's knowledge.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
@@ -86,65 +93,67 @@ LubricationForce force_for(const Case& c, const Fit& fit, const fs::path& fit_pa
                     fmt::format("was made for viscosity {} and radius {}, but the case has "
                                 "viscosity {} and radius {}; tabulate and fit for the case",
                                 fit.viscosity, fit.radius, c.viscosity, c.radius));
-  return with_place(fit_path.string(),
-                    [&] { return LubricationForce(fit, outside.below, outside.above); });
+  return with_place(fit_path.string(), [&] {
+    return lubrication::LubricationForce(fit, outside.below, outside.above);
+  });
 }
 
 /// Adds to the comments of the trajectory how it was computed, and drops rows if the case asks for
 /// fewer.
-void finish(Trajectory& trajectory, const ModelChoice& choice, const Motion& motion,
-            const LubricationForce& force) {
+void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
+            const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;
-  const ModelParameter* step = choice.model->time_step;
+  const reduced_model::ModelParameter* step = choice.model->time_step;
   comments["time_step"] =
       step != nullptr ? format_number(motion.parameter(*step)) : std::string(choice.model->steps);
   if (motion.output_rows > 0) {
     comments["rows_computed"] = std::to_string(trajectory.rows.size());
-    trajectory.rows = fewer_rows(trajectory.rows, motion.output_rows);
+    trajectory.rows = reduced_model::fewer_rows(trajectory.rows, motion.output_rows);
   }
   if (choice.model->contact == nullptr) return;
-  const auto drag = drag_of(choice, force);
-  const auto law = choice.model->contact(motion_of(choice, motion), drag).film_law;
+  const auto drag = reduced_model::drag_of(choice, force);
+  const auto law = choice.model->contact(reduced_model::motion_of(choice, motion), drag).film_law;
   if (!law.empty()) comments["recovered_film"] = law;
 }
 
 }  // namespace
 
-std::vector<fs::path> files_of_motion(const Case& c) {
+std::vector<fs::path> files_of_motion(const case_file::Case& c) {
   std::vector<fs::path> files = {c.path};
   files.insert(files.end(), c.force_files.begin(), c.force_files.end());
   return files;
 }
 
-std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked) {
+std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std::string> asked) {
   if (asked.empty()) asked = c.models;
   if (asked.empty())
-    for (const auto& model : default_models()) asked.emplace_back(model.name);
+    for (const auto& model : reduced_model::default_models()) asked.emplace_back(model.name);
   return asked;
 }
 
-Simulated simulate_case(const Case& c, const FitFile& fit_file,
+Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside,
                         const StopToken& stop) {
-  Motion motion = required_motion(c);
+  reduced_model::Motion motion = case_file::required_motion(c);
   motion.stop = stop;
   Simulated simulated;
   simulated.fit_text = fit_file.text;
-  const Fit fit = parse_fit(fit_file.text, fit_file.path.string());
-  const LubricationForce force = force_for(c, fit, fit_file.path, outside);
+  const lubrication::Fit fit = lubrication::parse_fit(fit_file.text, fit_file.path.string());
+  const lubrication::LubricationForce force = force_for(c, fit, fit_file.path, outside);
   const auto names = models_to_run(c, models);
   check_parameters(c, names);
   simulated.made_from = identity_of_trajectory(c, simulated.fit_text, outside);
   for (const auto& name : names) {
     stop.throw_if_stop_requested();
-    const auto choice = find_model(name);
+    const auto choice = reduced_model::find_model(name);
     const auto which = fmt::format("{} ({} of {})", name, &name - names.data() + 1, names.size());
-    motion.progress = [which, end = motion.end_time, timer = ProgressTimer()](double time) mutable {
+    motion.progress = [which, end = motion.end_time,
+                       timer = terminal::ProgressTimer()](double time) mutable {
       if (timer.is_due())
-        show_progress(fmt::format("simulate: {}, {:.0f} %", which, 100 * time / end));
+        terminal::show_progress(fmt::format("simulate: {}, {:.0f} %", which, 100 * time / end));
     };
     try {
-      auto trajectory = simulate(choice, motion, force);
+      auto trajectory = reduced_model::simulate(choice, motion, force);
       trajectory.provenance = simulated.made_from;
       finish(trajectory, choice, motion, force);
       simulated.trajectories.push_back(std::move(trajectory));
@@ -154,28 +163,28 @@ Simulated simulate_case(const Case& c, const FitFile& fit_file,
       simulated.failed.back().made_from = simulated.made_from;
     }
   }
-  clear_progress();
+  terminal::clear_progress();
   stop.throw_if_stop_requested();
-  if (simulated.trajectories.empty()) throw error_of(simulated.failed, 0, c.path);
+  if (simulated.trajectories.empty()) throw results::error_of(simulated.failed, 0, c.path);
   simulated.uncertainty = uncertainty_of(motion, fit, outside);
   return simulated;
 }
 
-void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
-                     const Provenance& provenance) {
+void write_simulated(const results::RunFolder& run, const case_file::Case& c,
+                     const Simulated& simulated, const results::Provenance& provenance) {
   write_copies(run, c, simulated.fit_text);
   if (simulated.uncertainty.empty())
     remove_file(run.uncertainty());
   else
-    write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
+    results::write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
   // The trajectories come after the other files, because `run` takes their presence as the sign
   // that these files are written.
   for (const auto& trajectory : simulated.trajectories)
-    write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
-                 write_trajectory(trajectory), provenance);
-  auto failed = recorded_failures(run, simulated.made_from);
+    results::write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
+                          reduced_model::write_trajectory(trajectory), provenance);
+  auto failed = results::recorded_failures(run, simulated.made_from);
   // The record keeps the failures of models that were not run now, if their inputs were the same.
-  std::erase_if(failed, [&](const FailedModel& other) {
+  std::erase_if(failed, [&](const results::FailedModel& other) {
     const auto is_it = [&](const auto& model) { return model.model == other.model; };
     return std::ranges::any_of(simulated.trajectories, is_it) ||
            std::ranges::any_of(simulated.failed, is_it);
@@ -184,31 +193,34 @@ void write_simulated(const RunFolder& run, const Case& c, const Simulated& simul
   if (failed.empty())
     remove_file(run.failed_models());
   else
-    write_output(run.failed_models(), TextKind::kJson, write_failed_models(failed), provenance);
+    results::write_output(run.failed_models(), TextKind::kJson,
+                          results::write_failed_models(failed), provenance);
   for (const auto& model : simulated.failed) {
     remove_file(run.trajectory(model.model));
     // The error that ends the command gives the reason of the first model.
     if (&model != &simulated.failed.front())
-      say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
+      terminal::say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
   }
-  say(fmt::format("simulate: {} models", simulated.trajectories.size()));
+  terminal::say(fmt::format("simulate: {} models", simulated.trajectories.size()));
 }
 
 namespace {
 
 /// The fit file for the exact drag of the case in the run's folder. If the file there differs in
 /// its provenance only, its text is returned unchanged, so that it is not written with a new time.
-FitFile exact_fit_file(const Case& c, const RunFolder& run, const Provenance& provenance) {
-  const std::string text = write_fit(exact_plane_fit(c.viscosity, c.radius));
-  if (has_content(run.fit(), text)) return {run.fit(), read_file(run.fit())};
-  return {run.fit(), output_text(run.fit(), TextKind::kJson, text, provenance)};
+FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
+                       const results::Provenance& provenance) {
+  const std::string text =
+      lubrication::write_fit(lubrication::exact_plane_fit(c.viscosity, c.radius));
+  if (results::has_content(run.fit(), text)) return {run.fit(), read_file(run.fit())};
+  return {run.fit(), results::output_text(run.fit(), TextKind::kJson, text, provenance)};
 }
 
 }  // namespace
 
-void simulate_stage(const Case& c, const SimulateRequest& request) {
-  const RunFolder run{request.folder};
-  (void)required_motion(c);
+void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
+  const results::RunFolder run{request.folder};
+  (void)case_file::required_motion(c);
   fs::path path = request.fit;
   if (path.empty() && c.fit && c.fit->file) path = *c.fit->file;
   const bool exact = path.empty() && c.fit && c.fit->exact;
@@ -221,24 +233,24 @@ void simulate_stage(const Case& c, const SimulateRequest& request) {
                             run.fit().string()));
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
-  auto provenance = provenance_of({inputs, {}});
+  auto provenance = results::provenance_of({inputs, {}});
   // If `rerun` repeats the command for another folder, that folder has no fit; so the recorded
   // command names this fit.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
-    say(fmt::format("simulate: the drag is {}",
-                    exact ? "the exact one near a plane" : "that of " + path.string()));
+    terminal::say(fmt::format("simulate: the drag is {}",
+                              exact ? "the exact one near a plane" : "that of " + path.string()));
   const FitFile fit = exact ? exact_fit_file(c, run, provenance) : FitFile{path, read_file(path)};
   check_case_copies(run, c);
   check_fit_copy(run, fit.text);
-  refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
-  refuse_other_kind(run.failed_models(), "", "failed_models.json");
+  results::refuse_other_kind(run.uncertainty(), "", "uncertainty.json");
+  results::refuse_other_kind(run.failed_models(), "", "failed_models.json");
   for (const auto& model : models_to_run(c, request.models))
-    refuse_other_kind(run.trajectory(model), "", "trajectory");
+    results::refuse_other_kind(run.trajectory(model), "", "trajectory");
   const auto simulated = simulate_case(c, fit, request.models, request.outside, request.stop);
   write_simulated(run, c, simulated, provenance);
   if (!simulated.failed.empty())
-    throw error_of(simulated.failed, simulated.trajectories.size(), c.path);
+    throw results::error_of(simulated.failed, simulated.trajectories.size(), c.path);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -14,7 +14,7 @@
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// A fit file: its path for messages, and its text.
 struct FitFile {
@@ -23,18 +23,19 @@ struct FitFile {
 };
 
 /// The case file and the files of sampled forces that its motion reads.
-std::vector<std::filesystem::path> files_of_motion(const Case& c);
+std::vector<std::filesystem::path> files_of_motion(const case_file::Case& c);
 
 /// The models of a run: `asked`, or if this is empty those that the case names, or if the case
 /// names none, the default models of the registry.
-std::vector<std::string> models_to_run(const Case& c, std::vector<std::string> asked = {});
+std::vector<std::string> models_to_run(const case_file::Case& c,
+                                       std::vector<std::string> asked = {});
 
 /// The results of a simulation, before they are written.
 struct Simulated {
   std::string fit_text;   ///< text of the fit file
   CsvComments made_from;  ///< what identifies case, fit and version in the files that are written
-  std::vector<Trajectory> trajectories;
-  std::vector<FailedModel> failed;  ///< models without a trajectory
+  std::vector<reduced_model::Trajectory> trajectories;
+  std::vector<results::FailedModel> failed;  ///< models without a trajectory
   /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or
   /// the effect cannot be computed.
   std::string uncertainty;
@@ -45,15 +46,15 @@ struct Simulated {
 /// fit if the fit has another viscosity or radius than the case, or if a parameter of a model is
 /// wrong. Throws the error of the first model if all models fail, and Error(kInterrupted) if `stop`
 /// requests a stop.
-Simulated simulate_case(const Case& c, const FitFile& fit_file,
+Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
                         const std::vector<std::string>& models, const OutsideFit& outside,
                         const StopToken& stop);
 
 /// Writes the trajectories, the record of failed models, uncertainty.json and the copies of case
 /// and fit. An earlier trajectory of a model that failed is removed, because it was made from other
 /// inputs.
-void write_simulated(const RunFolder& run, const Case& c, const Simulated& simulated,
-                     const Provenance& provenance);
+void write_simulated(const results::RunFolder& run, const case_file::Case& c,
+                     const Simulated& simulated, const results::Provenance& provenance);
 
 /// The inputs of a simulation besides the case.
 struct SimulateRequest {
@@ -70,6 +71,6 @@ struct SimulateRequest {
 /// folder. Before anything is written, throws as simulate_case does, Error(kWrongUsage) if there is
 /// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, throws
 /// error_of() them after the results of the others are written.
-void simulate_stage(const Case& c, const SimulateRequest& request);
+void simulate_stage(const case_file::Case& c, const SimulateRequest& request);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

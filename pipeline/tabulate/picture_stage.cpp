@@ -15,7 +15,7 @@
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 /// One of the files that are written for each gap.
@@ -41,10 +41,11 @@ std::filesystem::path path_of(const std::filesystem::path& folder, double gap,
 void check_pictures(const std::vector<double>& gaps, const std::filesystem::path& folder) {
   for (const double gap : gaps)
     for (const auto& file : {kMesh, kFlow, kFilm, kVtu})
-      refuse_other_kind(path_of(folder, gap, file), file.marker, file.kind);
+      results::refuse_other_kind(path_of(folder, gap, file), file.marker, file.kind);
 }
 
-std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked) {
+std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
+                                    const std::string& asked) {
   constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
@@ -78,25 +79,30 @@ std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
   return folder.replace_extension(".plots");
 }
 
-void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
+void picture_stage(const freefem_axi::Tabulation& tabulation, const std::vector<double>& gaps,
                    const std::filesystem::path& folder, const std::filesystem::path& case_file,
                    const StopToken& stop) {
-  const auto freefem = default_freefem(stop);
-  const auto provenance = provenance_of({{case_file}, {}});
+  const auto freefem = freefem_axi::default_freefem(stop);
+  const auto provenance = results::provenance_of({{case_file}, {}});
   for (const double gap : gaps) {
     stop.throw_if_stop_requested();
-    show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
-    const auto picture =
-        solve_row_for_picture(freefem, tabulation, gap, tabulation.reference_velocities.front());
+    terminal::show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
+    const auto picture = freefem_axi::solve_row_for_picture(
+        freefem, tabulation, gap, tabulation.reference_velocities.front());
     const auto path = [&](const PictureFile& file) { return path_of(folder, gap, file); };
     // The VTK file comes first because it needs no gnuplot, which may be missing.
-    write_output(path(kVtu), TextKind::kXml, write_vtu(picture.flow), provenance);
-    write_output(path(kMesh), TextKind::kSvg, plot_mesh(picture, tabulation, stop), provenance);
-    write_output(path(kFlow), TextKind::kSvg, plot_flow(picture, tabulation, stop), provenance);
-    write_output(path(kFilm), TextKind::kSvg, plot_gap_flow(picture, tabulation, stop), provenance);
-    clear_progress();
-    say(fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));
+    results::write_output(path(kVtu), TextKind::kXml, freefem_axi::write_vtu(picture.flow),
+                          provenance);
+    results::write_output(path(kMesh), TextKind::kSvg, report::plot_mesh(picture, tabulation, stop),
+                          provenance);
+    results::write_output(path(kFlow), TextKind::kSvg, report::plot_flow(picture, tabulation, stop),
+                          provenance);
+    results::write_output(path(kFilm), TextKind::kSvg,
+                          report::plot_gap_flow(picture, tabulation, stop), provenance);
+    terminal::clear_progress();
+    terminal::say(
+        fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));
   }
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

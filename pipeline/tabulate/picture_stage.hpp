@@ -9,14 +9,15 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The gaps of the case that `asked` names, in the order of `asked`: numbers separated by commas,
 /// each with a relative difference of at most 1e-6 to a gap of the case. If `asked` is empty, these
 /// are the smallest, the middle and the largest gap. Throws Error(kWrongUsage) for a word that is
 /// not a number, and Error(kBadInput) that names the nearest gap for a number that is not a gap of
 /// the case.
-std::vector<double> gaps_to_picture(const Tabulation& tabulation, const std::string& asked);
+std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
+                                    const std::string& asked);
 
 /// The folder for the pictures of a table, beside the table: table.plots/ for table.csv.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path);
@@ -29,8 +30,8 @@ void check_pictures(const std::vector<double>& gaps, const std::filesystem::path
 /// gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu into `folder`. `case_file`
 /// is the case that contains the tabulation. Throws Error(kExternalProgram) if FreeFEM or gnuplot
 /// fails, Error(kInterrupted) if `stop` requests a stop.
-void picture_stage(const Tabulation& tabulation, const std::vector<double>& gaps,
+void picture_stage(const freefem_axi::Tabulation& tabulation, const std::vector<double>& gaps,
                    const std::filesystem::path& folder, const std::filesystem::path& case_file,
                    const StopToken& stop);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -13,7 +13,7 @@
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,14 +69,15 @@ void refuse_second_job(const fs::path& output, const StopToken& stop) {
 
 /// The numbers of the tasks that have rows to compute.
 std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
-  std::vector<RowRecord> records;
+  std::vector<freefem_axi::RowRecord> records;
   records.reserve(tables.size());
-  for (const auto& one : tables) records.push_back(read_row_record(one.table, one.hash()));
+  for (const auto& one : tables)
+    records.push_back(freefem_axi::read_row_record(one.table, one.hash()));
   std::vector<std::size_t> tasks;
   for (std::size_t task = 0; task < count; ++task) {
     const auto points = points_of(tables, {task, count});
     for (std::size_t i = 0; i < tables.size(); ++i)
-      if (!missing_points(records[i], points[i]).empty()) {
+      if (!freefem_axi::missing_points(records[i], points[i]).empty()) {
         tasks.push_back(task);
         break;
       }
@@ -135,7 +136,7 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   std::size_t rows = 0;
   for (const auto& one : tables) {
     check_output_file(one.table);
-    rows += grid_of(one.tabulation()).size();
+    rows += freefem_axi::grid_of(one.tabulation()).size();
   }
   const std::size_t count = request.tasks.value_or(std::min(rows, kMostTasks));
   const auto options = split_words(request.options);
@@ -143,7 +144,8 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   const auto tasks = tasks_with_rows(tables, count);
   const std::string gather = gather_command(tables, request.output);
   if (tasks.empty()) {
-    say(fmt::format("tabulate: no row is missing; this command writes the tables: {}", gather));
+    terminal::say(
+        fmt::format("tabulate: no row is missing; this command writes the tables: {}", gather));
     return;
   }
   const auto folder = slurm_folder(request.output);
@@ -163,11 +165,11 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& r
   std::string job = ask_slurm(command, request.stop);
   // If there are several clusters, sbatch prints "number;cluster".
   job = job.substr(0, job.find(';'));
-  say(
+  terminal::say(
       fmt::format("tabulate: Slurm job {} with {} tasks is submitted; its logs are in {}; when it "
                   "is over (squeue -j {}), run:\n  {}",
                   job, tasks.size(), folder.string(), job, gather));
   fmt::print("{}\n", job);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

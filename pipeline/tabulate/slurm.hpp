@@ -8,7 +8,7 @@
 
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// The options of a tabulation by Slurm.
 struct SlurmRequest {
@@ -29,4 +29,4 @@ std::filesystem::path slurm_folder(const std::filesystem::path& output);
 /// with the message of Slurm if Slurm is missing or refuses the job.
 void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& request);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -18,15 +18,15 @@
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
+void warn_of_unmet_accuracy(const lubrication::ForceTable& table, double asked) {
   for (const auto& row : table.rows)
     if (row.relative_error_estimate > asked)
-      warn(
+      terminal::warn(
           fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
                       "{:.2g}, {:.2g} was asked",
                       row.gap, row.reference_velocity, row.relative_error_estimate, asked));
@@ -35,29 +35,32 @@ void warn_of_unmet_accuracy(const ForceTable& table, double asked) {
 /// True if the table of this case exists; then a message says so, and journals that a process wrote
 /// after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
-  const auto table = find_table(one.table, one.hash());
+  const auto table = freefem_axi::find_table(one.table, one.hash());
   if (!table) return false;
-  say(fmt::format("tabulate: {} is up to date", one.table.string()));
-  remove_journals(one.table, one.hash());
+  terminal::say(fmt::format("tabulate: {} is up to date", one.table.string()));
+  freefem_axi::remove_journals(one.table, one.hash());
   warn_of_unmet_accuracy(*table, one.tabulation().relative_accuracy);
   return true;
 }
 
-void write_table(const CaseTable& one, ForceTable table, const Provenance& provenance) {
+void write_table(const CaseTable& one, lubrication::ForceTable table,
+                 const results::Provenance& provenance) {
   table.versions["Viscontact"] = VISCONTACT_VERSION;
-  write_output(one.table, TextKind::kHashComment, write_force_table(table), provenance);
-  remove_journals(one.table, one.hash());
+  results::write_output(one.table, TextKind::kHashComment, lubrication::write_force_table(table),
+                        provenance);
+  freefem_axi::remove_journals(one.table, one.hash());
   warn_of_unmet_accuracy(table, one.tabulation().relative_accuracy);
 }
 
-void show_rows(const TabulateProgress& progress) {
-  show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
-                            progress.rows, progress.seconds_left));
+void show_rows(const freefem_axi::TabulateProgress& progress) {
+  terminal::show_progress(fmt::format("tabulate: {}/{} rows, {:.0f} s left", progress.rows_done,
+                                      progress.rows, progress.seconds_left));
 }
 
 /// Says in words how many rows there are and how many of them an earlier call has finished.
-std::string rows_in_words(const CaseTable& one, const std::vector<GridPoint>& points) {
-  const auto missing = missing_points(read_row_record(one.table, one.hash()), points);
+std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::GridPoint>& points) {
+  const auto missing =
+      freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.hash()), points);
   const auto kept = points.size() - missing.size();
   return fmt::format("{} rows{}", points.size(),
                      kept > 0 ? fmt::format(" ({} of them from before)", kept) : "");
@@ -66,11 +69,12 @@ std::string rows_in_words(const CaseTable& one, const std::vector<GridPoint>& po
 void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return;
   check_output_file(one.table);
-  say(fmt::format("tabulate: {} on {} processes", rows_in_words(one, grid_of(one.tabulation())),
-                  jobs));
-  const auto provenance = provenance_of({{one.c.path}, {}});
-  auto table = tabulate(default_freefem(stop), one.tabulation(), jobs, one.table, show_rows);
-  clear_progress();
+  terminal::say(fmt::format("tabulate: {} on {} processes",
+                            rows_in_words(one, freefem_axi::grid_of(one.tabulation())), jobs));
+  const auto provenance = results::provenance_of({{one.c.path}, {}});
+  auto table = freefem_axi::tabulate(freefem_axi::default_freefem(stop), one.tabulation(), jobs,
+                                     one.table, show_rows);
+  terminal::clear_progress();
   write_table(one, std::move(table), provenance);
 }
 
@@ -82,8 +86,8 @@ std::string writer_name(const Share& share) {
   return fmt::format("{}-of-{}.{}.{}", share.number, share.count, host.data(), ::getpid());
 }
 
-[[noreturn]] void throw_missing(const CaseTable& one, const RowRecord& record,
-                                const std::vector<GridPoint>& missing,
+[[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
+                                const std::vector<freefem_axi::GridPoint>& missing,
                                 const fs::path& slurm_folder) {
   constexpr std::size_t kNamed = 3;  // rows that the message names
   std::vector<std::string> named;
@@ -98,7 +102,7 @@ std::string writer_name(const Share& share) {
   std::string text = fmt::format(
       "{} of {} rows are missing ({}); the finished ones are kept, and the same command "
       "without --gather computes the rest here, or with --launcher slurm or --task elsewhere",
-      missing.size(), grid_of(one.tabulation()).size(), fmt::join(named, "; "));
+      missing.size(), freefem_axi::grid_of(one.tabulation()).size(), fmt::join(named, "; "));
   if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
   if (const auto submitted = slurm_folder / one.c.path.filename();
       fs::exists(submitted) && read_file(submitted) != one.c.text)
@@ -110,11 +114,12 @@ std::string writer_name(const Share& share) {
 
 void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (is_up_to_date(one)) return;
-  const auto record = read_row_record(one.table, one.hash());
-  const auto missing = missing_points(record, grid_of(one.tabulation()));
+  const auto record = freefem_axi::read_row_record(one.table, one.hash());
+  const auto missing = freefem_axi::missing_points(record, freefem_axi::grid_of(one.tabulation()));
   if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
-  write_table(one, assemble_table(one.tabulation(), record), provenance_of({{one.c.path}, {}}));
-  say(fmt::format("tabulate: {} is gathered", one.table.string()));
+  write_table(one, freefem_axi::assemble_table(one.tabulation(), record),
+              results::provenance_of({{one.c.path}, {}}));
+  terminal::say(fmt::format("tabulate: {} is gathered", one.table.string()));
 }
 
 /// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
@@ -133,7 +138,7 @@ void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kExternalProgram && error.kind() != ErrorKind::kNotConverged)
         throw;
-      clear_progress();
+      terminal::clear_progress();
       if (error.kind() == ErrorKind::kExternalProgram) kind = error.kind();
       failures.push_back(
           fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
@@ -161,7 +166,7 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
   }
   std::vector<CaseTable> tables;
   for (std::size_t i = 0; i < case_files.size(); ++i) {
-    tables.push_back({read_case(case_files[i]), names[i]});
+    tables.push_back({case_file::read_case(case_files[i]), names[i]});
     (void)tables.back().tabulation();  // throws if a case has no tabulation, before any work begins
   }
   return tables;
@@ -179,13 +184,13 @@ Share parse_share(const std::string& text) {
               fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
 }
 
-std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
-                                              const Share& share) {
-  std::vector<std::vector<GridPoint>> points;
+std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
+                                                           const Share& share) {
+  std::vector<std::vector<freefem_axi::GridPoint>> points;
   std::size_t row = 0;
   for (const auto& one : tables) {
     points.emplace_back();
-    for (const auto& point : grid_of(one.tabulation()))
+    for (const auto& point : freefem_axi::grid_of(one.tabulation()))
       if (row++ % share.count == share.number) points.back().push_back(point);
   }
   return points;
@@ -197,13 +202,15 @@ void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopTo
 
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
                  const StopToken& stop) {
-  const RowWorker worker = {default_freefem(stop), jobs, writer_name(share)};
+  const freefem_axi::RowWorker worker = {freefem_axi::default_freefem(stop), jobs,
+                                         writer_name(share)};
   const auto points = points_of(tables, share);
   for_each_table(tables, stop, [&](std::size_t i) {
     if (points[i].empty()) return;
-    say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
-                    tables[i].table.string()));
-    compute_rows(worker, tables[i].tabulation(), points[i], tables[i].table, show_rows);
+    terminal::say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
+                              tables[i].table.string()));
+    freefem_axi::compute_rows(worker, tables[i].tabulation(), points[i], tables[i].table,
+                              show_rows);
   });
 }
 
@@ -212,4 +219,4 @@ void gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_fo
   for_each_table(tables, stop, [&](std::size_t i) { gather_one(tables[i], slurm_folder); });
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -10,15 +10,15 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
-namespace viscontact {
+namespace viscontact::pipeline {
 
 /// A case and the file for its table.
 struct CaseTable {
-  Case c;
+  case_file::Case c;
   std::filesystem::path table;
 
-  const Tabulation& tabulation() const { return required_tabulation(c); }
-  std::string hash() const { return tabulation_hash(tabulation()); }
+  const freefem_axi::Tabulation& tabulation() const { return case_file::required_tabulation(c); }
+  std::string hash() const { return freefem_axi::tabulation_hash(tabulation()); }
 };
 
 /// Reads the cases. For one case, `output` is the file of the table. For several cases, `output` is
@@ -37,8 +37,8 @@ struct Share {
 Share parse_share(const std::string& text);
 
 /// The points of each table's grid that belong to the share.
-std::vector<std::vector<GridPoint>> points_of(const std::vector<CaseTable>& tables,
-                                              const Share& share);
+std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
+                                                           const Share& share);
 
 /// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
 /// tables. A table that was already made from the same inputs is left as it is. A row that fails
@@ -57,4 +57,4 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
 void gather_stage(const std::vector<CaseTable>& tables, const std::filesystem::path& slurm_folder,
                   const StopToken& stop);
 
-}  // namespace viscontact
+}  // namespace viscontact::pipeline

@@ -18,7 +18,7 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/external_force/polynomial.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// How finely a sinusoid is sampled in the search for changes of sign.
@@ -294,4 +294,4 @@ ExternalForce read_external_force(const std::filesystem::path& path, double end)
   return ExternalForce(pieces);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// f_ext(t) for t >= 0: a sum of piecewise polynomials and sinusoids. Means and impulses are closed
 /// forms, not quadrature.
@@ -116,4 +116,4 @@ class ForceWalk {
 /// time is less than `end` > 0.
 ExternalForce read_external_force(const std::filesystem::path& path, double end);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -9,7 +9,7 @@
 
 #include "viscontact/common/root_finding.hpp"
 
-namespace viscontact::polynomial {
+namespace viscontact::reduced_model::polynomial {
 
 /// The sum of weighted(c_k, k) tau^(k - first) for k >= first, by Horner's scheme.
 template <class Weighted>
@@ -88,4 +88,4 @@ inline std::vector<double> turning_points(const std::vector<double>& coefficient
   return turns;
 }
 
-}  // namespace viscontact::polynomial
+}  // namespace viscontact::reduced_model::polynomial

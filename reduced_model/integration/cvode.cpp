@@ -17,7 +17,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 std::span<double> values(N_Vector vector) {
@@ -207,4 +207,4 @@ int Cvode::Sundials::jacobian(double time, N_Vector y, N_Vector, SUNMatrix jacob
   return 0;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// A stiff system y' = f(t, y) with its Jacobian. Each function may throw an Error for a state in
 /// which it is not defined.
@@ -76,4 +76,4 @@ class Cvode {
   double system_error_time_ = 0;     // the time at which it did
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -1,9 +1,10 @@
 // The loop over time of the model `explicit_euler`.
 #include "viscontact/reduced_model/models/explicit_euler.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_explicit_euler(const Motion& motion,
+                                   const lubrication::LubricationForce& force) {
   const double end = motion.end_time;
   const double step = motion.parameter(kContactTimeStep);
   const int steps = step_count(end, step);
@@ -33,4 +34,4 @@ Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce&
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

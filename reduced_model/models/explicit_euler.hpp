@@ -6,7 +6,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Problem (M) (physics.md (4.1)) by explicit Euler in q and u, with h = viscous_contact.time_step:
 ///
@@ -17,6 +17,7 @@ namespace viscontact {
 /// although (M) has no contact in finite time by the first integral (4.2). The trajectory ends with
 /// a row of gap 0 where the sphere goes through the wall, or at the end of the motion. Throws
 /// Error(kBadInput) if the motion leaves the fit's interval.
-Trajectory simulate_explicit_euler(const Motion& motion, const LubricationForce& force);
+Trajectory simulate_explicit_euler(const Motion& motion,
+                                   const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -13,13 +13,13 @@
 #include "viscontact/reduced_model/integration/cvode.hpp"
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// One integration from the start of the motion to its end.
 class InertialRun {
  public:
-  InertialRun(const Motion& motion, const LubricationForce& force)
+  InertialRun(const Motion& motion, const lubrication::LubricationForce& force)
       : motion_(motion),
         equation_(motion, force, motion.parameter(kRelativeTolerance)),
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
@@ -137,8 +137,8 @@ class InertialRun {
 
 }  // namespace
 
-Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force) {
   return InertialRun(motion, force).run();
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -8,7 +8,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Relative tolerance of the gap [1].
 inline constexpr ModelParameter kRelativeTolerance = {
@@ -34,6 +34,6 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 ///
 /// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
 /// interval of the fit.
-Trajectory simulate_inertial(const Motion& motion, const LubricationForce& force);
+Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

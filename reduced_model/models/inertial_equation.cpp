@@ -6,9 +6,9 @@
 #include <limits>
 #include <span>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-InertialEquation::InertialEquation(const Motion& motion, const LubricationForce& force,
+InertialEquation::InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                                    double relative_tolerance)
     : motion_(motion),
       force_(force),
@@ -106,4 +106,4 @@ bool InertialEquation::lands_at_once(double t, const InertialInstant& now, doubl
   return film < now.gap && motion_.mass < kTimeResolution * t * force_.resistance(film);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

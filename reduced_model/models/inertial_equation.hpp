@@ -15,7 +15,7 @@
 #include "viscontact/reduced_model/integration/cvode.hpp"
 #include "viscontact/reduced_model/motion.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The state of the sphere at one time.
 struct InertialInstant {
@@ -29,7 +29,8 @@ struct InertialInstant {
 /// `relative_tolerance` is that of the gap [1].
 class InertialEquation {
  public:
-  InertialEquation(const Motion& motion, const LubricationForce& force, double relative_tolerance);
+  InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
+                   double relative_tolerance);
 
   double gap_of(double s) const;      ///< q = r e^s [L]
   double state_of(double gap) const;  ///< s = ln(q/r)
@@ -67,9 +68,9 @@ class InertialEquation {
   double slope(double t, double gap) const;
 
   const Motion& motion_;
-  const LubricationForce& force_;
+  const lubrication::LubricationForce& force_;
   double relative_tolerance_;
   double momentum_at_start_;  // P(0)
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

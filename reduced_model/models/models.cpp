@@ -23,7 +23,7 @@
 #include "viscontact/reduced_model/models/reference.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr bool kByDefault = true, kOnRequest = false;
@@ -192,12 +192,15 @@ std::string description_of(const ModelChoice& choice) {
                      choice.smooth ? ", smooth" : "");
 }
 
-LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force) {
-  return choice.exact_drag ? LubricationForce::exact_plane(force.viscosity(), force.radius())
-                           : force;
+lubrication::LubricationForce drag_of(const ModelChoice& choice,
+                                      const lubrication::LubricationForce& force) {
+  return choice.exact_drag
+             ? lubrication::LubricationForce::exact_plane(force.viscosity(), force.radius())
+             : force;
 }
 
-void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force) {
+void check_model(const ModelChoice& choice, const Motion& motion,
+                 const lubrication::LubricationForce& force) {
   with_name_in_errors(choice, [&] {
     for (const auto& parameter : choice.model->parameters)
       if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
@@ -207,13 +210,13 @@ void check_model(const ModelChoice& choice, const Motion& motion, const Lubricat
 }
 
 Trajectory simulate(const ModelChoice& choice, const Motion& motion,
-                    const LubricationForce& force) {
+                    const lubrication::LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
   Trajectory trajectory;
   with_name_in_errors(choice, [&] {
     const Model& model = *choice.model;
     const Motion own_motion = motion_of(choice, motion);
-    const LubricationForce own_force = drag_of(choice, force);
+    const lubrication::LubricationForce own_force = drag_of(choice, force);
     trajectory = model.simulate != nullptr
                      ? model.simulate(own_motion, own_force)
                      : run_contact_model(model.contact, own_motion, own_force);
@@ -227,4 +230,4 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

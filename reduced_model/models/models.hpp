@@ -14,14 +14,14 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// A model of motion with what the programs must know about it.
 struct Model {
   std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
   /// Null for a contact model that run_contact_model() runs.
-  Trajectory (*simulate)(const Motion&, const LubricationForce&);
+  Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
   /// What gamma stands for; null if it is no contact model.
   MakeContactModel contact = nullptr;
   /// True if it runs when a case names no models.
@@ -82,7 +82,8 @@ ModelChoice find_model(std::string_view name);
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
 /// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
-LubricationForce drag_of(const ModelChoice& choice, const LubricationForce& force);
+lubrication::LubricationForce drag_of(const ModelChoice& choice,
+                                      const lubrication::LubricationForce& force);
 
 /// The motion for the model: `motion`, without roughness if the choice is smooth.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
@@ -92,10 +93,12 @@ std::string description_of(const ModelChoice& choice);
 
 /// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,
 /// but without running the model. Of `force`, only the interval matters.
-void check_model(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
+void check_model(const ModelChoice& choice, const Motion& motion,
+                 const lubrication::LubricationForce& force);
 
 /// Runs a model and fills in its name, its budget and the wall time. The messages of all Errors
 /// begin with the name of the model.
-Trajectory simulate(const ModelChoice& choice, const Motion& motion, const LubricationForce& force);
+Trajectory simulate(const ModelChoice& choice, const Motion& motion,
+                    const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -5,9 +5,9 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-Trajectory simulate_reference(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force) {
   const double h = motion.parameter(kReferenceTimeStep);
   const double end = motion.end_time;
   const int steps = step_count(end, h);
@@ -35,4 +35,4 @@ Trajectory simulate_reference(const Motion& motion, const LubricationForce& forc
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -6,7 +6,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The drag balances the external force at each instant (Lefebvre 2008, "Couplage F_lub"):
 ///
@@ -16,6 +16,6 @@ namespace viscontact {
 /// f^n is the mean of f_ext over the step and h = reference.time_step. The scheme is of
 /// first order in h, and its film is too thin. Throws Error(kNotConverged) if a step goes through
 /// the wall, and Error(kBadInput) if the motion leaves the fit's interval.
-Trajectory simulate_reference(const Motion& motion, const LubricationForce& force);
+Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -1,9 +1,10 @@
 // The rows of the model `reference_exact`.
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_reference_exact(const Motion& motion,
+                                    const lubrication::LubricationForce& force) {
   Trajectory trajectory;
   const double at_start = force.impulse(motion.initial_gap);
   for (const double t : row_times(motion)) {
@@ -17,4 +18,4 @@ Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

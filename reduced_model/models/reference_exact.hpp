@@ -6,7 +6,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Without inertia, R(q) dq/dt = f_ext integrates to
 ///
@@ -15,6 +15,7 @@ namespace viscontact {
 /// which is solved for q at the time of each row: the multiples of reference.time_step, and
 /// the jumps of f_ext. The velocity is u = f_ext/R(q). Throws Error(kBadInput) if the motion leaves
 /// the fit's interval.
-Trajectory simulate_reference_exact(const Motion& motion, const LubricationForce& force);
+Trajectory simulate_reference_exact(const Motion& motion,
+                                    const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -10,7 +10,7 @@
 #include <map>
 #include <numbers>
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 // Sizes of the drawing [pixels].
@@ -46,8 +46,8 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView
 }
 
 /// Adds the quadratic curve through the ends and the middle of a side, if it is near the window.
-void add_side(std::vector<Polyline>& lines, const CurvedMesh& mesh, const Window& window,
-              const std::array<std::size_t, 3>& side, int pieces) {
+void add_side(std::vector<Polyline>& lines, const freefem_axi::CurvedMesh& mesh,
+              const Window& window, const std::array<std::size_t, 3>& side, int pieces) {
   const auto& start = mesh.nodes[side[0]];
   const auto& end = mesh.nodes[side[1]];
   const auto& middle = mesh.nodes[side[2]];
@@ -73,7 +73,7 @@ double rounded(double value) {
 
 }  // namespace
 
-PlotView surroundings(const CurvedMesh& mesh, double radius, double gap) {
+PlotView surroundings(const freefem_axi::CurvedMesh& mesh, double radius, double gap) {
   constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
   Window fluid;
   for (const auto& [rho, z] : mesh.nodes)
@@ -89,7 +89,7 @@ PlotView surroundings(const CurvedMesh& mesh, double radius, double gap) {
                               std::min(centre + reach, fluid.top + margin)});
 }
 
-PlotView gap_view(const CurvedMesh& mesh, double radius, double gap, double reach) {
+PlotView gap_view(const freefem_axi::CurvedMesh& mesh, double radius, double gap, double reach) {
   constexpr double kOfSphere = 0.9;  // of the radius, at most
   constexpr double kMargin = 0.08;   // of the height
   constexpr double kFlattest = 0.4;  // of a view drawn at equal scales
@@ -118,7 +118,7 @@ Curve mirrored(const std::string& legend, const std::string& style,
   return curve;
 }
 
-std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pieces) {
+std::vector<Polyline> sides(const freefem_axi::CurvedMesh& mesh, const Window& window, int pieces) {
   // Two triangles share a side; the key, the number of its middle, keeps each side once.
   std::map<std::size_t, std::array<std::size_t, 3>> by_middle;
   for (const auto& [v0, v1, v2, m0, m1, m2] : mesh.triangles) {
@@ -131,16 +131,17 @@ std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pi
   return lines;
 }
 
-std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double radius,
-                            double gap) {
+std::vector<Curve> outlines(const freefem_axi::CurvedMesh& mesh, const PlotView& view,
+                            double radius, double gap) {
   const auto& window = view.window;
   // Straight pieces of a side of a triangle, and of the visible part of the sphere.
   constexpr int kPieces = 6, kSamples = 200;
   std::vector<Polyline> walls, shear_free;
   for (const auto& edge : mesh.boundary) {
-    if (edge.kind == BoundaryKind::kWall || edge.kind == BoundaryKind::kShearFree)
-      add_side(edge.kind == BoundaryKind::kShearFree ? shear_free : walls, mesh, window, edge.nodes,
-               kPieces);
+    if (edge.kind == freefem_axi::BoundaryKind::kWall ||
+        edge.kind == freefem_axi::BoundaryKind::kShearFree)
+      add_side(edge.kind == freefem_axi::BoundaryKind::kShearFree ? shear_free : walls, mesh,
+               window, edge.nodes, kPieces);
   }
   // The part of the sphere that is in the window, as a curve that is closed far above the window.
   Curve sphere{
@@ -165,7 +166,7 @@ std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double
   return curves;
 }
 
-Curve streamlines(const Flow& flow, const PlotView& view) {
+Curve streamlines(const freefem_axi::Flow& flow, const PlotView& view) {
   constexpr int kLines = 14;  // about, on each side
   std::vector<std::array<double, 2>> gradient;
   for (std::size_t i = 0; i < flow.velocity.size(); ++i)
@@ -187,4 +188,4 @@ Curve streamlines(const Flow& flow, const PlotView& view) {
                   "lines linewidth 1 linecolor rgb '#202020'", thinned(lines, view));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -7,7 +7,7 @@
 #include "viscontact/report/flow/triangle_fields.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// The part of the half-plane that a picture shows, and its size in the picture.
 struct PlotView {
@@ -20,26 +20,27 @@ struct PlotView {
 /// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
 /// the axis and is at most 12 radii high, otherwise the fluid within 3.2 radii of the sphere's
 /// centre.
-PlotView surroundings(const CurvedMesh& mesh, double radius, double gap);
+PlotView surroundings(const freefem_axi::CurvedMesh& mesh, double radius, double gap);
 
 /// Half the width of a gap's view, in units of sqrt(2 gap radius), the width of the middle of the
 /// film. There, the film over a plane is about 7 times as thick as in its middle.
 inline constexpr double kGapReach = 2.5;
 
-PlotView gap_view(const CurvedMesh& mesh, double radius, double gap, double reach = kGapReach);
+PlotView gap_view(const freefem_axi::CurvedMesh& mesh, double radius, double gap,
+                  double reach = kGapReach);
 
 /// One curve, with interruptions, of the lines in rho >= 0 and their mirror images.
 Curve mirrored(const std::string& legend, const std::string& style,
                const std::vector<Polyline>& lines);
 
 /// The sides of the triangles near the window, each as `pieces` straight pieces.
-std::vector<Polyline> sides(const CurvedMesh& mesh, const Window& window, int pieces);
+std::vector<Polyline> sides(const freefem_axi::CurvedMesh& mesh, const Window& window, int pieces);
 
 /// The sphere as a filled surface, and the walls and the neighbour as lines.
-std::vector<Curve> outlines(const CurvedMesh& mesh, const PlotView& view, double radius,
-                            double gap);
+std::vector<Curve> outlines(const freefem_axi::CurvedMesh& mesh, const PlotView& view,
+                            double radius, double gap);
 
 /// Streamlines at equal steps of the stream function.
-Curve streamlines(const Flow& flow, const PlotView& view);
+Curve streamlines(const freefem_axi::Flow& flow, const PlotView& view);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -15,7 +15,7 @@
 #include "viscontact/report/flow/triangle_fields.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 // Margins of the drawing [pixels].
@@ -24,7 +24,8 @@ constexpr double kColourBar = 165;  // at the right, with its numbers
 constexpr double kNoColourBar = 30;
 
 /// An arrow on the visible part of the sphere, in the direction of its velocity.
-std::string velocity_arrow(const ForceTableRow& row, double radius, const Window& window) {
+std::string velocity_arrow(const lubrication::ForceTableRow& row, double radius,
+                           const Window& window) {
   constexpr double kLength = 0.4;  // in heights of the visible part
   const double top = std::min(row.gap + 2 * radius, window.top);
   const double middle = (row.gap + top) / 2;
@@ -50,17 +51,17 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
           "fillstyle solid noborder"};
 }
 
-Panel empty_panel(const std::string& what, const RowPicture& picture, const Tabulation& tabulation,
-                  const PlotView& view) {
+Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
+                  const freefem_axi::Tabulation& tabulation, const PlotView& view) {
   constexpr double kVisible = 1.05;
   Panel panel;
-  const auto container = container_in_words(tabulation);
+  const auto container = freefem_axi::container_in_words(tabulation);
   panel.title = fmt::format(
       "{} {:.6g} of a sphere of radius {:.6g} at velocity {:.6g}{}\n{}{}", what, picture.row.gap,
       tabulation.radius, picture.row.reference_velocity,
       view.stretch() > kVisible ? fmt::format(" (heights stretched {:.3g} times)", view.stretch())
                                 : "",
-      geometry_in_words(tabulation), container == "none" ? "" : "; " + container);
+      freefem_axi::geometry_in_words(tabulation), container == "none" ? "" : "; " + container);
   panel.x_label = "distance from the axis (the case's unit of length)";
   panel.y_label = "height (the case's unit of length)";
   return panel;
@@ -96,9 +97,10 @@ ColourField colour_field(const LinearField& values, const PlotView& view) {
   return field;
 }
 
-std::string plot_pressure_and_streamlines(const std::string& what, const RowPicture& picture,
-                                          const Tabulation& tabulation, const PlotView& view,
-                                          const ColourField& pressure,
+std::string plot_pressure_and_streamlines(const std::string& what,
+                                          const freefem_axi::RowPicture& picture,
+                                          const freefem_axi::Tabulation& tabulation,
+                                          const PlotView& view, const ColourField& pressure,
                                           const PressureColours& colours, const StopToken& stop) {
   Panel panel = empty_panel(what, picture, tabulation, view);
   panel.field = pressure;
@@ -113,8 +115,8 @@ std::string plot_pressure_and_streamlines(const std::string& what, const RowPict
 
 }  // namespace
 
-std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation,
-                      const StopToken& stop) {
+std::string plot_mesh(const freefem_axi::RowPicture& picture,
+                      const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   // Straight pieces of a side of the coarsest mesh; a side of the finest mesh has a quarter of
   // them.
   constexpr int kPieces = 8;
@@ -144,8 +146,8 @@ std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation,
   return draw(panel, view, kNoColourBar, stop);
 }
 
-std::string plot_flow(const RowPicture& picture, const Tabulation& tabulation,
-                      const StopToken& stop) {
+std::string plot_flow(const freefem_axi::RowPicture& picture,
+                      const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto& flow = picture.flow;
   const auto view = surroundings(flow.mesh, tabulation.radius, picture.row.gap);
   const auto field = straightened(flow.mesh, flow.pressure, view.window);
@@ -159,8 +161,8 @@ std::string plot_flow(const RowPicture& picture, const Tabulation& tabulation,
                                        stop);
 }
 
-std::string plot_gap_flow(const RowPicture& picture, const Tabulation& tabulation,
-                          const StopToken& stop) {
+std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
+                          const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto& flow = picture.flow;
   const auto view = gap_view(flow.mesh, tabulation.radius, picture.row.gap);
   const auto pressure = colour_field(straightened(flow.mesh, flow.pressure, view.window), view);
@@ -168,4 +170,4 @@ std::string plot_gap_flow(const RowPicture& picture, const Tabulation& tabulatio
                                        proportional_colours(pressure.values), stop);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

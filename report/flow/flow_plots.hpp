@@ -7,7 +7,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/row_picture.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// Each function returns one SVG in the units of the case. The half-plane is mirrored about the
 /// axis, so that the whole sphere is seen. If the gap is thin, heights are drawn larger than
@@ -16,16 +16,16 @@ namespace viscontact {
 
 /// The finest mesh in the gap, and on it the coarsest mesh, each triangle of which was divided into
 /// 16 or more triangles of the finest mesh.
-std::string plot_mesh(const RowPicture& picture, const Tabulation& tabulation,
-                      const StopToken& stop = {});
+std::string plot_mesh(const freefem_axi::RowPicture& picture,
+                      const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
 /// Pressure as colours, and streamlines at equal steps of the stream function, within about three
 /// radii of the sphere's centre. A container that is not much larger is shown whole.
-std::string plot_flow(const RowPicture& picture, const Tabulation& tabulation,
-                      const StopToken& stop = {});
+std::string plot_flow(const freefem_axi::RowPicture& picture,
+                      const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
 /// Pressure and streamlines in the gap.
-std::string plot_gap_flow(const RowPicture& picture, const Tabulation& tabulation,
-                          const StopToken& stop = {});
+std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
+                          const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::report

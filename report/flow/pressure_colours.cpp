@@ -10,7 +10,7 @@
 
 #include "viscontact/report/pictures/colours.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 /// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, which colour-blind readers tell
@@ -121,4 +121,4 @@ PressureColours robust_colours(const std::vector<double>& pixels, double usual) 
   return widened(colours);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// A scale that is blue below 0, white at 0 and red above 0. It is proportional to the pressure, or
 /// to asinh(pressure / linear_below), which is linear for small and logarithmic for large
@@ -31,4 +31,4 @@ PressureColours proportional_colours(const std::vector<double>& pressures);
 /// above about `usual`.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

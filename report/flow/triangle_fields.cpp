@@ -7,7 +7,7 @@
 #include <limits>
 #include <unordered_map>
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using Index = std::uint32_t;
@@ -19,7 +19,8 @@ std::uint64_t pair_key(Index a, Index b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
 }
 
-bool touches(const Window& window, const CurvedMesh& mesh, const CurvedMesh::Triangle& triangle) {
+bool touches(const Window& window, const freefem_axi::CurvedMesh& mesh,
+             const freefem_axi::CurvedMesh::Triangle& triangle) {
   Window box{window.right, window.left, window.top, window.bottom};
   for (const auto node : triangle) {
     const auto& [rho, z] = mesh.nodes[node];
@@ -69,7 +70,7 @@ constexpr std::array<std::array<std::size_t, 3>, 16> kSixteen = {{{0, 6, 11},
 
 }  // namespace
 
-LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
+LinearField straightened(const freefem_axi::CurvedMesh& mesh, const std::vector<double>& values,
                          const Window& window, const std::vector<std::array<double, 2>>& gradient) {
   LinearField field;
   std::unordered_map<std::size_t, Index> numbers;        // point of each node
@@ -253,4 +254,4 @@ std::vector<Polyline> level_lines(const LinearField& field, double level) {
   return lines;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

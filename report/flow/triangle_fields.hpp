@@ -9,7 +9,7 @@
 
 #include "viscontact/freefem_axi/row_picture.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// A rectangle of the half-plane or of its mirror image [L].
 struct Window {
@@ -30,7 +30,7 @@ struct LinearField {
 /// `gradient` is not empty, it is the gradient at the nodes; then the field is the cubic Hermite
 /// interpolant along the lines between neighbouring nodes, and its level lines have no corners
 /// where the gradient is small.
-LinearField straightened(const CurvedMesh& mesh, const std::vector<double>& values,
+LinearField straightened(const freefem_axi::CurvedMesh& mesh, const std::vector<double>& values,
                          const Window& window,
                          const std::vector<std::array<double, 2>>& gradient = {});
 
@@ -48,4 +48,4 @@ using Polyline = std::vector<std::pair<double, double>>;
 /// The lines on which the field equals `level`, joined across triangles.
 std::vector<Polyline> level_lines(const LinearField& field, double level);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace viscontact {
+namespace viscontact::report {
 
 std::string escaped(std::string_view text) {
   std::string result;
@@ -45,11 +45,12 @@ std::string as_url(const std::string& file) {
 
 }  // namespace
 
-std::string link_to(const RunFolder& run, const std::string& file, std::string_view words) {
+std::string link_to(const results::RunFolder& run, const std::string& file,
+                    std::string_view words) {
   const std::string text = escaped(words.empty() ? file : words);
   return std::filesystem::exists(run.path / file)
              ? fmt::format("<a href=\"{}\">{}</a>", escaped(as_url(file)), text)
              : text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

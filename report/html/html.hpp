@@ -6,7 +6,7 @@
 
 #include "viscontact/results/run_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// The text with the special characters of HTML escaped.
 std::string escaped(std::string_view text);
@@ -17,7 +17,8 @@ std::string section(std::string_view heading, const std::string& body);
 /// A link from the report to a file of the run. `file` is relative to the run's folder; `words` is
 /// the text of the link, by default the file's name. If there is no such file, the text without a
 /// link.
-std::string link_to(const RunFolder& run, const std::string& file, std::string_view words = {});
+std::string link_to(const results::RunFolder& run, const std::string& file,
+                    std::string_view words = {});
 
 /// A row "<tr><td>a</td><td>b</td></tr>"; the cells must be HTML already.
 template <class... Cells>
@@ -27,4 +28,4 @@ std::string table_row(const Cells&... cells) {
   return row + "</tr>\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

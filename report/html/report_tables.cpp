@@ -15,10 +15,10 @@
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/versions.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
-std::string trust(const FitDiagnostics& d) {
+std::string trust(const lubrication::FitDiagnostics& d) {
   std::string text;
   if (d.leave_one_out_rms)
     text += fmt::format("Each row predicted from the others: root mean square {:.3g}",
@@ -38,7 +38,7 @@ std::string trust(const FitDiagnostics& d) {
     text += fmt::format(
         "Chi-squared against the table's error estimates: {:.3g} for {} degrees of freedom{}.",
         *d.chi_squared, d.degrees_of_freedom,
-        d.misfit == Misfit::kBasis
+        d.misfit == lubrication::Misfit::kBasis
             ? ": the misfit is the basis's, and the standard errors take it for noise"
             : "");
   if (!text.empty()) text = "<p>" + text + "</p>\n";
@@ -49,12 +49,12 @@ std::string trust(const FitDiagnostics& d) {
 }
 
 /// The name of a model as a link to its trajectory.
-std::string model_link(const RunResults& run, const std::string& model) {
+std::string model_link(const results::RunResults& run, const std::string& model) {
   return link_to(run.folder, "trajectories/" + model + ".csv", model);
 }
 
-std::string drag_in_words(const RunResults& run) {
-  const Fit& fit = run.fit;
+std::string drag_in_words(const results::RunResults& run) {
+  const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty()) return "Brenner's exact series, nothing fitted";
   return fmt::format("{}, gaps from {:.4g} to {:.4g}",
                      fit.table_sha256.empty() ? "a given fit" : "a fit", fit.gap_interval[0],
@@ -68,9 +68,9 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
-std::optional<Provenance> provenance_or_none(const std::filesystem::path& path) {
+std::optional<results::Provenance> provenance_or_none(const std::filesystem::path& path) {
   try {
-    return read_provenance(path);
+    return results::read_provenance(path);
   } catch (const Error&) {
     return {};
   }
@@ -82,9 +82,9 @@ std::string hash_cell(const std::string& sha256) {
 
 }  // namespace
 
-std::string parameters_table(const RunResults& run) {
-  const Case& c = run.c;
-  const auto& motion = required_motion(c);
+std::string parameters_table(const results::RunResults& run) {
+  const case_file::Case& c = run.c;
+  const auto& motion = case_file::required_motion(c);
   std::string rows;
   const auto add = [&](std::string_view name, const std::string& value,
                        std::string_view dimension) { rows += table_row(name, value, dimension); };
@@ -97,7 +97,7 @@ std::string parameters_table(const RunResults& run) {
   add("end time", number(motion.end_time), "T");
   add("roughness of sphere and plane",
       fmt::format("{}, {}", motion.roughness[0], motion.roughness[1]), "L");
-  for (const auto& parameter : model_parameters())
+  for (const auto& parameter : reduced_model::model_parameters())
     add(parameter.description, number(motion.parameter(parameter)), parameter.dimension);
   add("external force", link_to(run.folder, "plots/external_force.svg", "over time"),
       "M L T<sup>-2</sup>");
@@ -117,7 +117,7 @@ std::string parameters_table(const RunResults& run) {
       link_to(run.folder, "case.toml"), rows);
 }
 
-std::string models_table(const RunResults& run) {
+std::string models_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models)
     rows += table_row(
@@ -144,12 +144,12 @@ std::string models_table(const RunResults& run) {
       escaped(run.comparison.reference_model), rows, link_to(run.folder, "comparison.json"));
 }
 
-std::string budget_table(const RunResults& run) {
+std::string budget_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models) {
     if (!model.budget) continue;
     rows += "<tr><td>" + model_link(run, model.model) + "</td>";
-    for (const auto& entry : kBudgetEntries)
+    for (const auto& entry : reduced_model::kBudgetEntries)
       rows += fmt::format("<td>{:.5g}</td>", (*model.budget).*entry.value);
     rows += "</tr>\n";
   }
@@ -164,8 +164,8 @@ std::string budget_table(const RunResults& run) {
       link_to(run.folder, "comparison.json"));
 }
 
-std::string fit_table(const RunResults& run) {
-  const Fit& fit = run.fit;
+std::string fit_table(const results::RunResults& run) {
+  const lubrication::Fit& fit = run.fit;
   if (fit.terms.empty())
     return "<p>The exact drag of a sphere near a plane in a half-space (Brenner 1961): nothing is "
            "fitted.</p>\n";
@@ -179,13 +179,14 @@ std::string fit_table(const RunResults& run) {
              "<div class=scroll><table><thead><tr><th>term</th><th>coefficient</th><th>standard "
              "error</th></tr></thead><tbody>\n{}</tbody></table></div>\n<p class=source>From "
              "{}{}.</p>\n",
-             fit.reference_velocity, to_string(fit.weights), fit.largest_relative_residual,
-             fit.rms_relative_residual, fit.condition_number, rows, link_to(run.folder, "fit.json"),
+             fit.reference_velocity, lubrication::to_string(fit.weights),
+             fit.largest_relative_residual, fit.rms_relative_residual, fit.condition_number, rows,
+             link_to(run.folder, "fit.json"),
              run.table ? ", the table in " + link_to(run.folder, "table.csv") : "") +
          (fit.diagnostics ? trust(*fit.diagnostics) : "");
 }
 
-std::string uncertainty_words(const RunResults& run) {
+std::string uncertainty_words(const results::RunResults& run) {
   if (!run.uncertainty) return "";
   const auto& smallest = run.uncertainty->smallest;
   return fmt::format(
@@ -198,9 +199,9 @@ std::string uncertainty_words(const RunResults& run) {
       smallest.misfit[1], link_to(run.folder, "uncertainty.json"));
 }
 
-std::string origin_section(const RunResults& run) {
+std::string origin_section(const results::RunResults& run) {
   std::string made, inputs;
-  auto versions = library_versions();
+  auto versions = results::library_versions();
   versions.insert(run.fit.versions.begin(), run.fit.versions.end());
   if (run.table) versions.insert(run.table->versions.begin(), run.table->versions.end());
   std::vector<std::string> files;
@@ -239,4 +240,4 @@ std::string origin_section(const RunResults& run) {
   return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -8,7 +8,7 @@
 
 #include "viscontact/report/pictures/colours.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 double lowest_gamma(const particles::Playback& playback) {
   double lowest = 0;
@@ -52,4 +52,4 @@ std::string film_tick_text(double tick) {
   return fmt::format("{}{:.3g}", tick < 0 ? "−" : "", std::abs(tick));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -7,7 +7,7 @@
 
 #include "viscontact/particles/io/playback.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// The most negative gamma of all frames; 0 if no contact has gamma < 0.
 double lowest_gamma(const particles::Playback& playback);
@@ -27,4 +27,4 @@ std::string film_tick_text(double tick);
 inline constexpr const char* kFilmWords = "gamma: what the film remembers [mass × length/time]";
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -13,7 +13,7 @@
 
 #include "viscontact/report/particles/film_colours.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using particles::Frame;
@@ -206,4 +206,4 @@ std::string frame_picture(const PanelSettings& panel, const Frame& frame) {
   return panel.playback.dimension == 2 ? discs(panel, frame) : spheres(panel, frame);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

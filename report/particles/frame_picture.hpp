@@ -7,7 +7,7 @@
 
 #include "viscontact/report/particles/view_box.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// Projects points to page coordinates (y downwards) of a panel whose upper left corner is the
 /// origin.
@@ -40,4 +40,4 @@ inline constexpr int kContactColours = 20;  ///< for gamma < 0
 /// The elements of a panel that shows the frame.
 std::string frame_picture(const PanelSettings& panel, const particles::Frame& frame);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

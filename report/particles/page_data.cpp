@@ -12,7 +12,7 @@
 
 #include "viscontact/report/particles/view_box.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using particles::Playback;
@@ -194,4 +194,4 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

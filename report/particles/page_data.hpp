@@ -9,7 +9,7 @@
 
 #include "viscontact/particles/io/playback.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 using Bytes = std::vector<unsigned char>;
 
@@ -34,4 +34,4 @@ PageData page_data(const particles::Playback& playback, double lowest_gamma);
 /// The bytes in base64 (RFC 4648).
 std::string base64(const Bytes& bytes);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

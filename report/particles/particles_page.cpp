@@ -11,7 +11,7 @@
 #include "viscontact/report/particles/page_data.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using particles::Playback;
@@ -118,4 +118,4 @@ std::string particles_page(const Playback& playback, const std::string& title) {
   return page;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -14,7 +14,7 @@
 #include "viscontact/report/particles/frame_picture.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using particles::dot;
@@ -165,4 +165,4 @@ std::string particles_picture(const Playback& playback, const std::string& title
   return svg + "</svg>\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

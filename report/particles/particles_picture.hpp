@@ -6,7 +6,7 @@
 
 #include "viscontact/particles/io/playback.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// An SVG with `panels` (1 to 6, at most the number of frames) states at evenly spaced times, side
 /// by side at the same scale. The first and the last frame are among them; with one panel it is the
@@ -15,4 +15,4 @@ namespace viscontact {
 std::string particles_picture(const particles::Playback& playback, const std::string& title,
                               int panels);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using particles::dot;
@@ -122,4 +122,4 @@ Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
   return polygon;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -9,7 +9,7 @@
 
 #include "viscontact/particles/io/playback.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// An interval along an axis [L]; empty if low > high.
 struct Interval {
@@ -44,4 +44,4 @@ Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<particles::PlanePosition>& planes, std::size_t own,
                         int dimension);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace viscontact {
+namespace viscontact::report {
 
 std::string colour_between(std::span<const ColourNode> nodes, double place) {
   std::size_t i = 1;
@@ -19,4 +19,4 @@ std::string colour_between(std::span<const ColourNode> nodes, double place) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// Colours that colour-blind readers tell apart (Okabe & Ito 2008).
 inline constexpr const char* kBlack = "#000000";
@@ -26,4 +26,4 @@ struct ColourNode {
 /// places.
 std::string colour_between(std::span<const ColourNode> nodes, double place);
 
-}  // namespace viscontact
+}  // namespace viscontact::report

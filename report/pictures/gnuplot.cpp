@@ -11,7 +11,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 std::string data_block(const std::string& name, const Curve& curve) {
@@ -134,4 +134,4 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
   return result.output.substr(start, end + 6 - start) + "\n";
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -9,7 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// The error that gnuplot is not installed or cannot be started.
 class GnuplotMissing : public Error {
@@ -53,4 +53,4 @@ std::string quoted_for_gnuplot(const std::string& text);
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -7,9 +7,9 @@
 
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
-std::string plot_wall_shift(const WallShift& shift, const std::string& wall,
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const StopToken& stop) {
   Curve own{
       "shift of the row alone", "points pointtype 7 pointsize 0.7 linecolor rgb '#0072B2'", {}};
@@ -53,4 +53,4 @@ std::string plot_wall_shift(const WallShift& shift, const std::string& wall,
   return draw_svg({shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

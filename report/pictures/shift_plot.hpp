@@ -7,12 +7,12 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/fitting/wall_shift.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// An SVG element with two panels over the gap: the shift of each row beside the common shift [L],
 /// and the relative residuals with the common shift. `wall` names the wall in the title. Throws
 /// Error(kExternalProgram) if gnuplot is missing or fails.
-std::string plot_wall_shift(const WallShift& shift, const std::string& wall,
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
                             const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -18,7 +18,7 @@
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -248,4 +248,4 @@ std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot&
   return plot.y.empty() ? plot_lines(sweep_file, plot, stop) : plot_map(sweep_file, plot, stop);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report

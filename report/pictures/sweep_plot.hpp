@@ -7,7 +7,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// What to draw. A column is a column of the file, or "COLUMN/KEY" for its quotient by a key that
 /// the sweep varies.
@@ -24,4 +24,4 @@ struct SweepPlot {
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        const StopToken& stop = {});
 
-}  // namespace viscontact
+}  // namespace viscontact::report

@@ -9,7 +9,7 @@
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::AllOf;
@@ -102,4 +102,4 @@ TEST(DamagedCaseFile, IsNeverMoreThanBadInputWhateverByteIsWrong) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

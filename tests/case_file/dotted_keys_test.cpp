@@ -9,7 +9,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/case_file/particles_case.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(DottedKeys, OfTheLongestLengthInNestedTablesAreRead) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

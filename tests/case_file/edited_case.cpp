@@ -8,7 +8,7 @@
 #include "tests/common/failure.hpp"
 #include "viscontact/common/files/file.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 int line_at(const std::string& text, std::size_t position) {
@@ -87,4 +87,4 @@ void expect_refused(const EditedCase& edited, const std::string& path, const std
             HasSubstr(words)));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -7,7 +7,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/case_file/case_file.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 
 /// A key of data/cases/lecture.toml as it stands there.
 struct LectureKey {
@@ -43,4 +43,4 @@ Case read_text(const std::string& text);
 /// `words`.
 void expect_refused(const EditedCase& edited, const std::string& path, const std::string& words);
 
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -5,7 +5,7 @@
 
 #include "tests/case_file/edited_case.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::ElementsAre;
@@ -62,4 +62,4 @@ TEST(Gaps, MustLeaveTheSphereRoomInTheContainer) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

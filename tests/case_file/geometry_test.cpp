@@ -6,7 +6,7 @@
 
 #include "tests/case_file/edited_case.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::ElementsAre;
@@ -30,14 +30,14 @@ EditedCase with_geometry_and_container(const std::string& geometry, const std::s
   return edited;
 }
 
-Tabulation tabulation_of(const EditedCase& edited) {
+freefem_axi::Tabulation tabulation_of(const EditedCase& edited) {
   return required_tabulation(read_text(edited.text));
 }
 
 TEST(Container, MayBeUnbounded) {
   const auto tabulation = tabulation_of(with_value(kContainer, "\"unbounded\""));
   EXPECT_FALSE(tabulation.container.has_value());
-  EXPECT_EQ(container_in_words(tabulation), "unbounded");
+  EXPECT_EQ(freefem_axi::container_in_words(tabulation), "unbounded");
 }
 
 TEST(Container, IsUnboundedByThatWordAlone) {
@@ -213,4 +213,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

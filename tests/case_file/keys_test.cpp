@@ -11,7 +11,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 enum class Kind { kNumber, kCount, kText, kNumbers, kTable, kTables };
@@ -287,4 +287,4 @@ TEST(CaseCounts, SayThatADecimalPointIsNotAllowed) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -11,7 +11,7 @@
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using particles::CurrentContact;
@@ -170,4 +170,4 @@ TEST(Settling, DiscsLoseTheEnergyOfTheirFallInTheBox) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -11,7 +11,7 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::DoubleEq;
@@ -51,9 +51,9 @@ TEST(LecturesCase, TabulatesFortyGapsInTheLargeContainer) {
 TEST(ShippedTables, AreThoseOfTheirCases) {
   for (const std::string name : {"lecture", "plane", "free_surface", "equal_spheres"}) {
     const Case c = shipped((name + ".toml").c_str());
-    const auto table =
-        read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" + name + ".csv");
-    EXPECT_EQ(table.case_hash, tabulation_hash(required_tabulation(c))) << name;
+    const auto table = lubrication::read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) +
+                                                     "/data/tables/" + name + ".csv");
+    EXPECT_EQ(table.case_hash, freefem_axi::tabulation_hash(required_tabulation(c))) << name;
     for (const auto& row : table.rows)
       EXPECT_LE(row.relative_error_estimate, required_tabulation(c).relative_accuracy)
           << name << ", gap " << row.gap;
@@ -64,7 +64,7 @@ TEST(LecturesCase, FitsTheLecturesBasis) {
   const Case c = shipped("lecture.toml");
   const auto& fit = required_fit(c);
   EXPECT_EQ(fit.settings.basis.name, "lecture");
-  EXPECT_EQ(fit.settings.weights, Weights::kRelative);
+  EXPECT_EQ(fit.settings.weights, lubrication::Weights::kRelative);
   EXPECT_FALSE(fit.file.has_value());
 }
 
@@ -77,11 +77,11 @@ TEST(LecturesCase, PushesForTwoAndPullsForTwo) {
   EXPECT_EQ(motion.external_force.value(0), -200);
   EXPECT_EQ(motion.external_force.value(2), 200);
   EXPECT_THAT(motion.external_force.jumps(), ElementsAre(2));
-  EXPECT_EQ(motion.parameter(kReferenceTimeStep), 1e-3);
-  EXPECT_EQ(motion.parameter(kRelativeTolerance), 1e-9);
-  EXPECT_EQ(motion.parameter(kContactTimeStep), 1e-3);
+  EXPECT_EQ(motion.parameter(reduced_model::kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(motion.parameter(reduced_model::kRelativeTolerance), 1e-9);
+  EXPECT_EQ(motion.parameter(reduced_model::kContactTimeStep), 1e-3);
   EXPECT_THAT(motion.roughness, ElementsAre(0, 0));
-  EXPECT_EQ(motion.parameter(kThresholdGap), 0.1);
+  EXPECT_EQ(motion.parameter(reduced_model::kThresholdGap), 0.1);
   EXPECT_THAT(c.models, IsEmpty());
 }
 
@@ -112,7 +112,7 @@ TEST(LimitCase, IsTheLecturesWithMuOfOneTenth) {
 TEST(LimitCase, GoesWithAFitOfKOverQAlone) {
   const Case c = shipped("limit.toml");
   ASSERT_TRUE(required_fit(c).file.has_value());
-  const LubricationForce force(read_fit(*c.fit->file));
+  const lubrication::LubricationForce force(lubrication::read_fit(*c.fit->file));
   EXPECT_EQ(force.leading_coefficient(), 0.1);
   EXPECT_EQ(force.viscosity(), c.viscosity);
   EXPECT_EQ(force.radius(), c.radius);
@@ -131,4 +131,4 @@ TEST(ShippedCases, AreAllRead) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

@@ -9,7 +9,7 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
-namespace viscontact {
+namespace viscontact::case_file {
 namespace {
 
 using ::testing::AllOf;
@@ -40,9 +40,9 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
   };
   auto read =
       settings("terms = \"1/q, ln q, 1\"\nweights = \"relative\"\nloss = \"huber\"\nfix = 56.5\n");
-  EXPECT_EQ(read.basis.name, kOwnTerms);
+  EXPECT_EQ(read.basis.name, lubrication::kOwnTerms);
   EXPECT_EQ(read.basis.terms.size(), 3U);
-  EXPECT_EQ(read.loss, Loss::kHuber);
+  EXPECT_EQ(read.loss, lubrication::Loss::kHuber);
   EXPECT_TRUE(read.fix_leading);
   EXPECT_EQ(read.leading_value, 56.5);
   read = settings("basis = \"lecture\"\nweights = \"relative\"\nfix = \"theory\"\n");
@@ -50,7 +50,7 @@ TEST(FitSection, MayNameOwnTermsALossAndAHeldCoefficient) {
   EXPECT_FALSE(read.leading_value.has_value());
   read = settings(kFitKeys);
   EXPECT_FALSE(read.fix_leading);
-  EXPECT_EQ(read.loss, Loss::kSquared);
+  EXPECT_EQ(read.loss, lubrication::Loss::kSquared);
 }
 
 TEST(FitSection, RefusesWhatItDoesNotKnow) {
@@ -135,8 +135,8 @@ TEST(TimeScale, DrawsOutForceEndAndSteps) {
   const Case c = read_text(text);
   const auto& motion = required_motion(c);
   EXPECT_EQ(motion.end_time, 10);
-  EXPECT_EQ(motion.parameter(kReferenceTimeStep), 2.5e-3);
-  EXPECT_EQ(motion.parameter(kContactTimeStep), 2.5e-3);
+  EXPECT_EQ(motion.parameter(reduced_model::kReferenceTimeStep), 2.5e-3);
+  EXPECT_EQ(motion.parameter(reduced_model::kContactTimeStep), 2.5e-3);
   EXPECT_EQ(motion.external_force.value(4.9), -200);
   EXPECT_EQ(motion.external_force.value(5.1), 200);
   EXPECT_EQ(motion.external_force.impulse(10), 0);
@@ -154,8 +154,8 @@ TEST(FitOfACase, MayReachBeyondItsInterval) {
   };
   const Case c =
       read_text(with_limits("below = \"theory_limit\"\nabove = \"stokes_limit\"\n").text);
-  EXPECT_EQ(required_fit(c).below, BelowInterval::kTheoryLimit);
-  EXPECT_EQ(required_fit(c).above, AboveInterval::kStokesLimit);
+  EXPECT_EQ(required_fit(c).below, lubrication::BelowInterval::kTheoryLimit);
+  EXPECT_EQ(required_fit(c).above, lubrication::AboveInterval::kStokesLimit);
   auto refused = with_limits("below = \"no\"\n");
   ++refused.line;
   expect_refused(refused, "fit.below", "\"lubrication_limit\" or \"theory_limit\"");
@@ -249,25 +249,25 @@ TEST(CaseParts, NumericalSettingsHaveDefaults) {
   ASSERT_TRUE(c.motion);
   // docs/case-file.md: end_time/4000, 1e-9, smooth, a tenth of the smaller of radius and initial
   // gap.
-  EXPECT_EQ(c.motion->parameter(kReferenceTimeStep), 1e-3);
-  EXPECT_EQ(c.motion->parameter(kContactTimeStep), 1e-3);
-  EXPECT_EQ(c.motion->parameter(kRelativeTolerance), 1e-9);
+  EXPECT_EQ(c.motion->parameter(reduced_model::kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(c.motion->parameter(reduced_model::kContactTimeStep), 1e-3);
+  EXPECT_EQ(c.motion->parameter(reduced_model::kRelativeTolerance), 1e-9);
   EXPECT_THAT(c.motion->roughness, ElementsAre(0, 0));
-  EXPECT_EQ(c.motion->parameter(kThresholdGap), 0.1);
+  EXPECT_EQ(c.motion->parameter(reduced_model::kThresholdGap), 0.1);
   // One key of a section leaves the others at their defaults.
   const Case thin = read_text(text + "[viscous_contact]\ntime_step = 2e-3\n");
-  EXPECT_EQ(thin.motion->parameter(kContactTimeStep), 2e-3);
-  EXPECT_EQ(thin.motion->parameter(kReferenceTimeStep), 1e-3);
-  EXPECT_EQ(thin.motion->parameter(kThresholdGap), 0.1);
+  EXPECT_EQ(thin.motion->parameter(reduced_model::kContactTimeStep), 2e-3);
+  EXPECT_EQ(thin.motion->parameter(reduced_model::kReferenceTimeStep), 1e-3);
+  EXPECT_EQ(thin.motion->parameter(reduced_model::kThresholdGap), 0.1);
   // A sphere that starts near the plane starts above its threshold, too.
   const auto near = text.replace(text.find("initial_gap = 1.0"), 17, "initial_gap = 0.02");
-  EXPECT_EQ(read_text(near).motion->parameter(kThresholdGap), 0.002);
+  EXPECT_EQ(read_text(near).motion->parameter(reduced_model::kThresholdGap), 0.002);
 }
 
 TEST(CaseParts, FitIsTheLecturesByDefault) {
   const Case c = read_text(with_text("basis = \"lecture\"", "").text);
   EXPECT_EQ(c.fit->settings.basis.name, "lecture");
-  EXPECT_EQ(c.fit->settings.weights, Weights::kRelative);
+  EXPECT_EQ(c.fit->settings.weights, lubrication::Weights::kRelative);
 }
 
 TEST(CaseParts, MayAllBeLeftOutButTheFluidAndTheSphere) {
@@ -277,4 +277,4 @@ TEST(CaseParts, MayAllBeLeftOutButTheFluidAndTheSphere) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::case_file

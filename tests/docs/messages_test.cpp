@@ -84,7 +84,7 @@ TEST(Troubleshooting, QuotesMessagesThatAreInTheSource) {
 
 TEST(CommandLine, ListsTheExitCodesOfTheProgram) {
   const std::string page = read_file(kSource / "docs/command-line.md");
-  for (const auto& [kind, code, meaning] : exit_codes())
+  for (const auto& [kind, code, meaning] : results::exit_codes())
     EXPECT_THAT(page, ::testing::HasSubstr(fmt::format("\n| {} | {}", code, meaning)));
 }
 

@@ -47,14 +47,14 @@ void run_extended(std::vector<std::string> arguments) {
 }
 
 /// The table of a floor with that slip length in unbounded fluid, r = 1, at accuracy 1e-5.
-ForceTable slip_table(const fs::path& folder, const std::string& slip_length,
-                      const std::string& gaps) {
+lubrication::ForceTable slip_table(const fs::path& folder, const std::string& slip_length,
+                                   const std::string& gaps) {
   write_case(folder / "slip.toml",
              {{"gaps", gaps},
               {"container", "\"unbounded\""},
               {"geometry", "{ kind = \"slip_plane\", slip_length = " + slip_length + " }"}});
   run_extended({"tabulate", (folder / "slip.toml").string(), "-o", (folder / "slip.csv").string()});
-  return read_force_table(folder / "slip.csv");
+  return lubrication::read_force_table(folder / "slip.csv");
 }
 
 TEST(ExtendedGeometry, LittleSlipIsNone) {
@@ -126,8 +126,8 @@ double smallest_gap(const std::string& time_step, const std::string& sections = 
   const TemporaryFolder folder;
   run_extended(simulate_log(folder.path(), time_step, sections));
   const auto trajectory =
-      read_trajectory(folder.path() / "run/trajectories/reference_log_brenner.csv");
-  return std::ranges::min(trajectory.rows, {}, &TrajectoryRow::gap).gap;
+      reduced_model::read_trajectory(folder.path() / "run/trajectories/reference_log_brenner.csv");
+  return std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
 }
 
 constexpr double kExactSmallestGap = 2.97084661e-3;  // docs/theory.md

@@ -6,23 +6,23 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::HasSubstr;
 
 TEST(CompareBases, FitsEveryBasisAndNamesTheOneOfLeastCriterion) {
   const auto results = compare_bases(exact_drag_table(fifty_gaps(), {-1}, 3, 1), {});
-  ASSERT_EQ(results.size(), all_bases().size());
+  ASSERT_EQ(results.size(), lubrication::all_bases().size());
   for (const auto& result : results) ASSERT_TRUE(result.fit.has_value()) << result.failure;
   EXPECT_EQ(best_basis(results)->basis, "asymptotic_extended");
 }
 
 TEST(CompareBases, TakesAUsersOwnTermsAlong) {
   FitSettings settings;
-  settings.basis = parse_terms("1/q, ln q, 1");
+  settings.basis = lubrication::parse_terms("1/q, ln q, 1");
   const auto results = compare_bases(exact_drag_table(fifty_gaps(), {-1}, 3, 1), settings);
-  EXPECT_EQ(results.back().basis, kOwnTerms);
+  EXPECT_EQ(results.back().basis, lubrication::kOwnTerms);
   EXPECT_EQ(results.back().fit->terms.size(), 3U);
 }
 
@@ -35,13 +35,13 @@ TEST(CompareBases, KeepsTheReasonWhereABasisCannotBeFitted) {
 
 TEST(CompareBases, PrefersTheSmallerBasisWhereTheLargerOneFitsNoise) {
   // k/q + 1 with noise: what the lecture's five terms leave is not the smaller for three more.
-  ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  lubrication::ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
   double sign = 1;
   for (auto& row : table.rows) row.force = (50 / row.gap + 1) * (1 + 1e-3 * (sign = -sign));
   FitSettings settings;
-  settings.basis = parse_terms("1/q, 1");
-  EXPECT_EQ(best_basis(compare_bases(table, settings))->basis, kOwnTerms);
+  settings.basis = lubrication::parse_terms("1/q, 1");
+  EXPECT_EQ(best_basis(compare_bases(table, settings))->basis, lubrication::kOwnTerms);
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -10,7 +10,7 @@
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 /// The lecture's case without inertia and with the exact drag (docs/theory.md, section 3).
@@ -25,10 +25,12 @@ struct Bar {
 
 class OnExactDrag : public ::testing::TestWithParam<Bar> {
  protected:
-  ForceTable table() const {
+  lubrication::ForceTable table() const {
     return exact_drag_table(log_spaced(GetParam().smallest_gap, 1, 60), {-1}, 3, 1);
   }
-  Fit fit() const { return fit_force_table(table(), GetParam().basis, Weights::kRelative); }
+  lubrication::Fit fit() const {
+    return fit_force_table(table(), GetParam().basis, lubrication::Weights::kRelative);
+  }
 };
 
 TEST_P(OnExactDrag, LargestResidualIsWhatTheBasisAllows) {
@@ -37,7 +39,7 @@ TEST_P(OnExactDrag, LargestResidualIsWhatTheBasisAllows) {
 }
 
 TEST_P(OnExactDrag, SmallestGapOfTheLecturesCaseFollows) {
-  const LubricationForce force(fit());
+  const lubrication::LubricationForce force(fit());
   const double minimum = force.gap_of_impulse(force.impulse(1) - 400);
   EXPECT_NEAR(minimum / kExactMinimum, 1, GetParam().minimum_error);
 }
@@ -45,7 +47,7 @@ TEST_P(OnExactDrag, SmallestGapOfTheLecturesCaseFollows) {
 TEST_P(OnExactDrag, CoefficientsAreThoseOfExtendedPrecision) {
   const auto rows = table();
   const auto fitted = fit();
-  const auto& terms = find_basis(GetParam().basis).terms;
+  const auto& terms = lubrication::find_basis(GetParam().basis).terms;
   Eigen::MatrixXd matrix(60, static_cast<Eigen::Index>(terms.size()));
   for (Eigen::Index i = 0; i < 60; ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
@@ -67,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Bases, OnExactDrag,
                          [](const auto& test) { return std::string(test.param.basis); });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -22,7 +22,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::HasSubstr;
@@ -31,14 +31,14 @@ constexpr double kVelocity = -0.7;
 
 /// Every term there is, with coefficients of no short form, at a radius and a velocity that are
 /// not 1.
-Fit fit_of_all_terms() {
-  Fit fit = planted_fit({}, 1e-3, 2);
-  fit.basis = kOwnTerms;
+lubrication::Fit fit_of_all_terms() {
+  lubrication::Fit fit = planted_fit({}, 1e-3, 2);
+  fit.basis = lubrication::kOwnTerms;
   fit.geometry = "plane";
   fit.radius = 1.3;
   fit.reference_velocity = -1.0 / 3;
   double coefficient = 100.0 / 3;
-  for (const auto& term : all_terms()) {
+  for (const auto& term : lubrication::all_terms()) {
     fit.terms.push_back({std::string(term.name), coefficient, 0});
     coefficient *= -0.11;
   }
@@ -59,9 +59,9 @@ std::vector<Values> values_of(const std::string& output) {
   return values;
 }
 
-void expect_values(const std::vector<Values>& values, const Fit& fit) {
-  const LubricationForce force(fit);
-  const auto gaps = spread_gaps(fit.gap_interval);
+void expect_values(const std::vector<Values>& values, const lubrication::Fit& fit) {
+  const lubrication::LubricationForce force(fit);
+  const auto gaps = lubrication::spread_gaps(fit.gap_interval);
   ASSERT_EQ(values.size(), gaps.size());
   // What is asked of an export: 1e-15. Gamma vanishes at q = r, where only its parts have digits.
   for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -79,9 +79,9 @@ class Export : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   /// The gaps as a list in the language's source.
-  static std::string gap_list(const Fit& fit, const std::string& suffix = "") {
+  static std::string gap_list(const lubrication::Fit& fit, const std::string& suffix = "") {
     std::string list;
-    for (const double gap : spread_gaps(fit.gap_interval)) {
+    for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
       std::string text = fmt::format("{:.17e}", gap);
       if (!suffix.empty()) std::ranges::replace(text, 'e', suffix[0]);
       list += (list.empty() ? "" : ", ") + text;
@@ -95,7 +95,7 @@ class Export : public ::testing::Test {
     return result.output;
   }
 
-  Fit fit_ = fit_of_all_terms();
+  lubrication::Fit fit_ = fit_of_all_terms();
   TemporaryFolder folder_;
 };
 
@@ -128,7 +128,7 @@ int main(void) {{
 TEST_F(Export, FortranModuleCompilesWithoutAWarningAndHasTheValues) {
   put_text(path("force.f90"), export_fit(fit_, "fortran"));
   std::string calls;
-  for (const double gap : spread_gaps(fit_.gap_interval)) {
+  for (const double gap : lubrication::spread_gaps(fit_.gap_interval)) {
     std::string text = fmt::format("{:.17e}", gap);
     std::ranges::replace(text, 'e', 'd');
     calls += fmt::format(
@@ -170,7 +170,7 @@ TEST_F(Export, CsvHasTheValuesAtTheReferenceVelocity) {
   const std::array<std::string, 4> columns = {"gap", "resistance", "force", "impulse"};
   put_text(path("force.csv"), export_fit(fit_, "csv"));
   const auto csv = read_csv(path("force.csv"), columns, columns.size());
-  const LubricationForce force(fit_);
+  const lubrication::LubricationForce force(fit_);
   ASSERT_EQ(csv.rows.size(), 201U);
   for (const auto& row : csv.rows) {
     const double gap = *row.fields[0];
@@ -182,7 +182,7 @@ TEST_F(Export, CsvHasTheValuesAtTheReferenceVelocity) {
 
 TEST_F(Export, JsonHasTermsAndSamplesThatAgree) {
   const auto json = nlohmann::json::parse(export_fit(fit_, "json"));
-  const LubricationForce force(fit_);
+  const lubrication::LubricationForce force(fit_);
   EXPECT_EQ(json.at("interval"), fit_.gap_interval);
   const auto& samples = json.at("samples");
   const auto gaps = samples.at("gap").get<std::vector<double>>();
@@ -192,7 +192,7 @@ TEST_F(Export, JsonHasTermsAndSamplesThatAgree) {
     EXPECT_EQ(samples.at("impulse").at(i), force.impulse(gaps[i]));
     double sum = 0, gamma = 0;
     for (const auto& term : json.at("terms")) {
-      const auto known = find_term(term.at("name").get<std::string>()).value();
+      const auto known = lubrication::find_term(term.at("name").get<std::string>()).value();
       EXPECT_EQ(term.at("value"), known.value.text);
       sum += term.at("weight").get<double>() * known.value(gaps[i]);
       gamma += term.at("weight").get<double>() * known.antiderivative(gaps[i]);
@@ -203,11 +203,11 @@ TEST_F(Export, JsonHasTermsAndSamplesThatAgree) {
 }
 
 TEST_F(Export, SaysIntervalErrorAndSource) {
-  const Fit fit = [] {
+  const lubrication::Fit fit = [] {
     auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
     table.geometry = "plane";
     for (auto& row : table.rows) row.relative_error_estimate = 1.25e-6;
-    Fit made = fit_force_table(table, "lecture", Weights::kRelative);
+    lubrication::Fit made = fit_force_table(table, "lecture", lubrication::Weights::kRelative);
     made.table_sha256 = "abc123";
     made.versions["Viscontact"] = "9.9";
     return made;
@@ -233,4 +233,4 @@ TEST_F(Export, OfADragThatIsNotPositiveIsRefused) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -14,7 +14,7 @@
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::ElementsAre;
@@ -23,15 +23,15 @@ using ::testing::IsEmpty;
 
 FitSettings settings_of(std::string_view basis) {
   FitSettings settings;
-  settings.basis = find_basis(basis);
+  settings.basis = lubrication::find_basis(basis);
   return settings;
 }
 
-ForceTable exact_table() { return exact_drag_table(fifty_gaps(), {-1}, 3, 1); }
+lubrication::ForceTable exact_table() { return exact_drag_table(fifty_gaps(), {-1}, 3, 1); }
 
 /// R = k/q + 1 with the errors +-e in turn, which no smooth basis can follow.
-ForceTable table_with_noise(double noise, double estimate) {
-  ForceTable table = exact_table();
+lubrication::ForceTable table_with_noise(double noise, double estimate) {
+  lubrication::ForceTable table = exact_table();
   double sign = 1;
   for (auto& row : table.rows) {
     row.force = (50 / row.gap + 1) * (1 + sign * noise);
@@ -41,20 +41,21 @@ ForceTable table_with_noise(double noise, double estimate) {
   return table;
 }
 
-FitDiagnostics diagnostics_of(const ForceTable& table, const FitSettings& settings) {
+lubrication::FitDiagnostics diagnostics_of(const lubrication::ForceTable& table,
+                                           const FitSettings& settings) {
   return fit_force_table(table, settings).diagnostics.value();
 }
 
 TEST(LeaveOneOut, IsWhatFitsWithoutTheRowPredict) {
   const auto table = exact_table();
-  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+  for (const auto weights : {lubrication::Weights::kRelative, lubrication::Weights::kAbsolute}) {
     auto settings = settings_of("lecture");
     settings.weights = weights;
     const auto d = diagnostics_of(table, settings);
     double squares = 0;
-    LeftOutRow inner, end;
+    lubrication::LeftOutRow inner, end;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      ForceTable others = table;
+      lubrication::ForceTable others = table;
       others.rows.erase(others.rows.begin() + static_cast<std::ptrdiff_t>(i));
       const auto& row = table.rows[i];
       const double residual =
@@ -95,7 +96,8 @@ TEST(LeaveOneOut, OfInnerRowsIsAboveTheErrorBetweenTheRows) {
   // further off there than the whole fit is anywhere between the rows.
   for (const int count : {12, 20, 40}) {
     const auto gaps = log_spaced(1e-3, 2, count);
-    const Fit fit = fit_force_table(exact_drag_table(gaps, {-1}, 3, 1), settings_of("lecture"));
+    const lubrication::Fit fit =
+        fit_force_table(exact_drag_table(gaps, {-1}, 3, 1), settings_of("lecture"));
     double largest = 0;
     for (const auto& row : exact_drag_table(log_spaced(1e-3, 2, 400), {-1}, 3, 1).rows)
       largest = std::max(largest, std::abs(fitted_force(fit, row.gap) / row.force - 1));
@@ -124,7 +126,7 @@ TEST(WorstResidual, IsFoundWithItsSign) {
 
 TEST(ChiSquared, IsTheSumOverTheRowsOfResidualOverEstimateSquared) {
   const auto table = table_with_noise(1e-4, 2e-4);
-  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  const lubrication::Fit fit = fit_force_table(table, settings_of("lecture"));
   double sum = 0;
   for (const auto& row : table.rows)
     sum += std::pow((fitted_force(fit, row.gap) / row.force - 1) / row.relative_error_estimate, 2);
@@ -138,11 +140,11 @@ TEST(Misfit, IsTheDatasOrTheBasiss) {
   // Noise within the estimates, beyond them (chi-squared 45 * 4 against a quantile of 70), and no
   // estimates.
   EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 2e-4), settings_of("lecture")).misfit,
-            Misfit::kData);
+            lubrication::Misfit::kData);
   EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 5e-5), settings_of("lecture")).misfit,
-            Misfit::kBasis);
+            lubrication::Misfit::kBasis);
   EXPECT_EQ(diagnostics_of(table_with_noise(1e-4, 0), settings_of("lecture")).misfit,
-            Misfit::kUnknown);
+            lubrication::Misfit::kUnknown);
   auto table = table_with_noise(1e-4, 2e-4);
   table.rows.front().relative_error_estimate = 0;  // one without
   EXPECT_FALSE(diagnostics_of(table, settings_of("lecture")).chi_squared.has_value());
@@ -153,11 +155,11 @@ TEST(Misfit, ComparesEachRowWithItsOwnEstimate) {
   auto table = table_with_noise(1e-4, 5e-5);
   table.rows.back().relative_error_estimate = 5e-2;
   const auto d = diagnostics_of(table, settings_of("lecture"));
-  EXPECT_EQ(d.misfit, Misfit::kBasis);
+  EXPECT_EQ(d.misfit, lubrication::Misfit::kBasis);
   EXPECT_LT(d.largest_inlier_residual, d.largest_error_estimate);
   std::size_t beyond = 0;
   double worst = 0;
-  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  const lubrication::Fit fit = fit_force_table(table, settings_of("lecture"));
   for (const auto& row : table.rows) {
     const double ratio =
         std::abs(fitted_force(fit, row.gap) / row.force - 1) / row.relative_error_estimate;
@@ -174,7 +176,7 @@ TEST(Misfit, ComparesEachRowWithItsOwnEstimate) {
 TEST(Misfit, IsNotTheBasissWhereNoRowIsBeyondItsOwnEstimate) {
   const auto table = exact_drag_table(log_spaced(1e-3, 1, 10), {-1}, 3, 1);
   auto judged = table;
-  const Fit fit = fit_force_table(table, settings_of("asymptotic_extended"));
+  const lubrication::Fit fit = fit_force_table(table, settings_of("asymptotic_extended"));
   ASSERT_EQ(fit.diagnostics->degrees_of_freedom, 2U);
   // Each residual 0.99 of its estimate: chi-squared 9.8, above the quantile 9.2 of two degrees.
   for (auto& row : judged.rows)
@@ -182,18 +184,18 @@ TEST(Misfit, IsNotTheBasissWhereNoRowIsBeyondItsOwnEstimate) {
   const auto d = diagnostics_of(judged, settings_of("asymptotic_extended"));
   EXPECT_GT(d.chi_squared.value(), 9.3);
   EXPECT_EQ(d.rows_beyond_estimate, 0U);
-  EXPECT_EQ(d.misfit, Misfit::kData);
+  EXPECT_EQ(d.misfit, lubrication::Misfit::kData);
 }
 
 TEST(Misfit, IsJudgedWithoutTheOutliers) {
   auto table = table_with_noise(1e-5, 1e-4);
   table.rows[20].force *= 1.1;
   auto settings = settings_of("lecture");
-  settings.loss = Loss::kCauchy;
+  settings.loss = lubrication::Loss::kCauchy;
   const auto d = diagnostics_of(table, settings);
   ASSERT_EQ(d.outliers.size(), 1U);
   EXPECT_GT(d.chi_squared.value(), 1e5);  // of all rows: (0.09/1e-4)^2 and little more
-  EXPECT_EQ(d.misfit, Misfit::kData);
+  EXPECT_EQ(d.misfit, lubrication::Misfit::kData);
   EXPECT_EQ(d.rows_beyond_estimate, 0U);
 }
 
@@ -201,7 +203,7 @@ TEST(Misfit, JudgesByTheQuantileOfChiSquared) {
   // 99 % quantile for 45 degrees of freedom: 69.957 (tables). +-noise/estimate = z in all 50 rows
   // gives about 50 z^2.
   for (const auto& [chi_squared, misfit] :
-       {std::pair{68.0, Misfit::kData}, {72.0, Misfit::kBasis}}) {
+       {std::pair{68.0, lubrication::Misfit::kData}, {72.0, lubrication::Misfit::kBasis}}) {
     auto table = table_with_noise(1e-4, 1e-4);
     const double now = diagnostics_of(table, settings_of("lecture")).chi_squared.value();
     for (auto& row : table.rows) row.relative_error_estimate *= std::sqrt(now / chi_squared);
@@ -213,7 +215,7 @@ TEST(Misfit, JudgesByTheQuantileOfChiSquared) {
 
 TEST(InformationCriterion, IsAkaikesForSmallSamples) {
   const auto table = exact_table();
-  const Fit fit = fit_force_table(table, settings_of("lecture"));
+  const lubrication::Fit fit = fit_force_table(table, settings_of("lecture"));
   const double n = 50, k = 6;
   const double expected =
       n * std::log(std::pow(fit.rms_relative_residual, 2)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
@@ -230,10 +232,10 @@ TEST(Outliers, AreNamedByARobustLossOnly) {
   table.rows[20].force *= 1.1;
   auto settings = settings_of("lecture");
   EXPECT_THAT(diagnostics_of(table, settings).outliers, IsEmpty());
-  for (const auto loss : {Loss::kHuber, Loss::kCauchy}) {
+  for (const auto loss : {lubrication::Loss::kHuber, lubrication::Loss::kCauchy}) {
     settings.loss = loss;
     const auto d = diagnostics_of(table, settings);
-    ASSERT_EQ(d.outliers.size(), 1U) << to_string(loss);
+    ASSERT_EQ(d.outliers.size(), 1U) << lubrication::to_string(loss);
     EXPECT_EQ(d.outliers[0].gap, table.rows[20].gap);
     EXPECT_EQ(d.outliers[0].reference_velocity, -1);
     EXPECT_NEAR(d.outliers[0].relative_residual, 1 / 1.1 - 1, 1e-4);  // noise, and Huber's pull
@@ -277,7 +279,7 @@ TEST(Warnings, SayThatTheResistanceIsNotPositive) {
   table.neighbour_moves = true;
   for (auto& row : table.rows) row.force = 1 / row.gap - 10;  // changes sign at 0.1
   auto settings = settings_of("lecture");
-  settings.weights = Weights::kAbsolute;
+  settings.weights = lubrication::Weights::kAbsolute;
   EXPECT_THAT(diagnostics_of(table, settings).warnings,
               ::testing::Contains(HasSubstr("not positive")));
 }
@@ -290,4 +292,4 @@ TEST(Warnings, SayThatThereAreAsManyCoefficientsAsRows) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -14,7 +14,7 @@
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::AllOf;
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 /// A figure of docs/theory.md, section 2, and half a unit of its last printed digit.
 struct Printed {
   const char* basis;
-  Weights weights;
+  lubrication::Weights weights;
   double figure, half_digit;
 };
 
@@ -37,17 +37,18 @@ TEST_P(ExactDrag, IsFittedAsWellAsTheoryAllows) {
   EXPECT_EQ(fit.gap_interval, (std::array{1e-3, 1.0}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Fit, ExactDrag,
-                         ::testing::Values(Printed{"lecture", Weights::kAbsolute, 3.3e-2, 0.05e-2},
-                                           Printed{"lecture", Weights::kRelative, 2.5e-3, 0.05e-3},
-                                           Printed{"asymptotic", Weights::kRelative, 6e-6, 0.5e-6}),
-                         [](const auto& tested) {
-                           const std::string weights(to_string(tested.param.weights));
-                           return std::string(tested.param.basis) + "_" + weights;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Fit, ExactDrag,
+    ::testing::Values(Printed{"lecture", lubrication::Weights::kAbsolute, 3.3e-2, 0.05e-2},
+                      Printed{"lecture", lubrication::Weights::kRelative, 2.5e-3, 0.05e-3},
+                      Printed{"asymptotic", lubrication::Weights::kRelative, 6e-6, 0.5e-6}),
+    [](const auto& tested) {
+      const std::string weights(lubrication::to_string(tested.param.weights));
+      return std::string(tested.param.basis) + "_" + weights;
+    });
 
 TEST(Fit, ReportsTheResidualsOfItsCoefficients) {
-  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+  for (const auto weights : {lubrication::Weights::kRelative, lubrication::Weights::kAbsolute}) {
     const auto table = exact_drag_table(fifty_gaps(), {-2}, 3, 1.5);
     const auto fit = fit_force_table(table, "lecture", weights);
     double largest = 0, squares = 0;
@@ -71,15 +72,15 @@ TEST(Fit, ReportsTheResidualsOfItsCoefficients) {
 
 TEST(Fit, LeavesResidualsThatEveryTermIsOrthogonalTo) {
   // The normal equations, which make it the least-squares fit: sum of w^2 (fit - F) term = 0.
-  for (const auto weights : {Weights::kRelative, Weights::kAbsolute}) {
+  for (const auto weights : {lubrication::Weights::kRelative, lubrication::Weights::kAbsolute}) {
     const auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
     const auto fit = fit_force_table(table, "lecture", weights);
     for (const auto& term : fit.terms) {
       double product = 0, residuals = 0, terms = 0, forces = 0;
       for (const auto& row : table.rows) {
-        const double weight = weights == Weights::kRelative ? 1 / row.force : 1;
+        const double weight = weights == lubrication::Weights::kRelative ? 1 / row.force : 1;
         const double residual = weight * (fitted_force(fit, row.gap) - row.force);
-        const double value = weight * find_term(term.name)->value(row.gap);
+        const double value = weight * lubrication::find_term(term.name)->value(row.gap);
         product += residual * value;
         residuals += residual * residual;
         terms += value * value;
@@ -95,14 +96,14 @@ TEST(Fit, LeavesResidualsThatEveryTermIsOrthogonalTo) {
 
 TEST(Fit, RecoversPlantedCoefficients) {
   const std::vector<double> planted = {56.5, -12.25, 40, 3, -0.5, 2.5, -1, 0.25};
-  for (const auto& basis : all_bases()) {
-    ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  for (const auto& basis : lubrication::all_bases()) {
+    lubrication::ForceTable table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
     for (auto& row : table.rows) {
       row.force = 0;
       for (std::size_t i = 0; i < basis.terms.size(); ++i)
         row.force += planted.at(i) * basis.terms[i].value(row.gap);
     }
-    const auto fit = fit_force_table(table, basis.name, Weights::kRelative);
+    const auto fit = fit_force_table(table, basis.name, lubrication::Weights::kRelative);
     ASSERT_EQ(fit.terms.size(), basis.terms.size());
     for (std::size_t i = 0; i < basis.terms.size(); ++i) {
       EXPECT_EQ(fit.terms[i].name, basis.terms[i].name);
@@ -117,7 +118,7 @@ TEST(Fit, RecoversPlantedCoefficients) {
 
 TEST(Fit, WithEveryCoefficientHeldIsRefused) {
   FitSettings settings;
-  settings.basis = parse_terms("1/q");
+  settings.basis = lubrication::parse_terms("1/q");
   settings.fix_leading = true;
   settings.leading_value = 56.5;
   EXPECT_THAT(
@@ -128,17 +129,18 @@ TEST(Fit, WithEveryCoefficientHeldIsRefused) {
 TEST(Fit, OfForcesThatNoDoubleCanSquareIsRefused) {
   auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
   table.rows[3].force = 1e305;
-  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kAbsolute); }),
-              HasSubstr("too large or too different"));
+  EXPECT_THAT(
+      bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kAbsolute); }),
+      HasSubstr("too large or too different"));
 }
 
 TEST(Fit, OfSeveralVelocitiesIsTheFitOfOne) {
   // Stokes flow is linear: the force over the velocity is the same. Powers of two keep that exact
   // in doubles too.
-  const auto one =
-      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture", Weights::kRelative);
+  const auto one = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "lecture",
+                                   lubrication::Weights::kRelative);
   const auto several = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4, 0.5}, 3, 1),
-                                       "lecture", Weights::kRelative);
+                                       "lecture", lubrication::Weights::kRelative);
   EXPECT_EQ(several.reference_velocity, -1);
   ASSERT_EQ(several.terms.size(), one.terms.size());
   for (std::size_t i = 0; i < one.terms.size(); ++i) {
@@ -156,17 +158,18 @@ TEST(Fit, RefusesForcesThatAreNotLinearInTheVelocity) {
   auto table = exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1);
   for (auto& row : table.rows) row.relative_error_estimate = 1e-6;
   table.rows.back().force *= 1 + 1.9e-6;  // within what the two rows' estimates allow together
-  EXPECT_NO_THROW(fit_force_table(table, "lecture", Weights::kRelative));
+  EXPECT_NO_THROW(fit_force_table(table, "lecture", lubrication::Weights::kRelative));
   table.rows.back().force *= 1 + 1e-6;
-  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kRelative); }),
-              HasSubstr("not linear in the velocity"));
+  EXPECT_THAT(
+      bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
+      HasSubstr("not linear in the velocity"));
 }
 
 TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
   const auto at_one = fit_force_table(exact_drag_table(fifty_gaps(), {-1, -4}, 3, 1), "lecture",
-                                      Weights::kRelative);
+                                      lubrication::Weights::kRelative);
   const auto at_four = fit_force_table(exact_drag_table(fifty_gaps(), {-4, -1}, 3, 1), "lecture",
-                                       Weights::kRelative);
+                                       lubrication::Weights::kRelative);
   EXPECT_EQ(at_four.reference_velocity, -4);
   for (std::size_t i = 0; i < at_one.terms.size(); ++i)
     EXPECT_NEAR(at_four.terms[i].coefficient, 4 * at_one.terms[i].coefficient,
@@ -175,8 +178,8 @@ TEST(Fit, IsAtTheVelocityOfTheFirstRow) {
 }
 
 TEST(Fit, OfTheExactDragHasTheLeadingCoefficientOfTheory) {
-  const auto fit =
-      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative);
+  const auto fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic",
+                                   lubrication::Weights::kRelative);
   ASSERT_EQ(fit.terms[0].name, "1/q");
   // At the smallest gap 1/q is all but 2.4e-3 of the drag, and the fit is within 6e-6 of it there.
   EXPECT_NEAR(fit.terms[0].coefficient / (6 * std::numbers::pi * 3), 1, 1e-5);
@@ -185,9 +188,13 @@ TEST(Fit, OfTheExactDragHasTheLeadingCoefficientOfTheory) {
 TEST(Fit, NeedsAsManyDifferentGapsAsTerms) {
   // Ten rows, but four gaps.
   const auto table = exact_drag_table({0.1, 0.2, 0.3, 0.3, 0.4}, {-1, -2}, 3, 1);
-  EXPECT_THAT(bad_input([&] { fit_force_table(table, "lecture", Weights::kRelative); }),
-              AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
-  EXPECT_THAT(bad_input([] { fit_force_table(ForceTable{}, "lecture", Weights::kRelative); }),
+  EXPECT_THAT(
+      bad_input([&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
+      AllOf(HasSubstr("4 different gap"), HasSubstr("at least 5")));
+  EXPECT_THAT(bad_input([] {
+                fit_force_table(lubrication::ForceTable{}, "lecture",
+                                lubrication::Weights::kRelative);
+              }),
               HasSubstr("0 different gap"));
 }
 
@@ -196,25 +203,25 @@ TEST(Fit, OfGapsTooCloseTogetherDoesNotConverge) {
   for (int i = 0; i < 10; ++i) gaps.push_back(0.5 * (1 + i * 1e-15));
   const auto table = exact_drag_table(gaps, {-1}, 3, 1);
   EXPECT_THAT(failure(ErrorKind::kNotConverged,
-                      [&] { fit_force_table(table, "lecture", Weights::kRelative); }),
+                      [&] { fit_force_table(table, "lecture", lubrication::Weights::kRelative); }),
               HasSubstr("cannot be told apart"));
 }
 
 TEST(Fit, NamesAnUnknownBasis) {
   EXPECT_THAT(bad_input([] {
                 fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "cubic",
-                                Weights::kRelative);
+                                lubrication::Weights::kRelative);
               }),
               AllOf(HasSubstr("'cubic'"), HasSubstr("lecture")));
 }
 
 TEST(Weights, AreNamedAndReadBack) {
-  for (const auto weights : {Weights::kRelative, Weights::kAbsolute})
-    EXPECT_EQ(parse_weights(to_string(weights)), weights);
-  EXPECT_EQ(to_string(Weights::kRelative), "relative");
-  EXPECT_THAT(bad_input([] { parse_weights("squared"); }),
+  for (const auto weights : {lubrication::Weights::kRelative, lubrication::Weights::kAbsolute})
+    EXPECT_EQ(lubrication::parse_weights(lubrication::to_string(weights)), weights);
+  EXPECT_EQ(lubrication::to_string(lubrication::Weights::kRelative), "relative");
+  EXPECT_THAT(bad_input([] { lubrication::parse_weights("squared"); }),
               AllOf(HasSubstr("'squared'"), HasSubstr("relative or absolute")));
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

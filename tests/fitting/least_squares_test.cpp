@@ -12,7 +12,7 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::HasSubstr;
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 /// The columns of a basis at gaps, each row weighted by its gap: as a relative fit does it near
 /// contact.
 Eigen::MatrixXd columns_of(std::string_view basis, const std::vector<double>& gaps) {
-  const auto& terms = find_basis(basis).terms;
+  const auto& terms = lubrication::find_basis(basis).terms;
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(gaps.size()),
                          static_cast<Eigen::Index>(terms.size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -156,4 +156,4 @@ TEST(LeastSquares, RefusesAColumnOfZeros) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

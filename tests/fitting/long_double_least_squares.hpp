@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -49,4 +49,4 @@ inline LongSolution long_double_least_squares(const Eigen::MatrixXd& matrix,
   return solution;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 constexpr std::array<std::string_view, 9> kNames = {"Norris",   "Pontius",  "Longley",
@@ -82,4 +82,4 @@ NistDigits digits_reached(const NistSet& set) {
   return reached;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -10,7 +10,7 @@
 
 #include "viscontact/fitting/least_squares.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 struct NistSet {
   Eigen::MatrixXd matrix;
@@ -36,4 +36,4 @@ struct NistDigits {
 
 NistDigits digits_reached(const NistSet& set);
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

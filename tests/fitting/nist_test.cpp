@@ -6,7 +6,7 @@
 
 #include "tests/fitting/nist_sets.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 class Nist : public ::testing::TestWithParam<std::string_view> {};
@@ -34,4 +34,4 @@ TEST(NistExactData, LeavesDeviationsThatAreRoundOff) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -8,7 +8,7 @@
 
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ Line noisy_parabola(double noise) {
   return line;
 }
 
-class RobustLoss : public ::testing::TestWithParam<Loss> {};
+class RobustLoss : public ::testing::TestWithParam<lubrication::Loss> {};
 
 TEST_P(RobustLoss, OfGaussianNoiseIsLeastSquaresWithinTheStandardErrors) {
   const auto line = noisy_parabola(0.01);
@@ -72,11 +72,12 @@ TEST_P(RobustLoss, SolvesItsOwnEquations) {
   const auto robust = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());
   const Eigen::VectorXd residual =
       line.matrix * robust.least_squares.coefficients - line.right_hand_side;
-  const double c = GetParam() == Loss::kHuber ? 1.345 : 2.385;
+  const double c = GetParam() == lubrication::Loss::kHuber ? 1.345 : 2.385;
   Eigen::VectorXd influence(kRows);
   for (Eigen::Index i = 0; i < kRows; ++i) {
     const double z = residual(i) / robust.scale;
-    influence(i) = GetParam() == Loss::kHuber ? std::clamp(z, -c, c) : z / (1 + z * z / (c * c));
+    influence(i) =
+        GetParam() == lubrication::Loss::kHuber ? std::clamp(z, -c, c) : z / (1 + z * z / (c * c));
   }
   EXPECT_LT((line.matrix.transpose() * influence).cwiseAbs().maxCoeff(), kRows * 1e-8);
 }
@@ -91,22 +92,28 @@ TEST_P(RobustLoss, OfExactDataIsExact) {
   EXPECT_LT((spoiled.least_squares.coefficients - kTrue).norm(), 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, RobustLoss, ::testing::Values(Loss::kHuber, Loss::kCauchy),
-                         [](const auto& test) { return std::string(to_string(test.param)); });
+INSTANTIATE_TEST_SUITE_P(Of, RobustLoss,
+                         ::testing::Values(lubrication::Loss::kHuber, lubrication::Loss::kCauchy),
+                         [](const auto& test) {
+                           return std::string(lubrication::to_string(test.param));
+                         });
 
 TEST(SquaredLoss, IsLeastSquares) {
   const auto line = noisy_parabola(0.01);
   const auto plain = solve_least_squares(line.matrix, line.right_hand_side);
-  const auto same = solve_robust_least_squares(line.matrix, line.right_hand_side, Loss::kSquared);
+  const auto same =
+      solve_robust_least_squares(line.matrix, line.right_hand_side, lubrication::Loss::kSquared);
   EXPECT_EQ(same.least_squares.coefficients, plain.coefficients);
   EXPECT_EQ(same.row_weights, Eigen::VectorXd::Ones(kRows));
 }
 
 TEST(Loss, IsNamedAndReadBack) {
-  for (const auto loss : {Loss::kSquared, Loss::kHuber, Loss::kCauchy})
-    EXPECT_EQ(parse_loss(to_string(loss)), loss);
-  EXPECT_THAT(bad_input([] { parse_loss("tukey"); }), HasSubstr("none, huber, cauchy"));
+  for (const auto loss :
+       {lubrication::Loss::kSquared, lubrication::Loss::kHuber, lubrication::Loss::kCauchy})
+    EXPECT_EQ(lubrication::parse_loss(lubrication::to_string(loss)), loss);
+  EXPECT_THAT(bad_input([] { lubrication::parse_loss("tukey"); }),
+              HasSubstr("none, huber, cauchy"));
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

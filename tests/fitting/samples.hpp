@@ -12,7 +12,7 @@
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 
 /// `count` numbers from `from` to `to`, in geometric progression.
 inline std::vector<double> log_spaced(double from, double to, int count) {
@@ -24,16 +24,16 @@ inline std::vector<double> log_spaced(double from, double to, int count) {
 }
 
 /// The table that a perfect solver of the half-space would give.
-inline ForceTable exact_drag_table(const std::vector<double>& gaps,
-                                   const std::vector<double>& velocities, double viscosity,
-                                   double radius) {
-  ForceTable table;
+inline lubrication::ForceTable exact_drag_table(const std::vector<double>& gaps,
+                                                const std::vector<double>& velocities,
+                                                double viscosity, double radius) {
+  lubrication::ForceTable table;
   table.viscosity = viscosity;
   table.radius = radius;
   table.container = "unbounded";
   for (const double velocity : velocities)
     for (const double gap : gaps) {
-      ForceTableRow row;
+      lubrication::ForceTableRow row;
       row.gap = gap;
       row.reference_velocity = velocity;
       row.drag_factor = brenner_drag_factor(gap / radius);
@@ -47,9 +47,10 @@ inline ForceTable exact_drag_table(const std::vector<double>& gaps,
 inline std::vector<double> fifty_gaps() { return log_spaced(1e-3, 1, 50); }
 
 /// F(q, u0) of a fit, term by term.
-inline double fitted_force(const Fit& fit, double gap) {
+inline double fitted_force(const lubrication::Fit& fit, double gap) {
   double force = 0;
-  for (const auto& term : fit.terms) force += term.coefficient * find_term(term.name)->value(gap);
+  for (const auto& term : fit.terms)
+    force += term.coefficient * lubrication::find_term(term.name)->value(gap);
   return force;
 }
 
@@ -59,9 +60,9 @@ struct NamedCoefficient {
 };
 
 /// A fit of given coefficients at u0 = -1, so that its resistance is the sum of coefficient * term.
-inline Fit planted_fit(std::initializer_list<NamedCoefficient> terms, double smallest_gap,
-                       double largest_gap) {
-  Fit fit;
+inline lubrication::Fit planted_fit(std::initializer_list<NamedCoefficient> terms,
+                                    double smallest_gap, double largest_gap) {
+  lubrication::Fit fit;
   fit.basis = "planted";
   fit.reference_velocity = -1;
   fit.viscosity = 3;
@@ -72,4 +73,4 @@ inline Fit planted_fit(std::initializer_list<NamedCoefficient> terms, double sma
   return fit;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::fitting

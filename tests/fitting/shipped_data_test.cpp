@@ -12,14 +12,14 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 const std::string kTable = VISCONTACT_SOURCE_FOLDER "/data/tables/lecture.csv";
 const std::string kFit = VISCONTACT_SOURCE_FOLDER "/data/fits/lecture.json";
 
 TEST(ShippedTable, HasTheLecturesGridAndEveryRowWithin1e4OfBrenner) {
-  const auto table = read_force_table(kTable);
+  const auto table = lubrication::read_force_table(kTable);
   ASSERT_EQ(table.rows.size(), 40U);
   EXPECT_EQ(table.rows.front().gap, 1e-3);
   EXPECT_EQ(table.rows.back().gap, 2);
@@ -34,11 +34,12 @@ TEST(ShippedTable, HasTheLecturesGridAndEveryRowWithin1e4OfBrenner) {
 }
 
 TEST(ShippedFit, IsTheFitOfTheShippedTable) {
-  const auto shipped = read_fit(kFit);
+  const auto shipped = lubrication::read_fit(kFit);
   // Of the table apart from the line that says how it was made.
   const std::string table = replaced_matches(read_file(kTable), "# provenance: [^\n]*\n", "");
   EXPECT_EQ(shipped.table_sha256, sha256(table));
-  const auto again = fit_force_table(read_force_table(kTable), shipped.basis, shipped.weights);
+  const auto again =
+      fit_force_table(lubrication::read_force_table(kTable), shipped.basis, shipped.weights);
   ASSERT_EQ(again.terms.size(), shipped.terms.size());
   // Another compiler's order of operations moves coefficients by rounding times the conditioning.
   for (std::size_t i = 0; i < again.terms.size(); ++i)
@@ -48,4 +49,4 @@ TEST(ShippedFit, IsTheFitOfTheShippedTable) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

@@ -10,25 +10,25 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::fitting {
 namespace {
 
 using ::testing::HasSubstr;
 
 constexpr double kShift = 0.005;
 
-LubricationForce smooth() {
-  return LubricationForce(
-      read_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/lecture.json"));
+lubrication::LubricationForce smooth() {
+  return lubrication::LubricationForce(
+      lubrication::read_fit(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/fits/lecture.json"));
 }
 
-ForceTable shifted_table() {
+lubrication::ForceTable shifted_table() {
   const auto force = smooth();
-  ForceTable table;
+  lubrication::ForceTable table;
   table.viscosity = force.viscosity();
   table.radius = force.radius();
   for (const double gap : {0.001, 0.01, 0.1, 1.0}) {
-    ForceTableRow row;
+    lubrication::ForceTableRow row;
     row.gap = gap;
     row.reference_velocity = -2;
     row.force = 2 * force.resistance(gap + kShift);
@@ -55,7 +55,7 @@ TEST(WallShift, OneRowThatIsAnotherShowsInItsResidual) {
 }
 
 TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
-  const auto fails_with = [](const ForceTable& table, const char* words) {
+  const auto fails_with = [](const lubrication::ForceTable& table, const char* words) {
     try {
       (void)fit_wall_shift(table, smooth());
       ADD_FAILURE() << "accepted";
@@ -73,4 +73,4 @@ TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::fitting

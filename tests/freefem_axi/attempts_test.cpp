@@ -11,7 +11,7 @@
 #include "tests/oracles/bispherical.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST(Attempts, OutOfMemoryInALaterAttemptLeavesTheAnswerOfTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

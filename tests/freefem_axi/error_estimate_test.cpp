@@ -10,7 +10,7 @@
 #include "tests/freefem_axi/exact_rows.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 struct Sample {
@@ -63,4 +63,4 @@ INSTANTIATE_TEST_SUITE_P(Of, ErrorEstimate, ::testing::ValuesIn(samples()),
                          [](const auto& test) { return std::string(test.param.rows.name); });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 #include "viscontact/freefem_axi/tabulate.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 class ClosedCylinder : public ::testing::TestWithParam<double> {};
@@ -141,4 +141,4 @@ TEST(MovingNeighbour, PullsTheSphereAlongWhenItIsTheFaster) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

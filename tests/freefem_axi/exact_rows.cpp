@@ -8,7 +8,7 @@
 #include "tests/oracles/bispherical.hpp"
 #include "tests/oracles/sphere_in_cylinder.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 constexpr double kSmallestGap = 1e-6;
@@ -96,4 +96,4 @@ SolvedRow solve(const FreeFem& freefem, const ExactRow& row) {
                          row.tabulation.reference_velocities.front())};
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -12,7 +12,7 @@
 
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 using Random = std::mt19937_64;
 
@@ -59,7 +59,7 @@ std::span<const ExactRows> exact_rows();
 /// A solved row.
 struct SolvedRow {
   ExactRow row;
-  ForceTableRow answer;
+  lubrication::ForceTableRow answer;
 
   double error() const { return std::abs(answer.drag_factor / row.drag_factor - 1); }
   /// Error over its estimate.
@@ -72,4 +72,4 @@ struct SolvedRow {
 
 SolvedRow solve(const FreeFem& freefem, const ExactRow& row);
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -8,7 +8,7 @@
 
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// Expects `action()` to throw an Error of that exit code whose message satisfies `message`.
 template <class Action>
@@ -17,4 +17,4 @@ void expect_error(const Action& action, ErrorKind kind,
   EXPECT_THAT(failure(kind, action), message);
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -6,7 +6,7 @@
 
 #include "tests/common/temporary_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 FakeFreeFem::FakeFreeFem(std::filesystem::path folder, const std::string& before)
     : folder_(std::move(folder)) {
@@ -44,4 +44,4 @@ std::vector<std::string> FakeFreeFem::answered() const {
   return lines;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

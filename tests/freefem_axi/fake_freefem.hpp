@@ -8,7 +8,7 @@
 
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 class FakeFreeFem {
  public:
@@ -31,4 +31,4 @@ class FakeFreeFem {
   std::filesystem::path folder_;
 };
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -10,7 +10,7 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::AllOf;
@@ -146,4 +146,4 @@ TEST(WorkingFolder, WithFilesNamedLikeTheScriptsIncludesIsNotLookedInto) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 #include "tests/oracles/bispherical.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 constexpr double kAccuracy = 1e-5;
@@ -170,4 +170,4 @@ TEST(RoughPlane, NearContactIsFeltThroughItsCrest) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

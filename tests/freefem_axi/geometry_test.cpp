@@ -16,7 +16,7 @@
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::AllOf;
@@ -218,4 +218,4 @@ TEST(Neighbour, MovesOnlyIfItIsASphereWithAVelocity) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

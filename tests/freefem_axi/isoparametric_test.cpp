@@ -10,7 +10,7 @@
 #include "tests/freefem_axi/levels.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using std::numbers::pi;
@@ -68,4 +68,4 @@ TEST(Isoparametric, StraightEdgesGiveTheOrderOfTheInscribedPolygon) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -12,7 +12,7 @@
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/common/text/number.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// The numbers that follow LEVEL, level by level, `count` of them each.
 inline std::vector<std::vector<double>> levels_of(const ProcessResult& result, std::size_t count) {
@@ -38,4 +38,4 @@ inline double observed_order(double coarse_error, double fine_error) {
   return std::log2(std::abs(coarse_error / fine_error));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 #include "tests/oracles/bispherical.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 struct ExactDrag {
@@ -89,4 +89,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

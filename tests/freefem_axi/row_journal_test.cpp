@@ -11,7 +11,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::AllOf;
@@ -188,12 +188,12 @@ TEST_F(RowJournalFile, JournalThatIsHeldIsLeftAsItIs) {
 }
 
 TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
-  ForceTable table_of_first;
+  lubrication::ForceTable table_of_first;
   table_of_first.viscosity = table_of_first.radius = 1;
   table_of_first.case_hash = kHash;
   table_of_first.versions["FreeFEM"] = "4.9";
   table_of_first.rows = {kFirst.row};
-  write_file(table(), write_force_table(table_of_first));
+  write_file(table(), lubrication::write_force_table(table_of_first));
   EXPECT_TRUE(find_table(table(), kHash));
   EXPECT_FALSE(find_table(table(), "another-hash"));
   ASSERT_TRUE(record().finished.contains(point_of(kFirst)));
@@ -215,4 +215,4 @@ TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

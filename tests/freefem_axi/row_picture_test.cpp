@@ -14,7 +14,7 @@
 
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 Tabulation tabulation_of_radius(double radius) {
@@ -126,4 +126,4 @@ TEST(RowPicture, VtkTextHasPointsTrianglesAndFields) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

@@ -11,7 +11,7 @@
 
 #include "viscontact/freefem_axi/freefem.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::HasSubstr;
@@ -149,4 +149,4 @@ INSTANTIATE_TEST_SUITE_P(Of, CompleteScriptArguments,
                          });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

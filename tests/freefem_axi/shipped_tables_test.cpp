@@ -10,7 +10,7 @@
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 struct Shipped {
@@ -22,8 +22,8 @@ struct Shipped {
 
 class ShippedTable : public testing::TestWithParam<Shipped> {
  protected:
-  ForceTable table_ = read_force_table(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" +
-                                       GetParam().name + ".csv");
+  lubrication::ForceTable table_ = lubrication::read_force_table(
+      std::string(VISCONTACT_SOURCE_FOLDER) + "/data/tables/" + GetParam().name + ".csv");
 };
 
 TEST_P(ShippedTable, IsExactWithinItsEstimates) {
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& param_info) { return std::string(param_info.param.name); });
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

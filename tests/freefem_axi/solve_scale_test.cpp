@@ -13,7 +13,7 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/freefem_axi/row_picture.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::HasSubstr;
@@ -88,4 +88,4 @@ TEST(SolveScale, FlowOfAPictureHasTheCasesUnits) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

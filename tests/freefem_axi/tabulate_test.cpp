@@ -14,7 +14,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 namespace {
 
 using ::testing::AllOf;
@@ -26,7 +26,7 @@ using ::testing::UnorderedElementsAre;
 void no_report(const TabulateProgress&) {}
 
 /// What identifies and answers a row; its seconds differ from run to run.
-std::vector<std::array<double, 7>> values_of(const ForceTable& table) {
+std::vector<std::array<double, 7>> values_of(const lubrication::ForceTable& table) {
   std::vector<std::array<double, 7>> values;
   for (const auto& row : table.rows)
     values.push_back({row.gap, row.reference_velocity, row.force, row.drag_factor,
@@ -216,4 +216,4 @@ TEST(TabulateWithFreeFem, TwoGapsInAWideContainerAreBrenners) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

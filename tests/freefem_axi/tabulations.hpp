@@ -5,7 +5,7 @@
 
 #include "viscontact/freefem_axi/tabulation.hpp"
 
-namespace viscontact {
+namespace viscontact::freefem_axi {
 
 /// A sphere of radius 1 in a fluid of viscosity 1, moving at -1 in a closed cylinder, lengths in
 /// sphere radii.
@@ -21,4 +21,4 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
   return tabulation;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::freefem_axi

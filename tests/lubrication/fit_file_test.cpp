@@ -15,7 +15,7 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::AllOf;
@@ -24,8 +24,9 @@ using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
 Fit complete_fit() {
-  Fit fit = fit_force_table(exact_drag_table(fifty_gaps(), {-1.0 / 3}, 3, 1), "lecture",
-                            Weights::kAbsolute);
+  Fit fit =
+      fitting::fit_force_table(fitting::exact_drag_table(fitting::fifty_gaps(), {-1.0 / 3}, 3, 1),
+                               "lecture", Weights::kAbsolute);
   fit.table_sha256 = sha256("table");
   fit.versions = {{"Ceres", "2.1.0"}, {"a \"quoted\" name", "\xC3\xA9"}};
   return fit;
@@ -105,7 +106,7 @@ class Refusal : public ::testing::Test {
 
   /// The same for a good file in which `from` is replaced by `to`.
   std::string with(const std::string& from, const std::string& to) const {
-    std::string text = write_fit(planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2));
+    std::string text = write_fit(fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2));
     const auto at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from << " is not in " << text;
     return at == std::string::npos ? "" : of(text.replace(at, from.size(), to));
@@ -189,7 +190,7 @@ TEST_F(Refusal, OfATermNamesItsPlace) {
 }
 
 TEST_F(Refusal, OfACovarianceOfAnotherSize) {
-  Fit fit = planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2);
+  Fit fit = fitting::planted_fit({{"1/q", 56.5}, {"q", 0.25}}, 0.125, 2);
   const std::string size = ": covariance must be a matrix of 2 rows with 2 numbers each";
   fit.covariance = {{1, 2}, {3}};
   EXPECT_THAT(of(write_fit(fit)), HasSubstr(size));
@@ -209,4 +210,4 @@ TEST(FitFile, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -16,7 +16,7 @@
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,14 +30,14 @@ Json schema() {
 
 /// A fit that has everything a fit file may hold: a held term, an outlier, a warning.
 Json good_file() {
-  auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
+  auto table = fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1);
   table.geometry = "plane";
   table.leading_coefficient = 50;
   table.rows[20].force *= 2;
   for (auto& row : table.rows) row.relative_error_estimate = 1e-5;
-  FitSettings settings;
+  fitting::FitSettings settings;
   settings.loss = Loss::kHuber;
-  Fit fit = fit_force_table(table, settings);
+  Fit fit = fitting::fit_force_table(table, settings);
   fit.versions = {{"Ceres", "2.1.0"}};
   auto json = Json::parse(write_fit(fit));
   json["provenance"] = {{"command", {"viscontact", "fit"}}};  // as the command adds it
@@ -211,4 +211,4 @@ TEST_F(Schema, IsOfTheDraftItClaims) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -17,7 +17,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::AllOf;
@@ -79,13 +79,13 @@ TEST(ForceTable, RoundTripsToTheBit) {
 }
 
 TEST(ForceTable, HasTheColumnsOfTheInterface) {
-  EXPECT_THAT(write_force_table(exact_drag_table({0.5}, {-1}, 3, 1)),
+  EXPECT_THAT(write_force_table(fitting::exact_drag_table({0.5}, {-1}, 3, 1)),
               HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,"
                         "degrees_of_freedom,seconds,observed_order\n0.5,-1,"));
 }
 
 TEST(ForceTable, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {
-  auto table = exact_drag_table({0.5}, {-1}, 3, 1);
+  auto table = fitting::exact_drag_table({0.5}, {-1}, 3, 1);
   table.geometry = "cavity, radius 5";
   table.container = "none";
   const auto text = write_force_table(table);
@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ForceTable, CutAnywhereIsRefused) {
   const TemporaryFolder folder;
-  const auto text = write_force_table(exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
+  const auto text = write_force_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
   for (std::size_t length = 0; length < text.size(); ++length)
     EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
               "")
@@ -211,4 +211,4 @@ TEST(ForceTable, InPlaceOfWhichIsAFolderOrNothingIsNamed) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -15,7 +15,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::HasSubstr;
@@ -49,20 +49,22 @@ void PrintTo(const Sample& sample, std::ostream* stream) {
 
 std::vector<Sample> samples() {
   const auto exact = [](std::string_view basis) {
-    return fit_force_table(exact_drag_table(log_spaced(1e-3, 2, 40), {-1}, 3, 1), basis,
-                           Weights::kRelative);
+    return fitting::fit_force_table(
+        fitting::exact_drag_table(fitting::log_spaced(1e-3, 2, 40), {-1}, 3, 1), basis,
+        Weights::kRelative);
   };
   const auto limit = BelowInterval::kLubricationLimit;
-  return {
-      {"Lecture", exact("lecture"), BelowInterval::kError, 1e-3},
-      {"Asymptotic", exact("asymptotic"), BelowInterval::kError, 1e-3},
-      {"LectureBelow", exact("lecture"), limit, 1e-12},
-      {"AsymptoticBelow", exact("asymptotic"), limit, 1e-12},
-      {"LeadingTermFarBelow", planted_fit({{"1/q", 56.5}}, 1e-3, 2), limit, 1e-300},
-      {"NegativeRegularPartBelow", planted_fit({{"1/q", 1}, {"1", -5}, {"q", 10}}, 0.125, 2), limit,
-       1e-9},
-      {"LargeRegularPartBelow", planted_fit({{"1/q", 1e-3}, {"1", 50}}, 0.5, 2), limit, 1e-9},
-      {"NoLeadingTerm", planted_fit({{"1", 2}, {"q^3", 1}}, 1e-3, 2), BelowInterval::kError, 1e-3}};
+  return {{"Lecture", exact("lecture"), BelowInterval::kError, 1e-3},
+          {"Asymptotic", exact("asymptotic"), BelowInterval::kError, 1e-3},
+          {"LectureBelow", exact("lecture"), limit, 1e-12},
+          {"AsymptoticBelow", exact("asymptotic"), limit, 1e-12},
+          {"LeadingTermFarBelow", fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2), limit, 1e-300},
+          {"NegativeRegularPartBelow",
+           fitting::planted_fit({{"1/q", 1}, {"1", -5}, {"q", 10}}, 0.125, 2), limit, 1e-9},
+          {"LargeRegularPartBelow", fitting::planted_fit({{"1/q", 1e-3}, {"1", 50}}, 0.5, 2), limit,
+           1e-9},
+          {"NoLeadingTerm", fitting::planted_fit({{"1", 2}, {"q^3", 1}}, 1e-3, 2),
+           BelowInterval::kError, 1e-3}};
 }
 
 class Inverse : public ::testing::TestWithParam<Sample> {};
@@ -117,7 +119,7 @@ TEST(ImpulseInverse, StaysInsideAnyIntervalItIsGiven) {
   for (int i = 0; i < 2000; ++i) {
     const double from = std::exp(logarithm(random));
     const double to = from * (2 + std::exp(logarithm(random)));
-    const LubricationForce force(planted_fit({{"1/q", 56.5}, {"1", 10}}, from, to));
+    const LubricationForce force(fitting::planted_fit({{"1/q", 56.5}, {"1", 10}}, from, to));
     for (const double gap : {from, std::nextafter(from, to), std::nextafter(to, from), to}) {
       double back = 0;
       ASSERT_NO_THROW(back = force.gap_of_impulse(force.impulse(gap)))
@@ -130,7 +132,8 @@ TEST(ImpulseInverse, StaysInsideAnyIntervalItIsGiven) {
 
 TEST(ImpulseInverse, IsMonotonicAcrossTheLowerEnd) {
   const LubricationForce force(
-      fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1), "asymptotic", Weights::kRelative),
+      fitting::fit_force_table(fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1),
+                               "asymptotic", Weights::kRelative),
       BelowInterval::kLubricationLimit);
   const double end = force.impulse(1e-3);
   double last = 0;
@@ -143,26 +146,26 @@ TEST(ImpulseInverse, IsMonotonicAcrossTheLowerEnd) {
 }
 
 TEST(ImpulseInverse, NamesTheIntervalItLeaves) {
-  const LubricationForce force(planted_fit({{"1/q", 56.5}}, 1e-3, 2));
+  const LubricationForce force(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2));
   EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(1e-3) - 1); }),
               HasSubstr("thinner than the fitted interval [0.001, 2]"));
   EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }),
               HasSubstr("wider than the fitted interval [0.001, 2]"));
-  const LubricationForce limit(planted_fit({{"1/q", 56.5}}, 1e-3, 2),
+  const LubricationForce limit(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2),
                                BelowInterval::kLubricationLimit);
   EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }),
               HasSubstr("wider than the fitted interval [0.001, 2]"));
 }
 
 TEST(ImpulseInverse, RefusesWhatIsNoImpulse) {
-  const LubricationForce force(planted_fit({{"1/q", 56.5}}, 1e-3, 2),
+  const LubricationForce force(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2),
                                BelowInterval::kLubricationLimit);
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::quiet_NaN()), Error);
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::infinity()), Error);
 }
 
 TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
-  const LubricationForce force(planted_fit({{"1/q", 1}}, 1e-3, 2),
+  const LubricationForce force(fitting::planted_fit({{"1/q", 1}}, 1e-3, 2),
                                BelowInterval::kLubricationLimit);
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
               HasSubstr("thinner than the smallest number"));
@@ -173,11 +176,12 @@ TEST(ImpulseInverse, GivesTheLecturesMinimalGap) {
   // (docs/theory.md, section 3), on the exact drag. The fit is within 6e-6 of the drag everywhere,
   // hence Gamma too, and dq/q = dGamma/k = 6e-6 * 400/56.5 at worst; the residual changes sign, so
   // 1e-5 holds.
-  const LubricationForce force(fit_force_table(exact_drag_table(fifty_gaps(), {-1}, 3, 1),
-                                               "asymptotic", Weights::kRelative));
+  const LubricationForce force(
+      fitting::fit_force_table(fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1),
+                               "asymptotic", Weights::kRelative));
   constexpr double kExact = 2.97084661e-3;
   EXPECT_NEAR(force.gap_of_impulse(force.impulse(1) - 400), kExact, 1e-5 * kExact);
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

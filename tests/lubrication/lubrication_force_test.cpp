@@ -12,15 +12,16 @@
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Fit exact_fit(std::string_view basis, double velocity = -1) {
-  return fit_force_table(exact_drag_table(fifty_gaps(), {velocity}, 3, 1), basis,
-                         Weights::kRelative);
+  return fitting::fit_force_table(
+      fitting::exact_drag_table(fitting::fifty_gaps(), {velocity}, 3, 1), basis,
+      Weights::kRelative);
 }
 
 /// int_from^to f by Simpson's rule in ln q.
@@ -39,8 +40,8 @@ double simpson(const Function& f, double from, double to) {
 class OnBothBases : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OnBothBases, ResistanceIsTheTablesForceWithinTheFitsResidual) {
-  const auto table = exact_drag_table(fifty_gaps(), {-1}, 3, 1);
-  const Fit fit = fit_force_table(table, GetParam(), Weights::kRelative);
+  const auto table = fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1);
+  const Fit fit = fitting::fit_force_table(table, GetParam(), Weights::kRelative);
   const LubricationForce force(fit);
   for (const auto& row : table.rows)
     // Some rounding (1e-13) beside the residual that the fit itself states.
@@ -53,7 +54,7 @@ TEST_P(OnBothBases, ResistanceDoesNotDependOnTheVelocityOfTheFit) {
   const LubricationForce force(exact_fit(GetParam(), -1));
   const LubricationForce receding(exact_fit(
       GetParam(), 8));  // a power of two: scaling is exact but for the solver's own roundings
-  for (const double gap : log_spaced(1e-3, 1, 23))
+  for (const double gap : fitting::log_spaced(1e-3, 1, 23))
     EXPECT_NEAR(receding.resistance(gap) / force.resistance(gap), 1,
                 1e-12);  // eps times the conditioning (some 1e2)
 }
@@ -89,7 +90,7 @@ TEST_P(OnBothBases, ImpulseIsTheIntegralOfTheResistance) {
 
 TEST_P(OnBothBases, RegularResistanceIsWhatIsLeftWithoutTheLeadingTerm) {
   const LubricationForce force(exact_fit(GetParam()));
-  for (const double gap : log_spaced(1e-3, 1, 23)) {
+  for (const double gap : fitting::log_spaced(1e-3, 1, 23)) {
     const double singular = force.leading_coefficient() / gap;
     EXPECT_NEAR(force.regular_resistance(gap), force.resistance(gap) - singular,
                 4e-16 * (force.resistance(gap) + singular) * 4)
@@ -146,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(LubricationForce, OnBothBases, ::testing::Values("lectu
 
 TEST(LubricationForce, OfTheLeadingTermAloneIsTheLecturesLogarithm) {
   // Gamma = k ln(q / r); the fit is at u0 = -1, so k is its coefficient.
-  Fit fit = planted_fit({{"1/q", 56.5}}, 1e-4, 4);
+  Fit fit = fitting::planted_fit({{"1/q", 56.5}}, 1e-4, 4);
   fit.radius = 2;
   const LubricationForce force(fit);
   EXPECT_EQ(force.leading_coefficient(), 56.5);
@@ -163,17 +164,17 @@ TEST(LubricationForce, OfTheLeadingTermAloneIsTheLecturesLogarithm) {
 TEST(LubricationForce, RefusesAFitThatIsNotADrag) {
   // 1/q - 10 changes sign at q = 0.1, inside the interval.
   EXPECT_THAT(bad_input([] {
-                LubricationForce(planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1));
+                LubricationForce(fitting::planted_fit({{"1/q", 1}, {"1", -10}}, 1e-3, 1));
               }),
               AllOf(HasSubstr("resistance"), HasSubstr("must be positive")));
   // A force along its velocity.
-  Fit fit = planted_fit({{"1/q", 1}}, 1e-3, 1);
+  Fit fit = fitting::planted_fit({{"1/q", 1}}, 1e-3, 1);
   fit.reference_velocity = 1;
   EXPECT_THAT(bad_input([&] { LubricationForce{fit}; }), HasSubstr("must be positive"));
 }
 
 TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
-  const Fit fit = planted_fit({{"1", 2}}, 1e-3, 1);
+  const Fit fit = fitting::planted_fit({{"1", 2}}, 1e-3, 1);
   EXPECT_EQ(LubricationForce(fit).resistance(0.5), 2);
   EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), HasSubstr("1/q"));
   const LubricationForce force(fit, BelowInterval::kLubricationLimit);
@@ -182,9 +183,9 @@ TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
 }
 
 TEST(LubricationForce, CoversAnIntervalWiderThanADoublesQuotient) {
-  const LubricationForce force(planted_fit({{"1/q", 0.1}}, 1e-300, 1e300));
+  const LubricationForce force(fitting::planted_fit({{"1/q", 0.1}}, 1e-300, 1e300));
   for (const double gap : {1e-300, 1.0, 1e300}) EXPECT_DOUBLE_EQ(force.resistance(gap), 0.1 / gap);
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

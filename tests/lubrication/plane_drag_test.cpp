@@ -15,7 +15,7 @@
 #include "tests/oracles/near_contact_expansion.hpp"
 #include "viscontact/common/text/csv.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
@@ -93,7 +93,7 @@ TEST(PlaneDrag, AgreesWithTheReferenceValues) {
 }
 
 TEST(PlaneDrag, FollowsBrennersSeries) {
-  for (const double eps : log_spaced(1e-6, 1e3, 400)) {
+  for (const double eps : fitting::log_spaced(1e-6, 1e3, 400)) {
     const double exact = brenner_drag_factor(eps);
     // The oracle sums in long double and promises 1e-13; it was seen to hold 1e-15.
     EXPECT_NEAR(plane_drag_factor(eps), exact, 4 * kRoundOff * exact) << "at " << eps;
@@ -112,7 +112,7 @@ TEST(PlaneDrag, LogSlopeIsTheDerivative) {
   // Central differences of order 10 in x = ln eps.
   constexpr std::array kWeights = {5.0 / 6, -5.0 / 21, 5.0 / 84, -5.0 / 504, 1.0 / 1260};
   constexpr double kStep = 0.05;
-  for (const double eps : log_spaced(1e-5, 1e3, 200)) {
+  for (const double eps : fitting::log_spaced(1e-5, 1e3, 200)) {
     double slope = 0;
     for (int k = 1; k <= 5; ++k) {
       const double ratio = std::exp(k * kStep);
@@ -142,7 +142,7 @@ double quadrature(Function drag_factor, double low, double high) {
 }
 
 TEST(PlaneDrag, IntegralsAreThoseOfTheFactor) {
-  const auto gaps = log_spaced(1e-4, 1e4, 30);  // ln 10^8/29 = 0.64 apart
+  const auto gaps = fitting::log_spaced(1e-4, 1e4, 30);  // ln 10^8/29 = 0.64 apart
   for (std::size_t i = 1; i < gaps.size(); ++i) {
     const double low = gaps[i - 1], high = gaps[i];
     const double integral = plane_drag_integral(high) - plane_drag_integral(low);
@@ -165,7 +165,7 @@ TEST(PlaneDrag, IntegralsAreThoseOfTheFactor) {
 
 TEST(PlaneDrag, PartsAddUp) {
   const double to_one = plane_drag_regular_integral(1);
-  for (const double eps : log_spaced(1e-12, 1e12, 500)) {
+  for (const double eps : fitting::log_spaced(1e-12, 1e12, 500)) {
     const double integral = plane_drag_integral(eps);
     EXPECT_DOUBLE_EQ(plane_drag_factor(eps), 1 / eps + plane_drag_factor_regular(eps));
     // Three roundings of terms no larger than the sum or than 1.3.
@@ -198,7 +198,7 @@ TEST(PlaneDrag, IsContinuousAtTheJoins) {
 
 TEST(PlaneDrag, FollowsTheExpansionNearContact) {
   const auto terms = near_contact_expansion("rigid");
-  for (const double eps : log_spaced(1e-14, 1e-3, 50)) {
+  for (const double eps : fitting::log_spaced(1e-14, 1e-3, 50)) {
     double regular = 0;
     for (int k = 0; k <= 4; ++k) regular += terms[static_cast<std::size_t>(k) + 1].at(eps, k);
     // The same terms: only the order of summation differs.
@@ -234,4 +234,4 @@ TEST(PlaneDrag, NegativeGapsGiveNoNumber) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

@@ -9,7 +9,7 @@
 
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::lubrication {
 namespace {
 
 using ::testing::ElementsAre;
@@ -117,4 +117,4 @@ TEST(Bases, AreListedWhereANameIsUnknown) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::lubrication

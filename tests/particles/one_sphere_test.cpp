@@ -14,7 +14,7 @@ namespace {
 
 struct Case {
   double mass, radius, gap, velocity, gamma_min, step, end;
-  std::vector<ExternalForce::Piece> pieces;
+  std::vector<reduced_model::ExternalForce::Piece> pieces;
 };
 
 Case random_case(Random& random) {
@@ -34,11 +34,12 @@ Case random_case(Random& random) {
   return c;
 }
 
-Trajectory by_reduced_model(const Case& c) {
-  Motion motion{c.mass, c.gap, c.velocity, c.end, ExternalForce(c.pieces)};
-  motion.set(kContactTimeStep, c.step);
+reduced_model::Trajectory by_reduced_model(const Case& c) {
+  reduced_model::Motion motion{c.mass, c.gap, c.velocity, c.end,
+                               reduced_model::ExternalForce(c.pieces)};
+  motion.set(reduced_model::kContactTimeStep, c.step);
   // The model viscous_contact without the fit: contact at q = 0, gamma_min, no drag.
-  return run_contact_model(motion, {0, c.gamma_min, {}, {}});
+  return reduced_model::run_contact_model(motion, {0, c.gamma_min, {}, {}});
 }
 
 /// The plane anywhere, at any slope; half of the force is weight.

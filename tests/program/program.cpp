@@ -31,7 +31,7 @@ void expect_done(const ProgramResult& result) { EXPECT_EQ(result.exit_status, 0)
 
 void expect_refusal(const ProgramResult& result, ErrorKind kind,
                     const ::testing::Matcher<std::string>& message) {
-  EXPECT_EQ(result.exit_status, exit_code_of(kind)) << result.errors;
+  EXPECT_EQ(result.exit_status, results::exit_code_of(kind)) << result.errors;
   std::istringstream stream(result.errors);
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) lines.push_back(line);

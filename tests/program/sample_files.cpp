@@ -18,12 +18,12 @@ std::string exact_table_text() {
   constexpr int kRows = 30;
   constexpr double kSmallest = 1e-3;
   constexpr double kLargest = 2;
-  ForceTable table;
+  lubrication::ForceTable table;
   table.viscosity = 3;
   table.radius = 1;
   table.container = "none: exact drag in a half-space";
   for (int i = 0; i < kRows; ++i) {
-    ForceTableRow row;
+    lubrication::ForceTableRow row;
     row.gap = i + 1 == kRows ? kLargest
                              : kSmallest * std::pow(kLargest / kSmallest,
                                                     static_cast<double>(i) / (kRows - 1));
@@ -32,7 +32,7 @@ std::string exact_table_text() {
     row.force = 6 * std::numbers::pi * table.viscosity * table.radius * row.drag_factor;
     table.rows.push_back(row);
   }
-  return write_force_table(table);
+  return lubrication::write_force_table(table);
 }
 
 std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {

@@ -12,7 +12,7 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr double kViscosity = 3;
@@ -29,8 +29,9 @@ Motion motion_with_settings(double mass, double end_time,
 }
 
 /// A fit that was not fitted: these terms, as they are.
-Fit planted_fit(double k, std::array<double, 2> gap_interval, std::vector<FitTerm> terms) {
-  Fit fit;
+lubrication::Fit planted_fit(double k, std::array<double, 2> gap_interval,
+                             std::vector<lubrication::FitTerm> terms) {
+  lubrication::Fit fit;
   fit.basis = "planted";
   fit.reference_velocity = -1;
   fit.viscosity = k / (6 * std::numbers::pi * kRadius * kRadius);
@@ -47,13 +48,13 @@ Motion lecture_motion() { return motion_with_settings(20, 4, {{2, -200}, {4, 200
 
 Motion limit_motion() { return motion_with_settings(1, 6, {{2, -2}, {6, 2}}); }
 
-Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
+lubrication::Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
   constexpr int kRows = 40;
-  ForceTable table;
+  lubrication::ForceTable table;
   table.viscosity = kViscosity;
   table.radius = kRadius;
   for (int i = 0; i < kRows; ++i) {
-    ForceTableRow row;
+    lubrication::ForceTableRow row;
     row.gap = gaps[0] * std::pow(gaps[1] / gaps[0], static_cast<double>(i) / (kRows - 1));
     if (i == kRows - 1) row.gap = gaps[1];
     row.reference_velocity = -1;
@@ -61,16 +62,20 @@ Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps) {
         6 * std::numbers::pi * kViscosity * kRadius * brenner_drag_factor(row.gap / kRadius);
     table.rows.push_back(row);
   }
-  return fit_force_table(table, basis, Weights::kRelative);
+  return fitting::fit_force_table(table, basis, lubrication::Weights::kRelative);
 }
 
-Fit lecture_fit() { return brenner_fit("lecture", {1e-3, 2}); }
+lubrication::Fit lecture_fit() { return brenner_fit("lecture", {1e-3, 2}); }
 
-Fit close_fit() { return brenner_fit("asymptotic", {1e-3, 1.01}); }
+lubrication::Fit close_fit() { return brenner_fit("asymptotic", {1e-3, 1.01}); }
 
-Fit leading_term_fit(double k) { return planted_fit(k, {1e-200, 1e20}, {{"1/q", k, 0}}); }
+lubrication::Fit leading_term_fit(double k) {
+  return planted_fit(k, {1e-200, 1e20}, {{"1/q", k, 0}});
+}
 
-Fit shifted_fit(double k) { return planted_fit(k, {1e-200, 1e200}, {{"1/q", k, 0}, {"1", k, 0}}); }
+lubrication::Fit shifted_fit(double k) {
+  return planted_fit(k, {1e-200, 1e200}, {{"1/q", k, 0}, {"1", k, 0}});
+}
 
 RandomCase random_case(std::mt19937_64& generator) {
   const auto uniform = [&](double from, double to) {
@@ -106,4 +111,4 @@ const TrajectoryRow& row_at(const Trajectory& trajectory, double time) {
   return *found;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

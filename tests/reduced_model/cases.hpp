@@ -9,7 +9,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Exact inertialess and inertial minimal gaps of the lecture's case (docs/theory.md, section 3):
 /// half-space, exact drag.
@@ -26,20 +26,20 @@ Motion lecture_motion();
 Motion limit_motion();
 
 /// Brenner's exact drag of the lecture's sphere (mu = 3, r = 1), fitted on 40 log-spaced gaps.
-Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps);
+lubrication::Fit brenner_fit(std::string_view basis, std::array<double, 2> gaps);
 
 /// The lecture's basis on the gaps of its case: largest relative residual 4.6e-3.
-Fit lecture_fit();
+lubrication::Fit lecture_fit();
 
 /// The asymptotic basis on gaps in [1e-3, 1.01], those of the lecture's motion: largest relative
 /// residual 7.1e-6. (On [1e-3, 2] it is 6.8e-5.)
-Fit close_fit();
+lubrication::Fit close_fit();
 
 /// R = k/q exactly, radius 1, for gaps in [1e-200, 1e20].
-Fit leading_term_fit(double k);
+lubrication::Fit leading_term_fit(double k);
 
 /// R = k (1/q + 1), radius 1, for gaps in [1e-200, 1e200].
-Fit shifted_fit(double k);
+lubrication::Fit shifted_fit(double k);
 
 /// A motion and the k of its drag.
 struct RandomCase {
@@ -57,4 +57,4 @@ const TrajectoryRow& lowest_row(const Trajectory& trajectory);
 /// The row at exactly that time; fails the test if there is none.
 const TrajectoryRow& row_at(const Trajectory& trajectory, double time);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

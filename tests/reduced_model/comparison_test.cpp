@@ -7,7 +7,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::AllOf;
@@ -235,4 +235,4 @@ TEST(ComparisonFile, IsRefusedWhenItIsAFolderOrMissing) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -14,13 +14,13 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr int kCases = 10'000;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-using MakeModel = ContactModel (*)(const Motion&, const LubricationForce&);
+using MakeModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
 
 class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
  protected:
@@ -34,7 +34,7 @@ class ContactInvariants : public ::testing::TestWithParam<MakeModel> {
       SCOPED_TRACE(::testing::Message() << "case " << i << ": m = " << motion.mass << ", k = " << k
                                         << ", h = " << motion.parameter(kContactTimeStep)
                                         << ", s = " << motion.roughness[0]);
-      const LubricationForce force(shifted_fit(k));
+      const lubrication::LubricationForce force(shifted_fit(k));
       ContactModel model = GetParam()(motion, force);
       // The film may be thinner than any double; that is no matter here.
       model.film_thickness = [](double) { return 0.0; };
@@ -127,8 +127,9 @@ TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
     motion.roughness = {0, 0};
     const double start = motion.mass * motion.initial_velocity;
     double largest = std::abs(start);
-    for (const auto& row :
-         run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k))).rows) {
+    for (const auto& row : run_contact_model(viscous_contact, motion,
+                                             lubrication::LubricationForce(leading_term_fit(k)))
+                               .rows) {
       const double momentum = start + motion.external_force.impulse(row.time);
       largest = std::max(largest, std::abs(momentum));
       // Up to 3200 steps, a few roundings each at the size of the largest momentum, all of one sign
@@ -141,4 +142,4 @@ TEST(ViscousContactMomentum, IsKeptOverAWholeMotionWithoutSolidContact) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

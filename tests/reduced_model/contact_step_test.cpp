@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr double kSmooth = -std::numeric_limits<double>::infinity();
@@ -16,7 +16,7 @@ constexpr double kStep = 0.5;
 /// One step without drag, from the velocity that it would have without contact.
 ContactState contact_step(const ContactState& state, double free_velocity, double mass,
                           double gamma_min, double step) {
-  return viscontact::contact_step(state, mass * (free_velocity - state.velocity),
+  return viscontact::reduced_model::contact_step(state, mass * (free_velocity - state.velocity),
                                   ContactSetting(mass, gamma_min, step), NoDrag())
       .state;
 }
@@ -81,4 +81,4 @@ TEST(ContactStep, IsPlainContactWhereTheFilmRemembersNothing) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

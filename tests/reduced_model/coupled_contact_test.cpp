@@ -11,14 +11,14 @@
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::HasSubstr;
 
 constexpr double kPush = -400;  // impulse of the lecture's push
 
-double regular_drag_film(const LubricationForce& force, double step) {
+double regular_drag_film(const lubrication::LubricationForce& force, double step) {
   Motion motion = lecture_motion();
   motion.set(kContactTimeStep, step);
   return run_contact_model(viscous_contact_regular_drag, motion, force)
@@ -27,7 +27,7 @@ double regular_drag_film(const LubricationForce& force, double step) {
 
 TEST(RegularDrag, RecoversTheLecturesMinimalGap) {
   for (const auto& fit : {lecture_fit(), close_fit()})
-    EXPECT_NEAR(regular_drag_film(LubricationForce(fit), 1e-4) / 3.0e-3, 1, 0.03)
+    EXPECT_NEAR(regular_drag_film(lubrication::LubricationForce(fit), 1e-4) / 3.0e-3, 1, 0.03)
         << fit.basis;  // the bar
 }
 
@@ -37,8 +37,8 @@ constexpr double kRoundOff = 1e-11;
 
 TEST(RegularDrag, RecoversTheFilmThatTheResolvedDragLeavesWhateverItsStep) {
   // At rest in contact the first integral reads gamma + int_1^0 (R - k/q) dq = -400.
-  const Fit fit = close_fit();
-  const LubricationForce force(fit);
+  const lubrication::Fit fit = close_fit();
+  const lubrication::LubricationForce force(fit);
   const double k = force.leading_coefficient();
   const double smallest = fit.gap_interval[0];
   const double resolved = force.impulse(1) - force.impulse(smallest) + k * std::log(smallest) +
@@ -51,7 +51,7 @@ TEST(RegularDrag, RecoversTheFilmThatTheResolvedDragLeavesWhateverItsStep) {
 }
 
 TEST(RegularDrag, IsViscousContactWhereTheDragIsKOverQ) {
-  const LubricationForce force(leading_term_fit(0.3));
+  const lubrication::LubricationForce force(leading_term_fit(0.3));
   const Motion motion = limit_motion();
   const ContactModel model = viscous_contact_regular_drag(motion, force);
   for (const double gap : {0.0, 1e-3, 1.0}) {
@@ -63,7 +63,7 @@ TEST(RegularDrag, IsViscousContactWhereTheDragIsKOverQ) {
 TEST(RegularDrag, FallsAtTheSpeedOfItsDragFarFromContact) {
   // R - k/q = k here: u tends to f/k as exp(-k t / m), by implicit Euler (1 + h k/m)^-n.
   const double k = 2;
-  const LubricationForce force(shifted_fit(k));
+  const lubrication::LubricationForce force(shifted_fit(k));
   Motion motion{1, 100, 0, 5, ExternalForce({{5, -3}})};
   motion.set(kContactTimeStep, 0.125);
   const auto trajectory = run_contact_model(viscous_contact_regular_drag, motion, force);
@@ -80,7 +80,7 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
   // Gamma(1) - 400 for every q_c, h and m. A drag that also acted on the sphere held at rest would
   // make it 11.7 % off at q_c = 0.1, h = 1e-3.
   for (const auto& fit : {lecture_fit(), close_fit()}) {
-    const LubricationForce force(fit);
+    const lubrication::LubricationForce force(fit);
     Motion motion = lecture_motion();
     const double exact = lowest_row(simulate_reference_exact(motion, force)).gap;
     for (const double threshold_gap : {0.3, 0.1, 0.03})
@@ -99,7 +99,7 @@ TEST(Threshold, RecoversTheFilmOfTheReferenceWhateverStepThresholdAndMass) {
 }
 
 TEST(Threshold, FollowsTheInertialMotionAboveItsThresholdAtFirstOrder) {
-  const LubricationForce force(close_fit());
+  const lubrication::LubricationForce force(close_fit());
   Motion motion = lecture_motion();
   motion.set(kReferenceTimeStep, 1e-2);
   const auto exact = simulate_inertial(motion, force);
@@ -123,7 +123,7 @@ TEST(Threshold, FollowsTheInertialMotionAboveItsThresholdAtFirstOrder) {
 
 TEST(Threshold, StaysAtItsThresholdWhileInContact) {
   const auto trajectory = run_contact_model(viscous_contact_threshold, lecture_motion(),
-                                            LubricationForce(lecture_fit()));
+                                            lubrication::LubricationForce(lecture_fit()));
   EXPECT_EQ(lowest_row(trajectory).gap, 0.1);
   EXPECT_EQ(row_at(trajectory, 2).gap, 0.1);
   EXPECT_LT(*row_at(trajectory, 2).gamma, 0);
@@ -132,7 +132,7 @@ TEST(Threshold, StaysAtItsThresholdWhileInContact) {
 TEST(Threshold, StopsAtTheRoughnessHeight) {
   Motion motion = lecture_motion();
   motion.roughness = {0.01, 0.01};
-  const LubricationForce force(lecture_fit());
+  const lubrication::LubricationForce force(lecture_fit());
   const auto trajectory = run_contact_model(viscous_contact_threshold, motion, force);
   // Gamma and its inverse, to round-off of Gamma's 400 over k = 57.
   EXPECT_NEAR(trajectory.recovered_minimal_gap.value() / 0.02, 1, 1e-13);
@@ -146,7 +146,7 @@ TEST(Threshold, RefusesToStartBelowItsThreshold) {
     EXPECT_THAT(failure(ErrorKind::kBadInput,
                         [&] {
                           run_contact_model(viscous_contact_threshold, motion,
-                                            LubricationForce(lecture_fit()));
+                                            lubrication::LubricationForce(lecture_fit()));
                         }),
                 HasSubstr("viscous_contact.threshold_gap"));
   }
@@ -158,20 +158,20 @@ TEST(Threshold, RefusesAThresholdOutsideTheFit) {
   EXPECT_THAT(failure(ErrorKind::kBadInput,
                       [&] {
                         run_contact_model(viscous_contact_threshold, motion,
-                                          LubricationForce(lecture_fit()));
+                                          lubrication::LubricationForce(lecture_fit()));
                       }),
               HasSubstr("[0.001, 2]"));
 }
 
 TEST(ContactModels, RefuseAFitWithoutAPositiveLeadingTerm) {
-  Fit fit = leading_term_fit(1);
+  lubrication::Fit fit = leading_term_fit(1);
   fit.gap_interval = {1e-3, 10};
   fit.terms = {{"1", 1, 0}};
-  const LubricationForce force(fit);
+  const lubrication::LubricationForce force(fit);
   EXPECT_THAT(
       bad_input([&] { run_contact_model(viscous_contact_regular_drag, limit_motion(), force); }),
       HasSubstr("1/q"));
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -13,7 +13,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::DoubleEq;
@@ -203,4 +203,4 @@ TEST_F(ForceFile, IsRefusedWithItsLine) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -9,7 +9,7 @@
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::ElementsAre;
@@ -51,7 +51,7 @@ TEST(FewerRows, KeepTheExtremesAndBothSidesOfEachChangeOfContact) {
 TEST(FewerRows, ChangeNothingThatAComparisonSaysOfOneModel) {
   Motion motion = lecture_motion();
   motion.roughness = {2e-3, 3e-3};
-  const LubricationForce force = LubricationForce::exact_plane(3, 1);
+  const lubrication::LubricationForce force = lubrication::LubricationForce::exact_plane(3, 1);
   for (const auto& model : all_models()) {
     const auto whole = simulate(find_model(model.name), motion, force);
     auto fewer = whole;
@@ -80,7 +80,8 @@ TEST(Progress, IsToldByEveryModelInTimesThatDoNotDecrease) {
   for (const auto& model : all_models()) {
     std::vector<double> told;
     motion.progress = [&](double time) { told.push_back(time); };
-    (void)simulate(find_model(model.name), motion, LubricationForce::exact_plane(3, 1));
+    (void)simulate(find_model(model.name), motion,
+                   lubrication::LubricationForce::exact_plane(3, 1));
     EXPECT_TRUE(std::ranges::is_sorted(told)) << model.name;
     ASSERT_FALSE(told.empty()) << model.name;
     if (model.name != "explicit_euler") {  // goes through the plane, and ends there
@@ -94,10 +95,11 @@ TEST(Progress, MayEndAModel) {
   Motion motion = lecture_motion();
   motion.progress = [](double) { throw Error(ErrorKind::kInterrupted, "enough"); };
   for (const auto& model : all_models())
-    EXPECT_THROW(
-        (void)simulate(find_model(model.name), motion, LubricationForce::exact_plane(3, 1)), Error)
+    EXPECT_THROW((void)simulate(find_model(model.name), motion,
+                                lubrication::LubricationForce::exact_plane(3, 1)),
+                 Error)
         << model.name;
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -10,12 +10,12 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/reduced_model/cases.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// R = k/q alone, so that q = q0 exp(I/k) at every time, with a standard error of k.
-Fit uncertain_leading_term(double k, double error) {
-  Fit fit = leading_term_fit(k);
+lubrication::Fit uncertain_leading_term(double k, double error) {
+  lubrication::Fit fit = leading_term_fit(k);
   fit.covariance = {{error * error}};
   return fit;
 }
@@ -37,7 +37,7 @@ TEST(FitUncertainty, OfTheLeadingTermAloneIsThatOfItsExponential) {
 
 TEST(FitUncertainty, ByTheMisfitScalesTheImpulse) {
   constexpr double k = 60;
-  Fit fit = leading_term_fit(k);
+  lubrication::Fit fit = leading_term_fit(k);
   fit.largest_relative_residual = 0.01;
   const auto result = propagate_fit(lecture_motion(), fit, 0);
   EXPECT_EQ(result.misfit, 0.01);
@@ -47,9 +47,9 @@ TEST(FitUncertainty, ByTheMisfitScalesTheImpulse) {
 }
 
 TEST(FitUncertainty, LeavesOutliersOutOfTheMisfitWhichIsOneAtMost) {
-  Fit fit = leading_term_fit(60);
+  lubrication::Fit fit = leading_term_fit(60);
   fit.largest_relative_residual = 2;  // an outlier's
-  fit.diagnostics = FitDiagnostics();
+  fit.diagnostics = lubrication::FitDiagnostics();
   fit.diagnostics->largest_inlier_residual = 0.01;
   fit.diagnostics->largest_error_estimate = 0.02;
   EXPECT_DOUBLE_EQ(propagate_fit(lecture_motion(), fit, 0).misfit, 0.01 + 0.02 + 0.01 * 0.02);
@@ -60,10 +60,10 @@ TEST(FitUncertainty, LeavesOutliersOutOfTheMisfitWhichIsOneAtMost) {
 }
 
 TEST(FitUncertainty, UsesTheLimitsThatTheMotionUses) {
-  Fit fit = brenner_fit("lecture", {0.02, 2});
+  lubrication::Fit fit = brenner_fit("lecture", {0.02, 2});
   fit.leading_coefficient = 56.548667764616276;
-  const auto below = BelowInterval::kTheoryLimit;
-  const LubricationForce force(fit, below);
+  const auto below = lubrication::BelowInterval::kTheoryLimit;
+  const lubrication::LubricationForce force(fit, below);
   const double expected = force.gap_of_impulse(force.impulse(1) - 400);
   EXPECT_EQ(propagate_fit(lecture_motion(), fit, 0, below).smallest.gap, expected);
   EXPECT_NE(propagate_fit(lecture_motion(), fit, 0).smallest.gap, expected);
@@ -88,10 +88,12 @@ TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
 }
 
 TEST(FitUncertainty, IsTheSameAtEachCall) {
-  const auto one = propagate_fit(lecture_motion(), lecture_fit(), 3, BelowInterval::kError,
-                                 AboveInterval::kError, 100);
-  const auto two = propagate_fit(lecture_motion(), lecture_fit(), 3, BelowInterval::kError,
-                                 AboveInterval::kError, 100);
+  const auto one =
+      propagate_fit(lecture_motion(), lecture_fit(), 3, lubrication::BelowInterval::kError,
+                    lubrication::AboveInterval::kError, 100);
+  const auto two =
+      propagate_fit(lecture_motion(), lecture_fit(), 3, lubrication::BelowInterval::kError,
+                    lubrication::AboveInterval::kError, 100);
   EXPECT_EQ(write_uncertainty(one), write_uncertainty(two));
 }
 
@@ -104,8 +106,9 @@ TEST(FitUncertainty, CountsDrawsWhoseDragIsNotPositive) {
 
 TEST(FitUncertainty, IsReadBackAsItWasWritten) {
   const TemporaryFolder folder;
-  const auto written = propagate_fit(lecture_motion(), lecture_fit(), 5, BelowInterval::kError,
-                                     AboveInterval::kError, 100);
+  const auto written =
+      propagate_fit(lecture_motion(), lecture_fit(), 5, lubrication::BelowInterval::kError,
+                    lubrication::AboveInterval::kError, 100);
   const auto read = read_uncertainty(folder.file("u.json", write_uncertainty(written)));
   EXPECT_EQ(write_uncertainty(read), write_uncertainty(written));
   const auto other = folder.file("other.json", "{\"draws\": 3}");
@@ -113,4 +116,4 @@ TEST(FitUncertainty, IsReadBackAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -18,23 +18,25 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using Real = long double;
 
 /// The force of the code and the oracle's R.
 struct Drag {
-  LubricationForce force;
+  lubrication::LubricationForce force;
   InertialProblem::Function resistance;
 };
 
 Drag exact_plane(double viscosity) {
-  return {LubricationForce::exact_plane(viscosity, 1), exact_plane_resistance(viscosity, 1)};
+  return {lubrication::LubricationForce::exact_plane(viscosity, 1),
+          exact_plane_resistance(viscosity, 1)};
 }
 
-Drag fitted(const Fit& fit, BelowInterval below = BelowInterval::kError) {
-  return {LubricationForce(fit, below), [fit](Real q) {
+Drag fitted(const lubrication::Fit& fit,
+            lubrication::BelowInterval below = lubrication::BelowInterval::kError) {
+  return {lubrication::LubricationForce(fit, below), [fit](Real q) {
             Real force = 0;
             for (const auto& term : fit.terms) {
               const Real log = term.name.find("ln q") == std::string::npos ? 0 : std::log(q);
@@ -269,4 +271,4 @@ TEST(InertialOracle, HasTheLecturesMinimalGap) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -14,14 +14,14 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// The largest |m u + Gamma(q) - P(t)| over the rows, relative to the largest |P| or m |u|.
 double first_integral_error(const Trajectory& trajectory, const Motion& motion,
-                            const LubricationForce& force) {
+                            const lubrication::LubricationForce& force) {
   double largest = 0;
   double error = 0;
   const double at_start = motion.mass * motion.initial_velocity + force.impulse(motion.initial_gap);
@@ -36,14 +36,14 @@ double first_integral_error(const Trajectory& trajectory, const Motion& motion,
 
 TEST(Inertial, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
   const auto lowest =
-      lowest_row(simulate_inertial(lecture_motion(), LubricationForce(lecture_fit())));
+      lowest_row(simulate_inertial(lecture_motion(), lubrication::LubricationForce(lecture_fit())));
   EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
               5e-3);  // the bar; the basis is 4.6e-3 off in places
 }
 
 TEST(Inertial, FindsTheExactMinimalGapAndItsTimeWithTheAsymptoticBasis) {
   const auto lowest =
-      lowest_row(simulate_inertial(lecture_motion(), LubricationForce(close_fit())));
+      lowest_row(simulate_inertial(lecture_motion(), lubrication::LubricationForce(close_fit())));
   EXPECT_NEAR(lowest.gap / kInertialMinimalGap, 1,
               1e-5);  // as for ReferenceExact: what residuals of 7e-6 leave is 1e-6
   // The event is CVODE's to 1e-9 times the time; the exact value is printed to 5e-9.
@@ -53,7 +53,7 @@ TEST(Inertial, FindsTheExactMinimalGapAndItsTimeWithTheAsymptoticBasis) {
 TEST(Inertial, KeepsTheFirstIntegralOnTheLecturesCase) {
   const Motion motion = lecture_motion();
   for (const auto& fit : {lecture_fit(), close_fit()}) {
-    const LubricationForce force(fit);
+    const lubrication::LubricationForce force(fit);
     EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force), 1e-8)
         << fit.basis;  // the bar
   }
@@ -64,13 +64,14 @@ TEST(Inertial, KeepsTheFirstIntegralForASphereThatStartsFastAndBounces) {
   motion.initial_velocity = -30;
   motion.end_time = 3;
   motion.external_force = ExternalForce({{0.5, -50}, {1.25, 120}, {1.5, 0}, {3, -80}});
-  const LubricationForce force(leading_term_fit(50));
+  const lubrication::LubricationForce force(leading_term_fit(50));
   EXPECT_LT(first_integral_error(simulate_inertial(motion, force), motion, force),
             1e-8);  // the bar
 }
 
 TEST(Inertial, HasARowWhereItTurns) {
-  const auto trajectory = simulate_inertial(lecture_motion(), LubricationForce(lecture_fit()));
+  const auto trajectory =
+      simulate_inertial(lecture_motion(), lubrication::LubricationForce(lecture_fit()));
   const auto lowest = lowest_row(trajectory);
   const double fastest = std::abs(std::ranges::max(trajectory.rows, {}, [](const auto& row) {
                                     return std::abs(row.velocity);
@@ -84,8 +85,9 @@ TEST(Inertial, HasARowWhereItTurns) {
 TEST(Inertial, HasRowsAtEveryStepAndJump) {
   Motion motion = lecture_motion();
   motion.external_force = ExternalForce({{1.00005, -200}, {2, -100}, {4, 200}});
-  const auto trajectory =
-      simulate_inertial(motion, LubricationForce(lecture_fit(), BelowInterval::kLubricationLimit));
+  const auto trajectory = simulate_inertial(
+      motion,
+      lubrication::LubricationForce(lecture_fit(), lubrication::BelowInterval::kLubricationLimit));
   for (const double time : row_times(motion)) EXPECT_EQ(row_at(trajectory, time).time, time);
   EXPECT_EQ(row_at(trajectory, 1.00005).external_force, -100);
   EXPECT_EQ(std::ranges::adjacent_find(trajectory.rows, std::ranges::greater_equal(),
@@ -97,13 +99,14 @@ TEST(Inertial, StartsExactlyWhereItIsTold) {
   Motion motion = lecture_motion();
   motion.initial_gap = 0.3;  // not exp(log(0.3))
   motion.initial_velocity = -0.7;
-  const auto first = simulate_inertial(motion, LubricationForce(leading_term_fit(50))).rows.front();
+  const auto first =
+      simulate_inertial(motion, lubrication::LubricationForce(leading_term_fit(50))).rows.front();
   EXPECT_EQ(first.gap, 0.3);
   EXPECT_EQ(first.velocity, -0.7);
 }
 
 TEST(Inertial, TendsToTheInertialessMotionAtFirstOrderInTheMass) {
-  const LubricationForce force(close_fit());
+  const lubrication::LubricationForce force(close_fit());
   Motion motion = lecture_motion();
   const double massless = lowest_row(simulate_reference_exact(motion, force)).gap;
   const auto excess = [&](double mass) {
@@ -123,7 +126,8 @@ void expect_limit_case_states(double mu) {
   const auto path =
       std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/reference/limit_case_states.csv";
   const std::array<std::string, 4> columns = {"mu", "t", "ln_q", "u"};
-  const auto trajectory = simulate_inertial(limit_motion(), LubricationForce(leading_term_fit(mu)));
+  const auto trajectory =
+      simulate_inertial(limit_motion(), lubrication::LubricationForce(leading_term_fit(mu)));
   int compared = 0;
   for (const auto& state : read_csv(path, columns, columns.size()).rows) {
     if (state.fields[0] != mu) continue;
@@ -156,13 +160,14 @@ TEST(Inertial, MeetsASharpToleranceInAThinFilm) {
   // The sphere turns within 1e-17 of the jump, less than a double tells apart from t = 2.
   Motion motion = limit_motion();
   motion.set(kRelativeTolerance, 1e-11);
-  const auto trajectory = simulate_inertial(motion, LubricationForce(leading_term_fit(0.1)));
+  const auto trajectory =
+      simulate_inertial(motion, lubrication::LubricationForce(leading_term_fit(0.1)));
   // limit_case_states.csv, mu = 0.1, t = 6; u/q is of order 1 there, the landing forgotten.
   EXPECT_NEAR(std::log(trajectory.rows.back().gap), 1.4043050385501, 1e-10);
 }
 
 TEST(Inertial, FollowsItsTolerance) {
-  const LubricationForce force(leading_term_fit(1));
+  const lubrication::LubricationForce force(leading_term_fit(1));
   const double exact = 1.3040396304076;  // limit_case_states.csv, mu = 1, t = 6
   const auto error = [&](double tolerance) {
     Motion motion = limit_motion();
@@ -174,10 +179,10 @@ TEST(Inertial, FollowsItsTolerance) {
 }
 
 TEST(Inertial, SaysWhenItLeavesTheFit) {
-  const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
+  const lubrication::LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
   EXPECT_THAT(bad_input([&] { simulate_inertial(lecture_motion(), force); }),
               HasSubstr("[0.01, 2]"));
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -9,7 +9,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/reduced_model/cases.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::AllOf;
@@ -51,7 +51,7 @@ TEST(Models, ListTheirNamesToOneWhoAsksForAnother) {
 
 TEST(Models, WithGammaAreTheContactModels) {
   const Motion motion = lecture_motion();
-  const auto force = LubricationForce::exact_plane(3, 1);
+  const auto force = lubrication::LubricationForce::exact_plane(3, 1);
   for (const auto& model : all_models()) {
     const bool is_viscous = model.name.starts_with("viscous_contact");
     const bool is_contact = is_viscous || model.name == "inelastic_contact";
@@ -65,7 +65,7 @@ TEST(Models, WithGammaAreTheContactModels) {
 
 TEST(Models, CoverTheMotionFromItsStartToItsEnd) {
   const Motion motion = lecture_motion();
-  const LubricationForce force(lecture_fit());
+  const lubrication::LubricationForce force(lecture_fit());
   for (const auto& model : all_models()) {
     if (model.name == "explicit_euler") continue;  // it ends where it goes through the plane
     const auto trajectory = simulate(find_model(model.name), motion, force);
@@ -83,7 +83,8 @@ TEST(Models, CoverTheMotionFromItsStartToItsEnd) {
 }
 
 TEST(Models, PutTheirNameInFrontOfAnError) {
-  const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));  // too short for the film
+  const lubrication::LubricationForce force(
+      brenner_fit("lecture", {1e-2, 2}));  // too short for the film
   for (const auto* name :
        {"reference", "reference_exact", "inertial", "viscous_contact_threshold"}) {
     const auto message = bad_input([&] { simulate(find_model(name), lecture_motion(), force); });
@@ -94,16 +95,16 @@ TEST(Models, PutTheirNameInFrontOfAnError) {
 
 TEST(Models, RunOnTheShippedLimitCase) {
   // Its fit reaches from 1e-300 to 1e300: nothing on the way may overflow.
-  const auto fit =
-      read_fit(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/fits/limit.json");
-  const LubricationForce force(fit);
+  const auto fit = lubrication::read_fit(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) /
+                                         "data/fits/limit.json");
+  const lubrication::LubricationForce force(fit);
   for (const auto* name :
        {"inertial", "viscous_contact", "viscous_contact_regular_drag", "viscous_contact_threshold"})
     EXPECT_GT(simulate(find_model(name), limit_motion(), force).rows.size(), 6000U) << name;
 }
 
 TEST(Models, HaveBooksThatBalance) {
-  const auto force = LubricationForce::exact_plane(3, 1);
+  const auto force = lubrication::LubricationForce::exact_plane(3, 1);
   for (const auto& model : all_models()) {
     Motion motion = lecture_motion();
     motion.roughness = {0.05, 0};
@@ -144,7 +145,7 @@ TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {
   EXPECT_THAT(failure(ErrorKind::kNotConverged,
                       [&] {
                         simulate(find_model("viscous_contact"), motion,
-                                 LubricationForce::exact_plane(3, 1));
+                                 lubrication::LubricationForce::exact_plane(3, 1));
                       }),
               HasSubstr("range of a double"));
 }
@@ -152,7 +153,8 @@ TEST(Models, SayWhenTheyLeaveTheNumbersOfADouble) {
 TEST(Models, RunWithTheExactDragAndWithoutRoughnessByTheirSuffixes) {
   Motion motion = lecture_motion();
   motion.roughness = {0.05, 0};
-  const LubricationForce fitted(lecture_fit(), BelowInterval::kError, AboveInterval::kStokesLimit);
+  const lubrication::LubricationForce fitted(lecture_fit(), lubrication::BelowInterval::kError,
+                                             lubrication::AboveInterval::kStokesLimit);
   const auto film = [&](const char* name) {
     return simulate(find_model(name), motion, fitted).recovered_minimal_gap.value();
   };
@@ -167,4 +169,4 @@ TEST(Models, RunWithTheExactDragAndWithoutRoughnessByTheirSuffixes) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

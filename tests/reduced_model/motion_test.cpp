@@ -10,7 +10,7 @@
 
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::ElementsAre;
@@ -89,4 +89,4 @@ TEST(RowTimes, IncreaseStrictlyFromZeroToTheEnd) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

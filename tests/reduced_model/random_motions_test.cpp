@@ -13,16 +13,16 @@
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr int kCases = 10'000;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Drag k/q in every other case, the exact drag of a sphere of radius 1 in the others.
-LubricationForce force_of(int i, double k) {
-  return i % 2 == 0 ? LubricationForce(leading_term_fit(k))
-                    : LubricationForce::exact_plane(k / (6 * std::numbers::pi), 1);
+lubrication::LubricationForce force_of(int i, double k) {
+  return i % 2 == 0 ? lubrication::LubricationForce(leading_term_fit(k))
+                    : lubrication::LubricationForce::exact_plane(k / (6 * std::numbers::pi), 1);
 }
 
 TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
@@ -35,7 +35,7 @@ TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
     const double gamma_min = solid_gap > 0 ? std::min(0.0, k * std::log(solid_gap))
                                            : -std::numeric_limits<double>::infinity();
     const auto trajectory =
-        simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(k)));
+        simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(k)));
     double impulse_scale = motion.mass * std::abs(motion.initial_velocity);
     for (std::size_t n = 0; n < trajectory.rows.size(); ++n) {
       const auto& row = trajectory.rows[n];
@@ -92,7 +92,7 @@ TEST(RandomMotions, WithInertiaKeepTheFirstIntegralAndNeverTouch) {
   for (int i = 0; i < kCases; ++i) {
     const auto [motion, k] = resolvable_case(generator);
     SCOPED_TRACE(::testing::Message() << i << ": m = " << motion.mass << ", k = " << k);
-    const LubricationForce force = force_of(i, k);
+    const lubrication::LubricationForce force = force_of(i, k);
     const Trajectory trajectory = simulate_inertial(motion, force);
     const double start = motion.mass * motion.initial_velocity + force.impulse(motion.initial_gap);
     for (std::size_t n = 0; n < trajectory.rows.size(); ++n) {
@@ -123,7 +123,7 @@ TEST(RandomMotions, WithoutInertiaAreReversible) {
   std::uniform_real_distribution uniform(0.0, 1.0);
   for (int i = 0; i < kCases; ++i) {
     const double k = std::pow(10, 10 * uniform(generator) - 5);
-    const LubricationForce force = force_of(i, k);
+    const lubrication::LubricationForce force = force_of(i, k);
     std::vector<ExternalForce::Piece> there, back;
     const int count = 1 + i % 6;
     for (int j = 0; j < count; ++j)
@@ -147,4 +147,4 @@ TEST(RandomMotions, WithoutInertiaAreReversible) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

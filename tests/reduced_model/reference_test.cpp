@@ -9,28 +9,28 @@
 #include "tests/reduced_model/cases.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::HasSubstr;
 
-double euler_minimal_gap(const LubricationForce& force, double step) {
+double euler_minimal_gap(const lubrication::LubricationForce& force, double step) {
   Motion motion = lecture_motion();
   motion.set(kReferenceTimeStep, step);
   return lowest_row(simulate_reference(motion, force)).gap;
 }
 
 TEST(ReferenceExact, FindsTheLecturesMinimalGapWithTheLecturesBasis) {
-  const auto lowest =
-      lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(lecture_fit())));
+  const auto lowest = lowest_row(
+      simulate_reference_exact(lecture_motion(), lubrication::LubricationForce(lecture_fit())));
   EXPECT_EQ(lowest.time, 2);
   // The bar. The basis itself is 4.6e-3 off the exact drag in places.
   EXPECT_NEAR(lowest.gap / kExactMinimalGap, 1, 5e-3);
 }
 
 TEST(ReferenceExact, FindsTheExactMinimalGapWithTheAsymptoticBasis) {
-  const auto lowest =
-      lowest_row(simulate_reference_exact(lecture_motion(), LubricationForce(close_fit())));
+  const auto lowest = lowest_row(
+      simulate_reference_exact(lecture_motion(), lubrication::LubricationForce(close_fit())));
   EXPECT_EQ(lowest.time, 2);
   // Residuals of 7e-6 all of one sign would move ln q by 7e-6 * 400 / k = 5e-5; they alternate, and
   // 1e-6 is left.
@@ -41,7 +41,7 @@ TEST(ReferenceExact, IsTheExponentialOfTheImpulseWhereTheDragIsKOverQ) {
   const double k = 0.7;
   const Motion motion = limit_motion();
   for (const auto& row :
-       simulate_reference_exact(motion, LubricationForce(leading_term_fit(k))).rows) {
+       simulate_reference_exact(motion, lubrication::LubricationForce(leading_term_fit(k))).rows) {
     const double ln_q = motion.external_force.impulse(row.time) / k;
     // Gamma, its inverse and the logarithm each round once or twice at the size of ln q.
     EXPECT_NEAR(std::log(row.gap), ln_q, 8e-16 * (1 + std::abs(ln_q))) << row.time;
@@ -53,7 +53,7 @@ TEST(ReferenceExact, IsTheExponentialOfTheImpulseWhereTheDragIsKOverQ) {
 
 TEST(ReferenceExact, RunsBackwardsOnTheSamePathWhenTheForceTurns) {
   // Stokes flow is reversible: pulled as it was pushed, the sphere passes the same gaps in reverse.
-  const LubricationForce force(lecture_fit());
+  const lubrication::LubricationForce force(lecture_fit());
   Motion motion = lecture_motion();
   motion.set(kReferenceTimeStep, 0.0625);  // dyadic, so that times mirror to the bit
   const auto rows = simulate_reference_exact(motion, force).rows;
@@ -69,7 +69,7 @@ TEST(ReferenceExact, RunsBackwardsOnTheSamePathWhenTheForceTurns) {
 }
 
 TEST(ReferenceExact, BalancesTheExternalForceInEachRow) {
-  const LubricationForce force(lecture_fit());
+  const lubrication::LubricationForce force(lecture_fit());
   for (const auto& row : simulate_reference_exact(lecture_motion(), force).rows) {
     EXPECT_EQ(row.lubrication_force, -row.external_force.value());
     // Two roundings: the division by R and this product.
@@ -79,7 +79,7 @@ TEST(ReferenceExact, BalancesTheExternalForceInEachRow) {
 }
 
 TEST(ReferenceExact, SaysWhenTheFilmIsThinnerThanTheFit) {
-  const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
+  const lubrication::LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
   EXPECT_THAT(bad_input([&] { simulate_reference_exact(lecture_motion(), force); }),
               HasSubstr("[0.01, 2]"));
 }
@@ -87,7 +87,9 @@ TEST(ReferenceExact, SaysWhenTheFilmIsThinnerThanTheFit) {
 TEST(ReferenceExact, SaysWhenTheGapIsWiderThanTheFit) {
   Motion motion = lecture_motion();
   motion.external_force = ExternalForce({{4, 200}});
-  EXPECT_THAT(bad_input([&] { simulate_reference_exact(motion, LubricationForce(lecture_fit())); }),
+  EXPECT_THAT(bad_input([&] {
+                simulate_reference_exact(motion, lubrication::LubricationForce(lecture_fit()));
+              }),
               HasSubstr("[0.001, 2]"));
 }
 
@@ -96,7 +98,8 @@ TEST(Reference, IsAPowerOfItsStepWhereTheDragIsKOverQ) {
   const double k = 4;
   Motion motion{1, 1, 0, 2, ExternalForce({{1, -2}, {2, 3}})};
   motion.set(kReferenceTimeStep, 0.125);
-  const auto trajectory = simulate_reference(motion, LubricationForce(leading_term_fit(k)));
+  const auto trajectory =
+      simulate_reference(motion, lubrication::LubricationForce(leading_term_fit(k)));
   ASSERT_EQ(trajectory.rows.size(), 17U);
   EXPECT_EQ(trajectory.steps, 16);
   for (int n = 0; n <= 16; ++n) {
@@ -111,7 +114,8 @@ TEST(Reference, IsAPowerOfItsStepWhereTheDragIsKOverQ) {
 }
 
 TEST(Reference, ConvergesToTheExactSolutionAtFirstOrderInItsStep) {
-  const LubricationForce force(lecture_fit(), BelowInterval::kLubricationLimit);
+  const lubrication::LubricationForce force(lecture_fit(),
+                                            lubrication::BelowInterval::kLubricationLimit);
   const double exact = lowest_row(simulate_reference_exact(lecture_motion(), force)).gap;
   const double coarse = euler_minimal_gap(force, 1e-2) / exact - 1;
   const double middle = euler_minimal_gap(force, 1e-3) / exact - 1;
@@ -129,7 +133,8 @@ TEST(Reference, ConvergesToTheExactSolutionAtFirstOrderInItsStep) {
 TEST(Reference, TakesTheMeanForceOfAStepThatHoldsAJump) {
   Motion motion{1, 1, 0, 1, ExternalForce({{0.25, -2}, {1, 2}})};
   motion.set(kReferenceTimeStep, 0.5);
-  const auto trajectory = simulate_reference(motion, LubricationForce(leading_term_fit(1)));
+  const auto trajectory =
+      simulate_reference(motion, lubrication::LubricationForce(leading_term_fit(1)));
   EXPECT_EQ(trajectory.rows[0].velocity, 0);
   EXPECT_EQ(trajectory.rows[1].gap, 1);
   EXPECT_EQ(trajectory.rows[2].gap, 2);
@@ -138,16 +143,17 @@ TEST(Reference, TakesTheMeanForceOfAStepThatHoldsAJump) {
 TEST(Reference, SaysWhenAStepGoesThroughThePlane) {
   Motion motion = lecture_motion();
   motion.set(kReferenceTimeStep, 1);
-  const LubricationForce force(lecture_fit(), BelowInterval::kLubricationLimit);
+  const lubrication::LubricationForce force(lecture_fit(),
+                                            lubrication::BelowInterval::kLubricationLimit);
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { simulate_reference(motion, force); }),
               HasSubstr("smaller reference.time_step"));
 }
 
 TEST(Reference, SaysWhenItLeavesTheFit) {
-  const LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
+  const lubrication::LubricationForce force(brenner_fit("lecture", {1e-2, 2}));
   EXPECT_THAT(bad_input([&] { simulate_reference(lecture_motion(), force); }),
               HasSubstr("[0.01, 2]"));
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

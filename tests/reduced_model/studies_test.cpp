@@ -18,7 +18,7 @@
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::Contains;
@@ -27,14 +27,14 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// A shipped case with its drag.
 struct Study {
-  Case c;
-  LubricationForce force;
+  case_file::Case c;
+  lubrication::LubricationForce force;
 
-  const Motion& motion() const { return required_motion(c); }
+  const Motion& motion() const { return case_file::required_motion(c); }
 
   /// One of the models that the case runs, with another motion or drag if asked.
   Trajectory run(const std::string& model, const Motion& changed,
-                 const LubricationForce& drag) const {
+                 const lubrication::LubricationForce& drag) const {
     EXPECT_THAT(c.models, Contains(model));
     return simulate(find_model(model), changed, drag);
   }
@@ -45,11 +45,13 @@ struct Study {
 };
 
 Study study(const char* name) {
-  Case c = read_case(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases" / name);
-  const auto& fit = required_fit(c);
-  LubricationForce force = fit.exact
-                               ? LubricationForce::exact_plane(c.viscosity, c.radius)
-                               : LubricationForce(read_fit(fit.file.value()), fit.below, fit.above);
+  case_file::Case c =
+      case_file::read_case(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases" / name);
+  const auto& fit = case_file::required_fit(c);
+  lubrication::LubricationForce force =
+      fit.exact ? lubrication::LubricationForce::exact_plane(c.viscosity, c.radius)
+                : lubrication::LubricationForce(lubrication::read_fit(fit.file.value()), fit.below,
+                                                fit.above);
   return {std::move(c), std::move(force)};
 }
 
@@ -216,7 +218,7 @@ TEST(Splitting, TheThresholdHasTheFilmOfTheFirstIntegral) {
 TEST(Splitting, TheRegularDragLeavesOutWhatItHasNotTaken) {
   const Study s = study("splitting.toml");
   const auto brenner = s.run("viscous_contact_regular_drag_brenner");
-  const auto force = LubricationForce::exact_plane(s.c.viscosity, s.c.radius);
+  const auto force = lubrication::LubricationForce::exact_plane(s.c.viscosity, s.c.radius);
   // m u + G(q) + gamma = P with G(1) - G(0) taken on the way: q = r exp((G(1) - 400)/k), where (I)
   // has G(1) - G(q_min).
   const double expected = std::exp((force.regular_impulse(1) - 400) / force.leading_coefficient());
@@ -277,7 +279,7 @@ TEST(AnyForce, TheSphereWithInertiaTendsToItAsTheDragVanishes) {
   const auto exact = s.run("viscous_contact_exact");
   const auto distance = [&](double viscosity) {
     const auto inertial =
-        s.run("inertial", s.motion(), LubricationForce::exact_plane(viscosity, 1));
+        s.run("inertial", s.motion(), lubrication::LubricationForce::exact_plane(viscosity, 1));
     double sup = 0;
     auto row = exact.rows.begin();
     for (const auto& at : inertial.rows) {
@@ -295,4 +297,4 @@ TEST(AnyForce, TheSphereWithInertiaTendsToItAsTheDragVanishes) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -13,7 +13,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 using ::testing::AllOf;
@@ -166,4 +166,4 @@ TEST(TrajectoryFile, IsRefusedWhenItIsAFolderOrMissing) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -14,7 +14,7 @@
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// How many new units one old unit is.
@@ -37,27 +37,28 @@ constexpr Units kBinary[] = {
 
 /// The lubrication force on the lecture's sphere in these units: `kind` is a basis, fitted to the
 /// exact drag, or "exact".
-LubricationForce force_in(const Units& units, const std::string& kind) {
+lubrication::LubricationForce force_in(const Units& units, const std::string& kind) {
   const double viscosity = 3 * units.viscosity();
   const double radius = units.length;
-  if (kind == "exact") return LubricationForce::exact_plane(viscosity, radius);
+  if (kind == "exact") return lubrication::LubricationForce::exact_plane(viscosity, radius);
   constexpr int kRows = 40;
   constexpr double kSmallest = 1e-3, kLargest = 2;
-  ForceTable table;
+  lubrication::ForceTable table;
   table.viscosity = viscosity;
   table.radius = radius;
   for (int i = 0; i < kRows; ++i) {
     const double gap = i + 1 == kRows ? kLargest
                                       : kSmallest * std::pow(kLargest / kSmallest,
                                                              static_cast<double>(i) / (kRows - 1));
-    ForceTableRow row;
+    lubrication::ForceTableRow row;
     row.gap = gap * units.length;
     row.reference_velocity = -units.velocity();
     row.force = 6 * std::numbers::pi * 3 * brenner_drag_factor(gap) * units.force();
     table.rows.push_back(row);
   }
-  return LubricationForce(fit_force_table(table, kind, Weights::kRelative),
-                          BelowInterval::kLubricationLimit, AboveInterval::kStokesLimit);
+  return lubrication::LubricationForce(
+      fitting::fit_force_table(table, kind, lubrication::Weights::kRelative),
+      lubrication::BelowInterval::kLubricationLimit, lubrication::AboveInterval::kStokesLimit);
 }
 
 struct Push {
@@ -203,4 +204,4 @@ TEST(Units, LeaveTheInverseOfGammaAsItIs) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -13,14 +13,14 @@
 #include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 TEST(ViscousContactExact, SolvesTheLimitCase) {
-  const auto trajectory =
-      simulate_viscous_contact_exact(limit_motion(), LubricationForce(leading_term_fit(0.1)));
+  const auto trajectory = simulate_viscous_contact_exact(
+      limit_motion(), lubrication::LubricationForce(leading_term_fit(0.1)));
   for (const auto& row : trajectory.rows) {
     const double t = row.time;
     if (std::abs(t - 1) < 1e-9) continue;  // before or after the landing, by an ulp
@@ -44,7 +44,7 @@ TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
   motion.set(kContactTimeStep, 0.01);
   motion.roughness = {std::exp(-2.0), 0};
   const auto trajectory =
-      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(k)));
+      simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(k)));
   EXPECT_NEAR((*trajectory.contact_interval)[0], 0.5, 1e-15);
   EXPECT_NEAR((*trajectory.contact_interval)[1], 4, 1e-14);
   const auto touches =
@@ -70,7 +70,8 @@ TEST(ViscousContactExact, SharesAHardImpactBetweenFilmAndSolid) {
   motion.set(kContactTimeStep, 0.01);
   motion.roughness = {std::exp(-4.0), 0};
   const auto budget =
-      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(1))).budget.value();
+      simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(1)))
+          .budget.value();
   EXPECT_NEAR(budget.film_impulse, 4, 1e-13);
   EXPECT_NEAR(budget.solid_impulse, 6, 1e-13);
   EXPECT_NEAR(budget.film_work, -20, 1e-12);
@@ -94,7 +95,7 @@ TEST(ViscousContactExact, IsWhatTheSchemeTendsTo) {
     motion.external_force +=
         ExternalForce::sinusoidal({uniform(0, 2), uniform(1, 10), uniform(0, 6)});
     if (i % 2 == 0) motion.roughness = {std::exp(-uniform(0.2, 2)), 0};
-    const LubricationForce force(leading_term_fit(1));
+    const lubrication::LubricationForce force(leading_term_fit(1));
     const auto distance = [&](double h) {
       motion.set(kContactTimeStep, h);
       const auto exact = simulate_viscous_contact_exact(motion, force);
@@ -121,7 +122,7 @@ TEST(ViscousContactExact, IsReleasedByAForceThatTouchesZeroInTheMiddleOfItsPiece
   Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, 4, {-4, 1}}})};
   motion.set(kContactTimeStep, 0.01);
   const auto trajectory =
-      simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)));
+      simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(0.1)));
   EXPECT_NEAR((*trajectory.contact_interval)[1], 4 + std::cbrt(4.0), 1e-13);
   EXPECT_GT(trajectory.rows.back().gap, 0);
 }
@@ -130,7 +131,7 @@ TEST(ViscousContactExact, SeesContactsOfAForceWhoseSignChangesTwiceInAMoment) {
   // 1000 (t - 0.002)(t - 0.028) pushes for 0.026 of its 1: two roots closer than a 32nd.
   Motion motion{1, 1e-9, 0, 1, ExternalForce({{1, 0.056, {-30, 1000}}})};
   motion.set(kContactTimeStep, 1e-6);
-  const LubricationForce force(leading_term_fit(1e-9));
+  const lubrication::LubricationForce force(leading_term_fit(1e-9));
   const auto exact = simulate_viscous_contact_exact(motion, force).contact_interval.value();
   const auto scheme = run_contact_model(viscous_contact, motion, force).contact_interval.value();
   // First order: some steps of 1e-6.
@@ -146,7 +147,7 @@ TEST(ViscousContactExact, RecoversAFilmThatDoesNotDependOnItsRows) {
     Motion motion{1, 0.1, 0, 2, force};
     motion.set(kContactTimeStep, spacing);
     const auto film =
-        simulate_viscous_contact_exact(motion, LubricationForce(leading_term_fit(0.1)))
+        simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(0.1)))
             .recovered_minimal_gap;
     EXPECT_NEAR(std::log(film.value() / motion.initial_gap), -20, 1e-12) << spacing;
   }
@@ -157,15 +158,15 @@ TEST(ContactInterval, LastsWhileNothingPullsTheSphere) {
   for (const double later : {0.0, -0.0}) {
     Motion motion{1, 1, 0, 6, ExternalForce({{2, -2}, {6, later}})};
     motion.set(kContactTimeStep, 1e-3);
-    const LubricationForce force(leading_term_fit(0.1));
+    const lubrication::LubricationForce force(leading_term_fit(0.1));
     EXPECT_EQ((*run_contact_model(viscous_contact, motion, force).contact_interval)[1], 6);
     EXPECT_EQ((*simulate_viscous_contact_exact(motion, force).contact_interval)[1], 6);
   }
 }
 
 TEST(InelasticContact, LeavesAsSoonAsItIsPulled) {
-  const auto trajectory =
-      run_contact_model(inelastic_contact, limit_motion(), LubricationForce(leading_term_fit(0.1)));
+  const auto trajectory = run_contact_model(inelastic_contact, limit_motion(),
+                                            lubrication::LubricationForce(leading_term_fit(0.1)));
   // It lands within a step of t = 1, as the viscous one does, and leaves at t = 2.
   EXPECT_NEAR((*trajectory.contact_interval)[0], 1, 1e-3);
   EXPECT_NEAR((*trajectory.contact_interval)[1], 2, 1e-9);
@@ -181,4 +182,4 @@ TEST(InelasticContact, LeavesAsSoonAsItIsPulled) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -13,7 +13,7 @@
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// q of the lecture's limit case at mu = 0: it lands at t = 1 and leaves at t = 4.
@@ -22,8 +22,8 @@ double limit_gap(double t) { return t < 1 ? 1 - t * t : t < 4 ? 0 : (t - 4) * (t
 Trajectory limit_trajectory(double step) {
   Motion motion = limit_motion();
   motion.set(kContactTimeStep, step);
-  Trajectory trajectory =
-      run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(0.1)));
+  Trajectory trajectory = run_contact_model(viscous_contact, motion,
+                                            lubrication::LubricationForce(leading_term_fit(0.1)));
   trajectory.model = "viscous_contact";
   return trajectory;
 }
@@ -89,7 +89,8 @@ TEST(ViscousContact, RecoversTheFilmFromItsLowestGamma) {
 TEST(ViscousContact, HasNoFilmToRecoverWithoutContact) {
   Motion motion = limit_motion();
   motion.external_force = ExternalForce({{6, 2}});
-  EXPECT_FALSE(run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(0.1)))
+  EXPECT_FALSE(run_contact_model(viscous_contact, motion,
+                                 lubrication::LubricationForce(leading_term_fit(0.1)))
                    .recovered_minimal_gap);
 }
 
@@ -101,8 +102,8 @@ TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
       for (const double ratio : {0.5, 1.0, 3.7}) {
         Motion motion{mass, 1e-6, 0, 1.1 + ratio, ExternalForce({{1, -push}, {10, push / ratio}})};
         motion.set(kContactTimeStep, 1e-3);
-        Trajectory trajectory =
-            run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(1)));
+        Trajectory trajectory = run_contact_model(
+            viscous_contact, motion, lubrication::LubricationForce(leading_term_fit(1)));
         trajectory.model = "viscous_contact";
         EXPECT_NEAR(contact_interval(trajectory)[1], 1 + ratio, 1e-3 * (1 + 1e-6))
             << "m = " << mass << ", F = " << push << ", F/G = " << ratio;
@@ -119,8 +120,8 @@ TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
     Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -push}, {4, pull}})};
     motion.set(kContactTimeStep, 1e-3);
     motion.roughness = {0.004, 0.006};
-    Trajectory trajectory =
-        run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k)));
+    Trajectory trajectory = run_contact_model(viscous_contact, motion,
+                                              lubrication::LubricationForce(leading_term_fit(k)));
     trajectory.model = "viscous_contact";
     EXPECT_NEAR(contact_interval(trajectory)[1], 2 - gamma_min / pull, 1e-3 * (1 + 1e-6)) << push;
     // exp and log of the same number: a few roundings at the size of ln s.
@@ -135,8 +136,9 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
   motion.roughness = {0.004, 0.006};
   const double gamma_min = k * std::log(motion.roughness[0] + motion.roughness[1]);
   bool reached = false;
-  for (const auto& row :
-       run_contact_model(viscous_contact, motion, LubricationForce(leading_term_fit(k))).rows) {
+  for (const auto& row : run_contact_model(viscous_contact, motion,
+                                           lubrication::LubricationForce(leading_term_fit(k)))
+                             .rows) {
     reached = reached || *row.gamma == gamma_min;
     if (reached && row.time <= 2) {
       EXPECT_EQ(*row.gamma, gamma_min) << row.time;
@@ -149,8 +151,8 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
 }
 
 TEST(ViscousContact, TakesItsViscosityFromTheFit) {
-  const Fit fit = lecture_fit();
-  const LubricationForce force(fit);
+  const lubrication::Fit fit = lecture_fit();
+  const lubrication::LubricationForce force(fit);
   Motion motion = lecture_motion();
   motion.roughness = {1e-3, 0};
   const ContactModel model = viscous_contact(motion, force);
@@ -166,7 +168,7 @@ TEST(ViscousContact, TakesItsViscosityFromTheFit) {
 TEST(RecoveredFilm, IsThatOfTheFirstIntegralWhereverTheSphereStarts) {
   // R = k/q with k = 1 and radius 1: the push takes the film from q0 to q0 exp(-4), with or without
   // contact models.
-  const LubricationForce force(leading_term_fit(1));
+  const lubrication::LubricationForce force(leading_term_fit(1));
   for (const double initial_gap : {1e-9, 1e-3, 0.1, 1.0, 3.0}) {
     Motion motion = limit_motion();
     motion.mass = 1e-3;  // it lands in the first tenth of the push
@@ -184,7 +186,7 @@ TEST(RecoveredFilm, IsThatOfTheFirstIntegralWhereverTheSphereStarts) {
 
 TEST(RecoveredFilm, IsThatOfTheFirstIntegralWithARegularDragToo) {
   // R = k/q + k: ln q + q = ln q0 + q0 - 4. In contact the model leaves the second term, q, out.
-  const LubricationForce force(shifted_fit(1));
+  const lubrication::LubricationForce force(shifted_fit(1));
   for (const double initial_gap : {1e-6, 0.1, 0.5}) {
     Motion motion = limit_motion();
     motion.mass = 1e-3;
@@ -197,7 +199,7 @@ TEST(RecoveredFilm, IsThatOfTheFirstIntegralWithARegularDragToo) {
 }
 
 TEST(RecoveredFilm, IsNeverThinnerThanTheRoughness) {
-  const LubricationForce force(leading_term_fit(1));
+  const lubrication::LubricationForce force(leading_term_fit(1));
   for (const double initial_gap : {1e-3, 1.0, 3.0}) {
     Motion motion = limit_motion();
     motion.mass = 1e-3;
@@ -209,4 +211,4 @@ TEST(RecoveredFilm, IsNeverThinnerThanTheRoughness) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

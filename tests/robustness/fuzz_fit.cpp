@@ -10,15 +10,16 @@
 namespace viscontact {
 namespace {
 
-void check_round_trip(const Fit& fit) {
-  const std::string text = write_fit(fit);
+void check_round_trip(const lubrication::Fit& fit) {
+  const std::string text = lubrication::write_fit(fit);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  const Fit again = read_fit(hostile_file(bytes, text.size(), "fit.json"));
-  require(write_fit(again) == text, "a fit that is written and read is another one");
+  const lubrication::Fit again =
+      lubrication::read_fit(hostile_file(bytes, text.size(), "fit.json"));
+  require(lubrication::write_fit(again) == text, "a fit that is written and read is another one");
 }
 
 /// Where the force says that it may be asked, it answers with a number or refuses.
-void evaluate(const LubricationForce& force, const Fit& fit) {
+void evaluate(const lubrication::LubricationForce& force, const lubrication::Fit& fit) {
   const auto [smallest, largest] = fit.gap_interval;
   for (const double gap : {smallest, std::lerp(smallest, largest, 0.5), largest, smallest / 2,
                            largest * 2, fit.radius}) {
@@ -41,16 +42,22 @@ void evaluate(const LubricationForce& force, const Fit& fit) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace viscontact;
-  Fit fit;
-  if (!is_let_in([&] { fit = read_fit(hostile_file(data, size, "fit.json")); })) return 0;
+  lubrication::Fit fit;
+  if (!is_let_in([&] { fit = lubrication::read_fit(hostile_file(data, size, "fit.json")); }))
+    return 0;
   check_round_trip(fit);
-  can_be([&] { evaluate(LubricationForce(fit), fit); });
+  can_be([&] { evaluate(lubrication::LubricationForce(fit), fit); });
   can_be([&] {
-    evaluate(LubricationForce(fit, BelowInterval::kLubricationLimit, AboveInterval::kStokesLimit),
+    evaluate(lubrication::LubricationForce(fit, lubrication::BelowInterval::kLubricationLimit,
+                                           lubrication::AboveInterval::kStokesLimit),
              fit);
   });
-  can_be([&] { evaluate(LubricationForce(fit, BelowInterval::kTheoryLimit), fit); });
-  for (const auto& target : export_targets())
-    can_be([&] { (void)export_fit(with_viscosity(fit, fit.viscosity / 3), target.name); });
+  can_be([&] {
+    evaluate(lubrication::LubricationForce(fit, lubrication::BelowInterval::kTheoryLimit), fit);
+  });
+  for (const auto& target : fitting::export_targets())
+    can_be([&] {
+      (void)fitting::export_fit(lubrication::with_viscosity(fit, fit.viscosity / 3), target.name);
+    });
   return 0;
 }

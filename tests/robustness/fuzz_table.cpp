@@ -11,20 +11,22 @@
 namespace viscontact {
 namespace {
 
-void check_round_trip(const ForceTable& table) {
-  const std::string text = write_force_table(table);
+void check_round_trip(const lubrication::ForceTable& table) {
+  const std::string text = lubrication::write_force_table(table);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  const ForceTable again = read_force_table(hostile_file(bytes, text.size(), "table.csv"));
-  require(write_force_table(again) == text, "a table that is written and read is another one");
+  const lubrication::ForceTable again =
+      lubrication::read_force_table(hostile_file(bytes, text.size(), "table.csv"));
+  require(lubrication::write_force_table(again) == text,
+          "a table that is written and read is another one");
 }
 
 /// A fit that comes out must be one that `simulate` can read.
-void fit(const ForceTable& table, const FitSettings& settings) {
-  Fit made;
-  if (!can_be([&] { made = fit_force_table(table, settings); })) return;
-  const std::string text = write_fit(made);
+void fit(const lubrication::ForceTable& table, const fitting::FitSettings& settings) {
+  lubrication::Fit made;
+  if (!can_be([&] { made = fitting::fit_force_table(table, settings); })) return;
+  const std::string text = lubrication::write_fit(made);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  (void)read_fit(hostile_file(bytes, text.size(), "fit.json"));
+  (void)lubrication::read_fit(hostile_file(bytes, text.size(), "fit.json"));
 }
 
 }  // namespace
@@ -32,18 +34,19 @@ void fit(const ForceTable& table, const FitSettings& settings) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace viscontact;
-  ForceTable table;
-  if (!is_let_in([&] { table = read_force_table(hostile_file(data, size, "table.csv")); }))
+  lubrication::ForceTable table;
+  if (!is_let_in(
+          [&] { table = lubrication::read_force_table(hostile_file(data, size, "table.csv")); }))
     return 0;
   check_round_trip(table);
   // A fit costs as much as some hundred readings: a sixteenth of the tables are fitted, chosen by
   // their bytes.
   if (std::accumulate(data, data + size, 0U) % 16 != 0) return 0;
   fit(table, {});
-  FitSettings other;
-  other.basis = find_basis("asymptotic");
-  other.weights = Weights::kAbsolute;
-  other.loss = Loss::kHuber;
+  fitting::FitSettings other;
+  other.basis = lubrication::find_basis("asymptotic");
+  other.weights = lubrication::Weights::kAbsolute;
+  other.loss = lubrication::Loss::kHuber;
   other.fix_leading = table.leading_coefficient.has_value();
   fit(table, other);
   return 0;

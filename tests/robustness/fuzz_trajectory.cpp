@@ -9,11 +9,13 @@ namespace viscontact {
 namespace {
 
 /// What is written must be read again, and be the same.
-void check_round_trip(const Trajectory& trajectory) {
-  const std::string text = write_trajectory(trajectory);
+void check_round_trip(const reduced_model::Trajectory& trajectory) {
+  const std::string text = reduced_model::write_trajectory(trajectory);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  const Trajectory again = read_trajectory(hostile_file(bytes, text.size(), "trajectory.csv"));
-  require(write_trajectory(again) == text, "a trajectory that is written and read is another one");
+  const reduced_model::Trajectory again =
+      reduced_model::read_trajectory(hostile_file(bytes, text.size(), "trajectory.csv"));
+  require(reduced_model::write_trajectory(again) == text,
+          "a trajectory that is written and read is another one");
 }
 
 }  // namespace
@@ -21,19 +23,23 @@ void check_round_trip(const Trajectory& trajectory) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace viscontact;
-  Trajectory trajectory;
-  if (!is_let_in([&] { trajectory = read_trajectory(hostile_file(data, size, "trajectory.csv")); }))
+  reduced_model::Trajectory trajectory;
+  if (!is_let_in([&] {
+        trajectory = reduced_model::read_trajectory(hostile_file(data, size, "trajectory.csv"));
+      }))
     return 0;
   check_round_trip(trajectory);
-  Trajectory other = trajectory;
+  reduced_model::Trajectory other = trajectory;
   other.model += "_again";
   for (auto& row : other.rows) row.gap /= 2;
   can_be([&] {
-    const std::string text =
-        write_comparison(compare_trajectories({trajectory, other}, trajectory.model));
+    const std::string text = reduced_model::write_comparison(
+        reduced_model::compare_trajectories({trajectory, other}, trajectory.model));
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-    const auto again = read_comparison(hostile_file(bytes, text.size(), "comparison.json"));
-    require(write_comparison(again) == text, "a comparison that is written and read is another");
+    const auto again =
+        reduced_model::read_comparison(hostile_file(bytes, text.size(), "comparison.json"));
+    require(reduced_model::write_comparison(again) == text,
+            "a comparison that is written and read is another");
   });
   return 0;
 }

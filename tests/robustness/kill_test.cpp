@@ -115,7 +115,7 @@ class Kill : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  FakeFreeFem fake_;
+  freefem_axi::FakeFreeFem fake_;
   mutable int killed_ = 0;
   int left_behind_ = 0;
 };

@@ -59,7 +59,7 @@ class LittleMemory : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  FakeFreeFem fake_;
+  freefem_axi::FakeFreeFem fake_;
 };
 
 TEST_F(LittleMemory, Run) {

@@ -31,7 +31,7 @@ class OwnFolder : public ::testing::Test {
   }
 
   TemporaryFolder scratch_, elsewhere_;
-  FakeFreeFem fake_;
+  freefem_axi::FakeFreeFem fake_;
   std::map<std::string, std::string> given_;
 };
 

@@ -52,15 +52,15 @@ bool is_particles_csv(const fs::path& file) {
 void read_whole(const fs::path& file) {
   const std::string name = file.filename();
   if (name == "table.csv")
-    (void)read_force_table(file);
+    (void)lubrication::read_force_table(file);
   else if (name == "sweep.csv")
     (void)read_csv<1>(file, {"fluid.viscosity"}, 1);
   else if (is_trajectory(file))
-    (void)read_trajectory(file);
+    (void)reduced_model::read_trajectory(file);
   else if (name == "fit.json")
-    (void)read_fit(file);
+    (void)lubrication::read_fit(file);
   else if (name == "comparison.json")
-    (void)read_comparison(file);
+    (void)reduced_model::read_comparison(file);
   else if (name == "restart.bin")
     (void)particles::read_restart(file);
   else if (is_particles_csv(file))
@@ -74,7 +74,7 @@ void read_whole(const fs::path& file) {
   else if (file.extension() == ".html")
     EXPECT_THAT(read_file(file), ::testing::HasSubstr("</html>")) << file;
   else if (file.extension() == ".toml")
-    (void)read_case(file);
+    (void)case_file::read_case(file);
   else
     ADD_FAILURE() << "who wrote " << file << "?";
 }
@@ -90,25 +90,25 @@ std::string lines_without(const fs::path& file, std::string_view start) {
 std::string numbers_of(const fs::path& file) {
   const std::string name = file.filename();
   if (name == "table.csv") {
-    auto table = read_force_table(file);
+    auto table = lubrication::read_force_table(file);
     for (auto& row : table.rows) row.seconds = 0;
-    return write_force_table(table);
+    return lubrication::write_force_table(table);
   }
   if (is_trajectory(file)) {
-    auto trajectory = read_trajectory(file);
+    auto trajectory = reduced_model::read_trajectory(file);
     trajectory.seconds = 0;
     trajectory.provenance.clear();
-    return write_trajectory(trajectory);
+    return reduced_model::write_trajectory(trajectory);
   }
   if (name == "fit.json") {
-    auto fit = read_fit(file);
+    auto fit = lubrication::read_fit(file);
     fit.table_sha256.clear();
-    return write_fit(fit);
+    return lubrication::write_fit(fit);
   }
   if (name == "comparison.json") {
-    auto comparison = read_comparison(file);
+    auto comparison = reduced_model::read_comparison(file);
     for (auto& model : comparison.models) model.seconds = 0;
-    return write_comparison(comparison);
+    return reduced_model::write_comparison(comparison);
   }
   if (name == "sweep.csv" || is_particles_csv(file)) return lines_without(file, "#");
   if (file.extension() == ".vtp") return lines_without(file, "<!-- provenance: ");

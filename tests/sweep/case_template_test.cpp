@@ -12,7 +12,7 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/sweep/variation.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 using ::testing::AllOf;
@@ -23,7 +23,7 @@ using ::testing::Not;
 /// A template of a text in a folder of its own.
 struct Template {
   explicit Template(const std::string& text) : path(folder.file("case.toml", text)), cases(path) {}
-  Case with(const std::string& key, double value) const {
+  case_file::Case with(const std::string& key, double value) const {
     return cases.with(std::array{std::pair(key, value)});
   }
   /// Expects a refusal that names file and key.
@@ -34,11 +34,11 @@ struct Template {
 
   TemporaryFolder folder;
   std::filesystem::path path;
-  CaseTemplate cases;
+  case_file::CaseTemplate cases;
 };
 
 TEST(CaseTemplate, ReplacesNumbersWhereverTheyStand) {
-  const Template lecture(lecture_text());
+  const Template lecture(case_file::lecture_text());
   EXPECT_EQ(lecture.with("fluid.viscosity", 0.7).viscosity, 0.7);
   EXPECT_EQ(lecture.with("sphere.mass", 0.25).motion->mass, 0.25);
   EXPECT_EQ(lecture.with("viscous_contact.roughness[0]", 0.01).motion->roughness,
@@ -53,7 +53,7 @@ TEST(CaseTemplate, ReplacesNumbersWhereverTheyStand) {
 }
 
 TEST(CaseTemplate, ReplacesIntegersByFractions) {
-  auto text = with_text("mass = 20.0", "mass = 20").text;
+  auto text = case_file::with_text("mass = 20.0", "mass = 20").text;
   const auto force = text.find("until = 2.0, value = -200.0");
   ASSERT_NE(force, std::string::npos);
   text.replace(force, 27, "until = 2, value = -200");
@@ -74,7 +74,7 @@ TEST(CaseTemplate, ReplacesIntegersByFractions) {
 }
 
 TEST(CaseTemplate, SeveralNumbersAndTheTemplateStaysAsItWas) {
-  const Template lecture(lecture_text());
+  const Template lecture(case_file::lecture_text());
   const auto changed =
       lecture.cases.with(std::array{std::pair(std::string("fluid.viscosity"), 0.5),
                                     std::pair(std::string("motion.initial_gap"), 0.25),
@@ -86,34 +86,37 @@ TEST(CaseTemplate, SeveralNumbersAndTheTemplateStaysAsItWas) {
   EXPECT_EQ(unchanged.viscosity, 3);
   EXPECT_EQ(unchanged.motion->initial_gap, 1);
   EXPECT_EQ(unchanged.motion->roughness[0], 0);
-  EXPECT_EQ(unchanged.text, lecture_text());
+  EXPECT_EQ(unchanged.text, case_file::lecture_text());
 }
 
 TEST(CaseTemplate, TakesAnOptionalKeyThatTheFileHasNot) {
-  const Template lecture(lecture_text());
-  ASSERT_THAT(lecture_text(), Not(HasSubstr("time_scale")));
+  const Template lecture(case_file::lecture_text());
+  ASSERT_THAT(case_file::lecture_text(), Not(HasSubstr("time_scale")));
   const auto stretched = *lecture.with("motion.time_scale", 3).motion;
   EXPECT_EQ(stretched.end_time, 12);
-  EXPECT_EQ(stretched.parameter(kContactTimeStep), 3 * 1e-3);
-  EXPECT_EQ(stretched.parameter(kReferenceTimeStep), 3 * 1e-3);
+  EXPECT_EQ(stretched.parameter(reduced_model::kContactTimeStep), 3 * 1e-3);
+  EXPECT_EQ(stretched.parameter(reduced_model::kReferenceTimeStep), 3 * 1e-3);
   EXPECT_THAT(stretched.external_force.jumps(), ElementsAre(6));
   EXPECT_EQ(stretched.external_force.value(5), -200);
   EXPECT_EQ(lecture.cases.with({}).motion->end_time, 4);
 }
 
 TEST(CaseTemplate, SetsKeysOfSectionsThatTheCaseLeavesOut) {
-  const std::string text = lecture_text();
+  const std::string text = case_file::lecture_text();
   const Template shortened(text.substr(0, text.find("[reference]")));
-  EXPECT_EQ(shortened.with("viscous_contact.time_step", 2e-3).motion->parameter(kContactTimeStep),
+  EXPECT_EQ(shortened.with("viscous_contact.time_step", 2e-3)
+                .motion->parameter(reduced_model::kContactTimeStep),
             2e-3);
-  EXPECT_EQ(shortened.with("reference.time_step", 2e-3).motion->parameter(kReferenceTimeStep),
+  EXPECT_EQ(shortened.with("reference.time_step", 2e-3)
+                .motion->parameter(reduced_model::kReferenceTimeStep),
             2e-3);
-  EXPECT_EQ(shortened.with("inertial.relative_tolerance", 1e-7).motion->parameter(kContactTimeStep),
+  EXPECT_EQ(shortened.with("inertial.relative_tolerance", 1e-7)
+                .motion->parameter(reduced_model::kContactTimeStep),
             1e-3);
 }
 
 TEST(CaseTemplate, RefusesKeysThatAreNone) {
-  const Template lecture(lecture_text());
+  const Template lecture(case_file::lecture_text());
   for (const std::string key :
        {"fluid.viscosty", "viscosity", "mass", "motion.mass", "wheels.number",
         "motion.wheels.number", "fluid.viscosity.x", "fluid.viscosity[0]",
@@ -125,14 +128,14 @@ TEST(CaseTemplate, RefusesKeysThatAreNone) {
 }
 
 TEST(CaseTemplate, RefusesWhatIsNoNumber) {
-  const Template lecture(lecture_text());
+  const Template lecture(case_file::lecture_text());
   for (const std::string key : {"title", "fit.basis", "fluid", "viscous_contact.roughness",
                                 "motion.external_force", "motion.external_force[0]"})
     lecture.expect_refused(key, 1, "is not a number");
 }
 
 TEST(CaseTemplate, RefusesValuesOutOfRangeWithWhatIsAllowed) {
-  const Template lecture(lecture_text());
+  const Template lecture(case_file::lecture_text());
   lecture.expect_refused("fluid.viscosity", -1, "is -1; it must be a number > 0");
   lecture.expect_refused("inertial.relative_tolerance", 0.5, "between 1e-13 and 1e-2");
   lecture.expect_refused("motion.initial_velocity", std::numeric_limits<double>::infinity(), "inf");
@@ -143,4 +146,4 @@ TEST(CaseTemplate, RefusesValuesOutOfRangeWithWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

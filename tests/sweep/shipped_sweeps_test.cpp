@@ -7,7 +7,7 @@
 #include "tests/sweep/sweep_rows.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -83,8 +83,8 @@ TEST(TimeStepStudy, FilmIsThatOfTheRoughnessAtAnyStep) {
 }
 
 /// The shipped map's drag.
-const LubricationForce& map_force() {
-  static const auto force = LubricationForce::exact_plane(0.05305164769729845, 1);
+const lubrication::LubricationForce& map_force() {
+  static const auto force = lubrication::LubricationForce::exact_plane(0.05305164769729845, 1);
   return force;
 }
 
@@ -141,4 +141,4 @@ TEST(RegimeMap, LightAndLongHasTheFilmOfTheContactModels) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

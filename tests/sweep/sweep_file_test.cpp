@@ -15,7 +15,7 @@
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 using ::testing::HasSubstr;
@@ -37,7 +37,7 @@ class SweepFile : public ::testing::Test {
     put_text(path("case.toml"), text);
     put_text(path("force.csv"), read_file(data("cases/forces/jumps.csv")));
     plan_.case_path = path("case.toml");
-    plan_.fit = read_fit(data("fits/leading_term.json"));
+    plan_.fit = lubrication::read_fit(data("fits/leading_term.json"));
     plan_.variations = {parse_variation("viscous_contact.time_step=1e-2:1e-1:log:20")};
     plan_.models = {"viscous_contact_exact", "viscous_contact"};
     plan_.reference = "viscous_contact_exact";
@@ -80,7 +80,7 @@ TEST_F(SweepFile, HasItsHeaderAndItsRows) {
   const auto comments = read_csv_comments(text);
   EXPECT_EQ(comments.at("viscontact"), "sweep");
   EXPECT_EQ(comments.at("case"), sha256(read_file(path("case.toml"))));
-  EXPECT_EQ(comments.at("fit"), sha256(write_fit(plan_.fit)));
+  EXPECT_EQ(comments.at("fit"), sha256(lubrication::write_fit(plan_.fit)));
   EXPECT_EQ(comments.at("reference"), "viscous_contact_exact");
   EXPECT_EQ(comments.at("version of Viscontact"), "1.2.3");
   const auto csv =
@@ -189,8 +189,9 @@ TEST_F(SweepFile, IsMadeAgainForWhateverDecidesItsRows) {
   expect_made_again("force",
                     [&] { put_text(path("force.csv"), "time,force\n0,-2\n2,-2\n2,2\n6,2\n"); });
   expect_made_again("fit", [&] { plan_.fit.gap_interval[0] = 1e-200; });
-  expect_made_again("limit below", [&] { plan_.below = BelowInterval::kLubricationLimit; });
-  expect_made_again("limit above", [&] { plan_.above = AboveInterval::kStokesLimit; });
+  expect_made_again("limit below",
+                    [&] { plan_.below = lubrication::BelowInterval::kLubricationLimit; });
+  expect_made_again("limit above", [&] { plan_.above = lubrication::AboveInterval::kStokesLimit; });
   expect_made_again("reference", [&] { plan_.reference = "viscous_contact"; });
   expect_made_again("models", [&] { plan_.models.emplace_back("inelastic_contact"); });
   expect_made_again("version", [&] { version_ = "1.2.4"; });
@@ -213,4 +214,4 @@ TEST_F(SweepFile, MakesItsFolderAndSaysWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

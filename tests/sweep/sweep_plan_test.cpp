@@ -11,7 +11,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/sweep/sweep.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 using ::testing::AllOf;
@@ -144,4 +144,4 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -9,7 +9,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 
 std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data" / name;
@@ -30,7 +30,7 @@ std::string study_text(const std::string& name,
   return text;
 }
 
-SweepPlan plan_of(const std::filesystem::path& path) { return planned(read_case(path)); }
+SweepPlan plan_of(const std::filesystem::path& path) { return planned(case_file::read_case(path)); }
 
 SweepPlan shipped(const std::string& name) { return plan_of(data("cases/" + name)); }
 
@@ -90,4 +90,4 @@ std::vector<double> column(const std::vector<std::map<std::string, std::string>>
   return values;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -10,7 +10,7 @@
 
 #include "viscontact/sweep/sweep.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 
 std::filesystem::path data(const std::string& name);
 
@@ -41,4 +41,4 @@ std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan)
 std::vector<double> column(const std::vector<std::map<std::string, std::string>>& rows,
                            const std::string& name);
 
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -17,7 +17,7 @@
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 using ::testing::AllOf;
@@ -27,16 +27,17 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Expects of a row the digits that simulate and compare_trajectories give for a case.
 void expect_row_of(const SweepPlan& plan, std::uint64_t index, const std::string& case_text,
-                   const LubricationForce& force) {
+                   const lubrication::LubricationForce& force) {
   const TemporaryFolder folder;
-  const Case c = read_case(folder.file("case.toml", case_text));
-  std::vector<Trajectory> trajectories;
+  const case_file::Case c = case_file::read_case(folder.file("case.toml", case_text));
+  std::vector<reduced_model::Trajectory> trajectories;
   for (const auto& model : plan.models)
-    trajectories.push_back(simulate(find_model(model), required_motion(c), force));
-  const auto comparison = compare_trajectories(trajectories, plan.reference);
+    trajectories.push_back(reduced_model::simulate(reduced_model::find_model(model),
+                                                   case_file::required_motion(c), force));
+  const auto comparison = reduced_model::compare_trajectories(trajectories, plan.reference);
   const auto& reference =
-      *std::ranges::find(comparison.models, plan.reference, &ModelComparison::model);
-  const auto thinnest = [](const ModelComparison& m) {
+      *std::ranges::find(comparison.models, plan.reference, &reduced_model::ModelComparison::model);
+  const auto thinnest = [](const reduced_model::ModelComparison& m) {
     return m.recovered_minimal_gap ? *m.recovered_minimal_gap : m.minimal_gap;
   };
   const auto row = row_of(plan, index);
@@ -74,7 +75,7 @@ TEST(SweepRow, IsTheRunOfTheCaseWrittenByHand) {
     ASSERT_NE(fit.find(from), std::string::npos);
     fit.replace(fit.find(from), std::string(from).size(), to);
   }
-  const LubricationForce force(read_fit(folder.file("fit.json", fit)));
+  const lubrication::LubricationForce force(lubrication::read_fit(folder.file("fit.json", fit)));
   const auto text = [&](const std::string& push) {
     return study_text("vanishing_viscosity.toml", {{"viscosity = 1.0", "viscosity = 0.1"},
                                                    {"value = -2.0", "value = " + push}});
@@ -90,7 +91,7 @@ TEST(SweepRow, WithTheExactDragTooAndTimesDrawnOut) {
                 study_text("regime_map.toml", {{"mass = 1.0 ", "mass = 0.5 "},
                                                {"time_scale = 1.0", "time_scale = 2.5"},
                                                {"radius = 1.0", "radius = 2.0"}}),
-                LubricationForce::exact_plane(0.05305164769729845, 2));
+                lubrication::LubricationForce::exact_plane(0.05305164769729845, 2));
 }
 
 TEST(SweepRow, BeginsWithTheNumbersThatWereVaried) {
@@ -137,10 +138,11 @@ SweepPlan plan_of_short_fit() {
 
 /// What the inertial model says to that fit: its film is exp(-4/mu), 3.4e-4.
 std::string failure_of_inertial(const SweepPlan& plan) {
-  const auto c =
-      CaseTemplate(plan.case_path).with(std::array{std::pair(std::string("fluid.viscosity"), 0.5)});
-  const LubricationForce force(with_viscosity(plan.fit, 0.5));
-  return bad_input([&] { simulate(find_model("inertial"), *c.motion, force); });
+  const auto c = case_file::CaseTemplate(plan.case_path)
+                     .with(std::array{std::pair(std::string("fluid.viscosity"), 0.5)});
+  const lubrication::LubricationForce force(lubrication::with_viscosity(plan.fit, 0.5));
+  return bad_input(
+      [&] { reduced_model::simulate(reduced_model::find_model("inertial"), *c.motion, force); });
 }
 
 std::string without_commas(std::string text) {
@@ -218,4 +220,4 @@ TEST(SweepRow, HasNumbersThatAreFiniteOrNothing) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

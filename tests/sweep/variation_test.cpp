@@ -12,7 +12,7 @@
 
 #include "tests/common/failure.hpp"
 
-namespace viscontact {
+namespace viscontact::sweep {
 namespace {
 
 using ::testing::AllOf;
@@ -231,4 +231,4 @@ TEST_F(RandomPoints, OfKeysSeedsAndNeighboursHaveNothingToDoWithEachOther) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::sweep

@@ -12,7 +12,7 @@
 #include "viscontact/common/root_finding.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// A ResolvedDrag as a function of the distance D from contact, as contact_step() needs it.
@@ -185,4 +185,4 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

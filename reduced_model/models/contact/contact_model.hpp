@@ -11,7 +11,7 @@
 #include "viscontact/reduced_model/motion.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// A drag that acts at a distance, as functions of the gap q [L].
 struct ResolvedDrag {
@@ -44,10 +44,10 @@ struct ContactModel {
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 /// Makes a contact model and runs it.
-using MakeContactModel = ContactModel (*)(const Motion&, const LubricationForce&);
+using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
-                                    const LubricationForce& force) {
+                                    const lubrication::LubricationForce& force) {
   return run_contact_model(motion, make(motion, force));
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

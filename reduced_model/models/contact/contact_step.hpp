@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The sphere at the distance D >= 0 from its position in contact, with the memory of the film.
 struct ContactState {
@@ -98,4 +98,4 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
   return {{0, 0, kept}, state.gamma - kept, 0, kept - gamma};
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

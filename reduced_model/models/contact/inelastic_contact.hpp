@@ -4,7 +4,7 @@
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Plain inelastic contact (Moreau 1988): the sphere stops on the wall and leaves it as soon as it
 /// is pulled,
@@ -13,6 +13,6 @@ namespace viscontact {
 ///     u+ = max(u-, 0) where q = 0.
 ///
 /// This is viscous contact with gamma_min = 0, a film that remembers nothing. The drag is not used.
-ContactModel inelastic_contact(const Motion& motion, const LubricationForce& force);
+ContactModel inelastic_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-ContactModel viscous_contact(const Motion& motion, const LubricationForce& force) {
+ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force) {
   const double k = force.leading_coefficient();
   const double r = force.radius();
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
@@ -23,4 +23,4 @@ ContactModel viscous_contact(const Motion& motion, const LubricationForce& force
   return model;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

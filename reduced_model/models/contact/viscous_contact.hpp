@@ -4,7 +4,7 @@
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The limit mu -> 0 of (M) with R = k/q: problem (P) (Maury 2007, "A gluey particle model";
 /// Lefebvre 2009, "Numerical simulation of gluey particles"),
@@ -19,6 +19,6 @@ namespace viscontact {
 /// (Vinogradova & Yakubov 2006). The first integral k ln q = k ln q0 + gamma, q0 the initial gap,
 /// gives the thickness q0 exp(gamma/k) of the film that the model does not resolve; it is at least
 /// r1 + r2. Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
-ContactModel viscous_contact(const Motion& motion, const LubricationForce& force);
+ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

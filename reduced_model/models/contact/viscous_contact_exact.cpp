@@ -9,7 +9,7 @@
 #include "viscontact/common/root_finding.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 namespace {
 
 /// The state of the sphere at the last event, and the exact motion from there.
@@ -114,7 +114,8 @@ class EventDriven {
 
 }  // namespace
 
-Trajectory simulate_viscous_contact_exact(const Motion& motion, const LubricationForce& force) {
+Trajectory simulate_viscous_contact_exact(const Motion& motion,
+                                          const lubrication::LubricationForce& force) {
   const ContactModel model = viscous_contact(motion, force);
   const auto& f = motion.external_force;
   const double end = motion.end_time;
@@ -167,4 +168,4 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion, const Lubricatio
   return trajectory;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

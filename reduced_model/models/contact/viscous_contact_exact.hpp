@@ -4,7 +4,7 @@
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The exact solution of problem (P) of viscous_contact.hpp. With I(t) = int f_ext, S(t) = int I,
 /// and the index 0 for the last event:
@@ -20,6 +20,7 @@ namespace viscontact {
 /// ExternalForce::sign_changes(). The rows are at the multiples of viscous_contact.time_step, at
 /// the jumps of the force, and at the events, where a row has the state after the event. Throws
 /// Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
-Trajectory simulate_viscous_contact_exact(const Motion& motion, const LubricationForce& force);
+Trajectory simulate_viscous_contact_exact(const Motion& motion,
+                                          const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

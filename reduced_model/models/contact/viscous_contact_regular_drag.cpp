@@ -3,13 +3,14 @@
 
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force) {
+ContactModel viscous_contact_regular_drag(const Motion& motion,
+                                          const lubrication::LubricationForce& force) {
   ContactModel model = viscous_contact(motion, force);
   model.drag = ResolvedDrag{[&force](double q) { return force.regular_resistance(q); },
                             [&force](double q) { return force.regular_impulse(q); }};
   return model;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -4,7 +4,7 @@
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
 /// the drag without its singular part k/q. Each step is that of contact_step.hpp,
@@ -19,6 +19,7 @@ namespace viscontact {
 /// P(t). Below the fit's interval R - k/q is constant. `force` must outlive the model. Throws
 /// Error(kBadInput) if the fit's resistance has no positive coefficient of 1/q, or if the motion
 /// goes above the fit's interval.
-ContactModel viscous_contact_regular_drag(const Motion& motion, const LubricationForce& force);
+ContactModel viscous_contact_regular_drag(const Motion& motion,
+                                          const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

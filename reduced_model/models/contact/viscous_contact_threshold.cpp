@@ -8,9 +8,10 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
-ContactModel viscous_contact_threshold(const Motion& motion, const LubricationForce& force) {
+ContactModel viscous_contact_threshold(const Motion& motion,
+                                       const lubrication::LubricationForce& force) {
   const double q_c = motion.parameter(kThresholdGap);
   if (!(motion.initial_gap > q_c))
     throw Error(
@@ -38,4 +39,4 @@ ContactModel viscous_contact_threshold(const Motion& motion, const LubricationFo
   return model;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

@@ -7,7 +7,7 @@
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
-namespace viscontact {
+namespace viscontact::reduced_model {
 
 /// Gap q_c [L] at which the model makes contact.
 inline constexpr ModelParameter kThresholdGap = {
@@ -23,6 +23,7 @@ inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThreshold
 /// m u + Gamma(q) + gamma = P(t) in every step and the film of a sphere at rest is exact for every
 /// step length. `force` must outlive the model. Throws Error(kBadInput) unless
 /// r1 + r2 < q_c < initial gap, or if q_c or the roughness is outside the fit's interval.
-ContactModel viscous_contact_threshold(const Motion& motion, const LubricationForce& force);
+ContactModel viscous_contact_threshold(const Motion& motion,
+                                       const lubrication::LubricationForce& force);
 
-}  // namespace viscontact
+}  // namespace viscontact::reduced_model

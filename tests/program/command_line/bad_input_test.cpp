@@ -76,7 +76,7 @@ TEST_P(BadInput, EndsWithExitCode3SaysWhatAndLeavesEveryFileAsItWas) {
   const TemporaryFolder scratch;
   const TemporaryFolder elsewhere;
   fill(scratch.path());
-  const FakeFreeFem fake(elsewhere.path());
+  const freefem_axi::FakeFreeFem fake(elsewhere.path());
   std::vector<std::string> arguments;
   for (const auto& word : GetParam().arguments)
     arguments.push_back(word.starts_with("@") ? (scratch.path() / word.substr(1)).string() : word);

@@ -38,7 +38,7 @@ TEST_F(FirstSteps, InitWritesACaseThatRuns) {
   const auto result = run_viscontact({"init", path("mine.toml")});
   expect_done(result);
   EXPECT_THAT(result.errors, HasSubstr("viscontact run " + path("mine.toml")));
-  const Case c = read_case(path("mine.toml"));
+  const case_file::Case c = case_file::read_case(path("mine.toml"));
   EXPECT_TRUE(c.tabulation && c.fit && c.motion);
   // Its motion, with a drag that needs no FreeFEM.
   const auto text = read_file(path("mine.toml"));
@@ -53,7 +53,7 @@ TEST_F(FirstSteps, WhatInitCommentsOutIsRightToo) {
   const auto keys = matches_in(text, "\n# (\\w+ = [^\n]*)", 1);
   for (const auto& key : keys) {
     put_text(path("one.toml"), replaced(text, "\n# " + key, "\n" + key));
-    EXPECT_NO_THROW(read_case(path("one.toml"))) << key;
+    EXPECT_NO_THROW(case_file::read_case(path("one.toml"))) << key;
   }
   EXPECT_EQ(keys.size(), 6U);  // geometry, loss, below, above, rows, models
 }
@@ -70,7 +70,7 @@ TEST_F(FirstSteps, InitReplacesNothing) {
 }
 
 TEST_F(FirstSteps, DryRunOfATabulationCountsRowsAndComputesNone) {
-  const FakeFreeFem fake(scratch_.path());
+  const freefem_axi::FakeFreeFem fake(scratch_.path());
   put_text(path("case.toml"), gentle_case_text());
   const std::vector<std::string> dry = {
       "tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "2", "--dry-run"};

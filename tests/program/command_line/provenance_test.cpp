@@ -54,7 +54,7 @@ TEST_F(Provenance, StandsInEveryOutputOfASimulation) {
 }
 
 TEST_F(Provenance, OfARunTellsTheUsersFilesFromItsOwn) {
-  const FakeFreeFem fake(scratch_.path());
+  const freefem_axi::FakeFreeFem fake(scratch_.path());
   put_text(path("case.toml"), gentle_case_text());
   expect_done(run_viscontact({"run", path("case.toml"), "-o", path("run")},
                              {"VISCONTACT_FREEFEM=" + fake.executable()}));

@@ -38,15 +38,16 @@ ProcessResult run_in_source_folder(const std::string& commands) {
 /// to compute all rows once more would take minutes.
 void interrupt_tabulation() {
   const fs::path out = fs::path(VISCONTACT_SOURCE_FOLDER) / "out";
-  const auto lecture = read_case(fs::path(VISCONTACT_SOURCE_FOLDER) / "data/cases/lecture.toml");
-  const auto hash = tabulation_hash(*lecture.tabulation);
-  const auto table = find_table(out / "lecture/table.csv", hash);
+  const auto lecture =
+      case_file::read_case(fs::path(VISCONTACT_SOURCE_FOLDER) / "data/cases/lecture.toml");
+  const auto hash = freefem_axi::tabulation_hash(*lecture.tabulation);
+  const auto table = freefem_axi::find_table(out / "lecture/table.csv", hash);
   ASSERT_TRUE(table) << "scripts/run has made no table of its case";
   fs::remove(out / "table.csv");
-  fs::remove(journal_path(out / "table.csv"));
-  RowJournal journal(journal_path(out / "table.csv"), hash);
+  fs::remove(freefem_axi::journal_path(out / "table.csv"));
+  freefem_axi::RowJournal journal(freefem_axi::journal_path(out / "table.csv"), hash);
   for (std::size_t i = 0; i + 2 < table->rows.size(); ++i)
-    journal.append(FinishedRow{table->rows[i], table->versions.at("FreeFEM")});
+    journal.append(freefem_axi::FinishedRow{table->rows[i], table->versions.at("FreeFEM")});
 }
 
 TEST(Readme, EveryCommandThatItShowsSucceedsInItsOrder) {

@@ -147,7 +147,7 @@ TEST_F(Rerun, OfOneFileOfARunRepeatsTheRunIntoAFolder) {
 }
 
 TEST_F(Rerun, OfAGatheredTableComputesItsRows) {
-  const FakeFreeFem fake(scratch_.path());
+  const freefem_axi::FakeFreeFem fake(scratch_.path());
   const std::vector<std::string> environment = {"VISCONTACT_FREEFEM=" + fake.executable()};
   put_text(path("case.toml"), gentle_case_text());
   const std::vector<std::string> tabulate = {"tabulate", path("case.toml"), "-o", path("t.csv")};

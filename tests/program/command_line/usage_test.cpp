@@ -164,7 +164,7 @@ TEST(SimulateHelp, TellsModelsThatRunByDefaultFromThoseOnRequest) {
   const auto on_request = words.find("on request: ");
   ASSERT_NE(by_default, std::string::npos) << words;
   ASSERT_NE(on_request, std::string::npos) << words;
-  for (const auto& model : all_models())
+  for (const auto& model : reduced_model::all_models())
     EXPECT_NE(words.find(model.name, model.by_default ? by_default : on_request), std::string::npos)
         << model.name;
   EXPECT_GT(words.find("inelastic_contact"), on_request);
@@ -203,7 +203,7 @@ TEST(Doctor, FindsNothingMissingAndSolvesAKnownRow) {
 TEST(Doctor, SaysHowToMendWhatIsMissing) {
   const TemporaryFolder empty;
   const auto result = run_viscontact({"doctor"}, {"PATH=" + empty.path().string()});
-  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kExternalProgram));
+  EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kExternalProgram));
   EXPECT_THAT(result.output, AllOf(HasSubstr("apt-get install freefem++"),
                                    HasSubstr("apt-get install gnuplot-nox")));
 }

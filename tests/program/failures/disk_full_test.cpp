@@ -53,7 +53,7 @@ TEST_F(DiskFull, ParticlesFailCleanlyIfNotEvenTheFirstFrameFits) {
 TEST_F(DiskFull, FolderThatCannotBeWrittenIsSaidWithoutAPromiseOfKeptRows) {
   // Nobody, not even root, can make a file in /sys.
   const TemporaryFolder elsewhere;
-  const FakeFreeFem fake(elsewhere.path());
+  const freefem_axi::FakeFreeFem fake(elsewhere.path());
   put_text(path("case.toml"), gentle_case_text());
   const std::string exact =
       replaced(replaced(gentle_case_text(), "basis = \"lecture\"", "exact = \"plane\""),
@@ -71,7 +71,7 @@ TEST_F(DiskFull, FolderThatCannotBeWrittenIsSaidWithoutAPromiseOfKeptRows) {
 
 TEST_F(DiskFull, TabulateFailsCleanlyWhenTheJournalIsFull) {
   const TemporaryFolder elsewhere;
-  const FakeFreeFem fake(elsewhere.path());
+  const freefem_axi::FakeFreeFem fake(elsewhere.path());
   put_text(path("case.toml"), lecture_case_text());
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table2.csv"), "--jobs", "1"},

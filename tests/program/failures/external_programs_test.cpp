@@ -57,8 +57,8 @@ TEST_F(ExternalPrograms, MissingFreeFemIsSaidWithWhatToDo) {
 }
 
 TEST_F(ExternalPrograms, RowThatFreeFemCannotSolveIsNamedAndTheOthersAreKept) {
-  const FakeFreeFem fake(scratch_.path(),
-                         "[ $gap = 1.5 ] && { echo 'viscontact-error no solution'; exit 4; }\n");
+  const freefem_axi::FakeFreeFem fake(
+      scratch_.path(), "[ $gap = 1.5 ] && { echo 'viscontact-error no solution'; exit 4; }\n");
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
@@ -69,7 +69,8 @@ TEST_F(ExternalPrograms, RowThatFreeFemCannotSolveIsNamedAndTheOthersAreKept) {
 }
 
 TEST_F(ExternalPrograms, ManyRowsThatFailAreStillOneOrTwoLines) {
-  const FakeFreeFem fake(scratch_.path(), "echo 'viscontact-error no solution'; exit 4\n");
+  const freefem_axi::FakeFreeFem fake(scratch_.path(),
+                                      "echo 'viscontact-error no solution'; exit 4\n");
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
@@ -77,7 +78,7 @@ TEST_F(ExternalPrograms, ManyRowsThatFailAreStillOneOrTwoLines) {
 }
 
 TEST_F(ExternalPrograms, RowWithoutTheAskedAccuracyIsAWarningAndInTheTable) {
-  const FakeFreeFem fake(scratch_.path());  // its rows estimate their error as 1e-6
+  const freefem_axi::FakeFreeFem fake(scratch_.path());  // its rows estimate their error as 1e-6
   put_text(path("case.toml"),
            replaced(gentle_case_text(), "relative_accuracy = 1e-3", "relative_accuracy = 1e-7"));
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
@@ -101,12 +102,12 @@ TEST_F(ExternalPrograms, FreeFemThatDoesNotSayItsVersionIsStopped) {
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")}, environment),
       ErrorKind::kExternalProgram, said);
   const auto doctor = run_viscontact({"doctor"}, environment);
-  EXPECT_EQ(doctor.exit_status, exit_code_of(ErrorKind::kExternalProgram));
+  EXPECT_EQ(doctor.exit_status, results::exit_code_of(ErrorKind::kExternalProgram));
   EXPECT_THAT(doctor.output, said);
 }
 
 TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
-  const FakeFreeFem fake(scratch_.path(), "[ $gap = 1.5 ] && exec sleep 3600\n");
+  const freefem_axi::FakeFreeFem fake(scratch_.path(), "[ $gap = 1.5 ] && exec sleep 3600\n");
   put_text(path("case.toml"), gentle_case_text());
   // The other rows, which answer at once, have time even on a busy machine.
   const auto result = run_viscontact(
@@ -125,7 +126,8 @@ TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {
   const auto result =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
                      {"VISCONTACT_FREEFEM_TIME_LIMIT=5"}, "ulimit -v 200000;");
-  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << result.errors;
+  EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kExternalProgram))
+      << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("gap 0.05"));
 }
 
@@ -177,13 +179,13 @@ TEST_F(ExternalPrograms, MissingGnuplotLosesNoNumbers) {
   const auto bases = run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--basis",
                                      "asymptotic", "--compare-bases"},
                                     environment);
-  EXPECT_EQ(bases.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << bases.errors;
+  EXPECT_EQ(bases.exit_status, results::exit_code_of(ErrorKind::kExternalProgram)) << bases.errors;
   EXPECT_THAT(bases.output, HasSubstr("asymptotic_extended"));
   EXPECT_TRUE(std::filesystem::exists(path("fit.json")));
   const auto shift = run_viscontact({"shift", path("table.csv"), "--fit", path("fit.json"), "-o",
                                      path("shift.csv"), "--plot", path("shift.svg")},
                                     environment);
-  EXPECT_EQ(shift.exit_status, exit_code_of(ErrorKind::kExternalProgram)) << shift.errors;
+  EXPECT_EQ(shift.exit_status, results::exit_code_of(ErrorKind::kExternalProgram)) << shift.errors;
   EXPECT_THAT(shift.output, HasSubstr("shift "));
   EXPECT_TRUE(std::filesystem::exists(path("shift.csv")));
 }

@@ -66,7 +66,7 @@ class FullDisk : public DisturbedTabulation {
 };
 
 TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
-  const FakeFreeFem fake(scratch_.path());
+  const freefem_axi::FakeFreeFem fake(scratch_.path());
   put_text(path("case.toml"), case_of_24_rows());
   expect_done(tabulate(path("undisturbed.csv"), fake.executable()));
   const auto answers_before = fake.answered().size();
@@ -87,7 +87,7 @@ TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
 }
 
 TEST_F(FullDisk, TableThatFindsNoRoomIsWrittenLaterWithoutComputing) {
-  const FakeFreeFem fake(scratch_.path());
+  const freefem_axi::FakeFreeFem fake(scratch_.path());
   put_text(path("case.toml"), gentle_case_text());
   disk_.fill_but(kPage);  // enough for six rows' journal
   const auto full = tabulate(path("disk/table.csv"), fake.executable());

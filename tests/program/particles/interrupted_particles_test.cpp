@@ -75,7 +75,7 @@ class InterruptedParticles : public ::testing::Test {
   /// A run that ends early with a state to go on from.
   void run_half(const std::string& folder) const {
     const auto result = run(folder, {"INT", 4});
-    ASSERT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
+    ASSERT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("the same command goes on from there"));
   }
 
@@ -121,7 +121,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   // interrupt.
   for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"TERM", 8}, {"KILL", 13}}) {
     const auto result = run("parts", {signal, frame});
-    const int status = signal == "KILL" ? 128 + 9 : exit_code_of(ErrorKind::kInterrupted);
+    const int status = signal == "KILL" ? 128 + 9 : results::exit_code_of(ErrorKind::kInterrupted);
     ASSERT_EQ(result.exit_status, status) << signal << result.errors;
     EXPECT_EQ(result.errors.find("goes on from t = ") != std::string::npos, frame > 3)
         << result.errors;
@@ -200,14 +200,14 @@ TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
       EXPECT_THAT(again.errors, AllOf(HasSubstr("cannot be continued"), HasSubstr(name),
                                       HasSubstr("from the start"), Not(HasSubstr("after step"))));
       // Frame 7 is of the new run: the half had come to frame 5 at most.
-      EXPECT_EQ(again.exit_status, exit_code_of(ErrorKind::kInterrupted)) << again.errors;
+      EXPECT_EQ(again.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << again.errors;
     }
 }
 
 TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   run_half("out");
   const auto older = read_file(path("out/restart.bin"));
-  ASSERT_EQ(run("out", {"INT", 9}).exit_status, exit_code_of(ErrorKind::kInterrupted));
+  ASSERT_EQ(run("out", {"INT", 9}).exit_status, results::exit_code_of(ErrorKind::kInterrupted));
   // As if the process had been killed after steps.csv and particles.pvd and before restart.bin.
   put_text(path("out/restart.bin"), older);
   const auto last = run("out");

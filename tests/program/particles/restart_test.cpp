@@ -50,7 +50,7 @@ TEST_P(SignalledParticles, KeepWhatTheyHaveAndARestartGoesOn) {
                "long.toml");
   const auto result = run_viscontact({"particles", endless.string(), "-o", out().string()}, {},
                                      "(sleep 1; kill -" + GetParam() + " $$) &");
-  EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kInterrupted)) << result.errors;
+  EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
   EXPECT_THAT(result.errors, HasSubstr("goes on"));
   const auto state = particles::read_restart(out() / "restart.bin");
   EXPECT_GT(state.steps, 0);

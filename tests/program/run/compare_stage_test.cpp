@@ -23,7 +23,8 @@ TEST_F(Stages, MinimalGapsAreTheLecturesNumbers) {
                             "[viscous_contact]\ntime_step = 1e-4"));
   simulate();
   expect_done(run_viscontact({"compare", path("run")}));
-  EXPECT_EQ(read_comparison(path("run/comparison.json")).reference_model, "inertial");
+  EXPECT_EQ(reduced_model::read_comparison(path("run/comparison.json")).reference_model,
+            "inertial");
   // docs/theory.md, section 3, with the exact drag; the fit (6e-6 relative) changes them in the
   // fifth digit, and Euler at h = 1e-3 is 8.9e-3 below. A quarter of that as tolerance.
   EXPECT_NEAR(comparison_of("reference_exact").minimal_gap / 2.97084661e-3, 1, 1e-3);
@@ -45,7 +46,8 @@ TEST_F(Stages, CompareTakesATrajectoryOfTheUsersOwn) {
   put("mine.csv", text);
   expect_done(run_viscontact(
       {"compare", path("run"), path("mine.csv"), "-o", path("run/comparison.json")}));
-  EXPECT_EQ(read_comparison(path("run/comparison.json")).models.size(), number_of_models() + 1);
+  EXPECT_EQ(reduced_model::read_comparison(path("run/comparison.json")).models.size(),
+            number_of_models() + 1);
   const auto mine = comparison_of("mine");
   // Round-off of sums over 4000 rows.
   EXPECT_NEAR(mine.sup_gap_distance, kShift, 1e-12);
@@ -58,7 +60,7 @@ TEST_F(Stages, CompareTakesAnotherReferenceAndAnotherOutput) {
   simulate();
   expect_done(run_viscontact(
       {"compare", path("run"), "--reference", "reference_exact", "-o", path("elsewhere/c.json")}));
-  const auto comparison = read_comparison(path("elsewhere/c.json"));
+  const auto comparison = reduced_model::read_comparison(path("elsewhere/c.json"));
   EXPECT_EQ(comparison.reference_model, "reference_exact");
   for (const auto& model : comparison.models)
     EXPECT_EQ(model.sup_gap_distance == 0, model.model == "reference_exact") << model.model;
@@ -81,7 +83,8 @@ TEST_F(Stages, ReportIsOneSelfContainedPageWithSevenPlots) {
 
   EXPECT_THAT(page, AllOf(HasSubstr("<title>&lt;script&gt;&amp;"), HasSubstr("Lefebvre 2008"),
                           HasSubstr("q ln q"), HasSubstr("0.00297")));
-  for (const auto& model : default_models()) EXPECT_THAT(page, HasSubstr(std::string(model.name)));
+  for (const auto& model : reduced_model::default_models())
+    EXPECT_THAT(page, HasSubstr(std::string(model.name)));
   EXPECT_THAT(page, Not(::testing::ContainsRegex("[>, ]-?nan[<, ]")));
 }
 

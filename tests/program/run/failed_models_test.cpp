@@ -43,7 +43,7 @@ class FailedModels : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  FakeFreeFem fake_;
+  freefem_axi::FakeFreeFem fake_;
 };
 
 const auto kComputed = ElementsAre("viscous_contact", "viscous_contact_regular_drag");
@@ -58,7 +58,7 @@ TEST_F(FailedModels, DoNotStopTheOthersOfARun) {
   EXPECT_THAT(trajectories(), kComputed);
   // The table, the comparison and the report say why.
   EXPECT_THAT(result.output, HasSubstr("\ninertial                       failed: gap "));
-  const auto comparison = read_comparison(folder() / "comparison.json");
+  const auto comparison = reduced_model::read_comparison(folder() / "comparison.json");
   EXPECT_EQ(comparison.reference_model, "viscous_contact");
   EXPECT_EQ(comparison.models.size(), 2U);
   ASSERT_EQ(comparison.failed_models.size(), 4U);
@@ -83,7 +83,7 @@ TEST_F(FailedModels, AreNotRunAgainAndNotForgotten) {
   expect_done(run());
   EXPECT_EQ(trajectories().size(), 6U);
   EXPECT_FALSE(fs::exists(folder() / "failed_models.json"));
-  EXPECT_TRUE(read_comparison(folder() / "comparison.json").failed_models.empty());
+  EXPECT_TRUE(reduced_model::read_comparison(folder() / "comparison.json").failed_models.empty());
 }
 
 /// The gap that a message names after these words.
@@ -94,13 +94,14 @@ double gap_after(const std::string& text, const std::string& words) {
 
 TEST_F(FailedModels, SayHowFarTheSphereWouldGo) {
   (void)run();
-  const auto reason =
-      read_comparison(folder() / "comparison.json").failed_models.at(2).reason;  // inertial
+  const auto reason = reduced_model::read_comparison(folder() / "comparison.json")
+                          .failed_models.at(2)
+                          .reason;  // inertial
   const auto estimate = gap_after(reason, "would come down to a gap of about ");
   put_text(case_file(), replaced(pushed(), "weights = \"relative\"",
                                  "weights = \"relative\"\nbelow = \"lubrication_limit\""));
   expect_done(run());
-  for (const auto& model : read_comparison(folder() / "comparison.json").models)
+  for (const auto& model : reduced_model::read_comparison(folder() / "comparison.json").models)
     if (model.model == "inertial") {
       EXPECT_NEAR(estimate / model.minimal_gap, 1, 5e-3);  // three digits are printed
     }
@@ -182,7 +183,8 @@ TEST_F(FailedModels, ThatDoNotConvergeEndWithTheirExitCode) {
                  AllOf(HasSubstr("model reference: the step from time "),
                        HasSubstr("goes through the plane"), HasSubstr("2 other models")));
   EXPECT_THAT(trajectories(), ElementsAre("inertial", "viscous_contact"));
-  EXPECT_EQ(read_comparison(folder() / "comparison.json").reference_model, "inertial");
+  EXPECT_EQ(reduced_model::read_comparison(folder() / "comparison.json").reference_model,
+            "inertial");
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ using ::testing::HasSubstr;
 TEST_F(Stages, FitFileSaysBasisWeightsTableAndVersions) {
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new/folder/fit.json"),
                               "--basis", "asymptotic", "--weights", "absolute"}));
-  const auto fit = read_fit(path("new/folder/fit.json"));
+  const auto fit = lubrication::read_fit(path("new/folder/fit.json"));
   EXPECT_EQ(fit.basis, "asymptotic");
-  EXPECT_EQ(fit.weights, Weights::kAbsolute);
+  EXPECT_EQ(fit.weights, lubrication::Weights::kAbsolute);
   EXPECT_EQ(fit.table_sha256, sha256(read_file(path("table.csv"))));
   EXPECT_EQ(fit.gap_interval, (std::array{1e-3, 2.0}));
   for (const auto* program : {"Viscontact", "Ceres", "Eigen"})
@@ -33,9 +33,9 @@ TEST_F(Stages, FitFileSaysBasisWeightsTableAndVersions) {
 
 TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json")}));
-  const auto fit = read_fit(path("fit.json"));
+  const auto fit = lubrication::read_fit(path("fit.json"));
   EXPECT_EQ(fit.basis, "lecture");
-  EXPECT_EQ(fit.weights, Weights::kRelative);
+  EXPECT_EQ(fit.weights, lubrication::Weights::kRelative);
   // docs/theory.md, section 2: 2.5e-3 over [1e-3, 1]; to 2 it is less than twice as far from a
   // cubic.
   EXPECT_LT(fit.largest_relative_residual, 5e-3);
@@ -44,9 +44,9 @@ TEST_F(Stages, FitOfTheLecturesBasisIsTheDefaultAndOfThePublishedQuality) {
 TEST_F(Stages, FitTakesOwnTermsALossAndAHeldCoefficient) {
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("fit.json"), "--terms",
                               "1/q, ln q, 1", "--loss", "cauchy", "--fix", "1/q=56.5"}));
-  auto fit = read_fit(path("fit.json"));
+  auto fit = lubrication::read_fit(path("fit.json"));
   EXPECT_EQ(fit.basis, "terms");
-  EXPECT_EQ(fit.loss, Loss::kCauchy);
+  EXPECT_EQ(fit.loss, lubrication::Loss::kCauchy);
   ASSERT_EQ(fit.terms.size(), 3U);
   EXPECT_TRUE(fit.terms[0].is_fixed);
   EXPECT_EQ(fit.terms[0].coefficient, 56.5);
@@ -56,7 +56,7 @@ TEST_F(Stages, FitTakesOwnTermsALossAndAHeldCoefficient) {
                  ErrorKind::kBadInput, HasSubstr("leading_coefficient"));
   put("table.csv", "# leading_coefficient: 56.548667764616276\n" + read_file(path("table.csv")));
   expect_done(run_viscontact({"fit", path("table.csv"), "-o", path("new.json"), "--fix"}));
-  fit = read_fit(path("new.json"));
+  fit = lubrication::read_fit(path("new.json"));
   EXPECT_EQ(fit.terms[0].coefficient, 56.548667764616276);  // u0 = -1
   EXPECT_EQ(fit.leading_coefficient, 56.548667764616276);
 }
@@ -71,18 +71,18 @@ TEST_F(Stages, CompareBasesPrintsThemSideBySideAndDrawsThem) {
   EXPECT_FALSE(std::filesystem::exists(path("fit.json")));
   expect_done(
       run_viscontact({"fit", path("table.csv"), "--compare-bases", "-o", path("fit.json")}));
-  EXPECT_EQ(read_fit(path("fit.json")).basis, "lecture");
+  EXPECT_EQ(lubrication::read_fit(path("fit.json")).basis, "lecture");
   EXPECT_TRUE(std::filesystem::exists(path("fit.bases.svg")));
 }
 
 TEST_F(Stages, ShiftOfAShiftedSmoothWallIsPrintedWrittenAndDrawn) {
   fit("lecture");
-  const LubricationForce smooth(read_fit(path("fit.json")));
-  ForceTable rough = read_force_table(path("table.csv"));
+  const lubrication::LubricationForce smooth(lubrication::read_fit(path("fit.json")));
+  lubrication::ForceTable rough = lubrication::read_force_table(path("table.csv"));
   constexpr double kShift = 0.005;
   rough.rows.resize(20);  // gaps that are within the fit when they are shifted
   for (auto& row : rough.rows) row.force = smooth.resistance(row.gap + kShift);
-  put("rough.csv", write_force_table(rough));
+  put("rough.csv", lubrication::write_force_table(rough));
   const auto result = run_viscontact({"shift", path("rough.csv"), "--fit", path("fit.json"), "-o",
                                       path("shift.csv"), "--plot", path("shift.svg")});
   expect_done(result);
@@ -123,7 +123,7 @@ TEST_F(Stages, SameFitIsNotMadeAgainAnotherIs) {
   EXPECT_THAT(again.errors, HasSubstr("up to date"));
   EXPECT_EQ(std::filesystem::last_write_time(path("fit.json")), made);
   fit("asymptotic");
-  EXPECT_EQ(read_fit(path("fit.json")).basis, "asymptotic");
+  EXPECT_EQ(lubrication::read_fit(path("fit.json")).basis, "asymptotic");
 }
 
 TEST_F(Stages, FixLeavesTheTableBehindItToItsCommand) {

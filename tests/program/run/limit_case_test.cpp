@@ -22,7 +22,7 @@ TEST(LimitCase, ViscousContactTouchesFrom1To4AndFollowsTheLimit) {
   expect_done(run_viscontact(
       {"run", VISCONTACT_SOURCE_FOLDER "/data/cases/limit.toml", "-o", scratch.path().string()},
       {"VISCONTACT_FREEFEM=no-such-freefem"}));
-  const auto comparison = read_comparison(scratch.path() / "comparison.json");
+  const auto comparison = reduced_model::read_comparison(scratch.path() / "comparison.json");
   ASSERT_EQ(comparison.models.size(), 4U);
   const auto& contact = comparison.models[1];
   ASSERT_EQ(contact.model, "viscous_contact");
@@ -34,7 +34,8 @@ TEST(LimitCase, ViscousContactTouchesFrom1To4AndFollowsTheLimit) {
 
   // q = 1 - t^2, then 0, then (t - 4)^2; gamma = -2t until t = 2, 0 at t = 4.
   for (const auto& row :
-       read_trajectory(scratch.path() / "trajectories" / "viscous_contact.csv").rows) {
+       reduced_model::read_trajectory(scratch.path() / "trajectories" / "viscous_contact.csv")
+           .rows) {
     const double t = row.time;
     const double gap = t < 1 ? 1 - t * t : (t < 4 ? 0 : (t - 4) * (t - 4));
     const double gamma = t < 1 || t > 4 ? 0 : (t < 2 ? -2 * t : -8 + 2 * t);

@@ -30,16 +30,18 @@ TEST(OutputRows, AreAboutAsManyAsTheCaseSaysAndLoseNoSmallestGap) {
     return std::filesystem::path(folder);
   };
   const auto whole = simulate("whole", ""), fewer = simulate("fewer", "\nrows = 40");
-  const auto comparison = read_comparison(whole / "comparison.json");
-  const auto of_fewer = read_comparison(fewer / "comparison.json");
+  const auto comparison = reduced_model::read_comparison(whole / "comparison.json");
+  const auto of_fewer = reduced_model::read_comparison(fewer / "comparison.json");
   for (std::size_t i = 0; i < comparison.models.size(); ++i) {
     const auto& model = comparison.models[i];
-    const auto trajectory = read_trajectory(fewer / "trajectories" / (model.model + ".csv"));
+    const auto trajectory =
+        reduced_model::read_trajectory(fewer / "trajectories" / (model.model + ".csv"));
     EXPECT_GE(trajectory.rows.size(), 40U) << model.model;
     EXPECT_LT(trajectory.rows.size(), 55U) << model.model;
     EXPECT_EQ(trajectory.provenance.at("rows_computed"),
               std::to_string(
-                  read_trajectory(whole / "trajectories" / (model.model + ".csv")).rows.size()));
+                  reduced_model::read_trajectory(whole / "trajectories" / (model.model + ".csv"))
+                      .rows.size()));
     EXPECT_EQ(of_fewer.models[i].minimal_gap, model.minimal_gap) << model.model;
     EXPECT_EQ(of_fewer.models[i].minimal_gap_time, model.minimal_gap_time) << model.model;
     EXPECT_EQ(of_fewer.models[i].recovered_minimal_gap, model.recovered_minimal_gap) << model.model;

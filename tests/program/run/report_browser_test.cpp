@@ -101,13 +101,14 @@ void expect_value_of_trajectory(const Json& found, const fs::path& file) {
   const std::vector<std::string> legend = (*gap)["legend"];
   const auto row = std::ranges::find(legend, "with inertia, CVODE") - legend.begin();
   ASSERT_LT(row, std::ssize(legend));
-  const auto trajectory = read_trajectory(file).rows;
+  const auto trajectory = reduced_model::read_trajectory(file).rows;
   const std::vector<std::string> values = (*gap)["values"][0];
   const double time = std::stod(values[0]);
   const double shown = std::stod(values[static_cast<std::size_t>(row)]);
   EXPECT_GT(time, 0.5);
   EXPECT_LT(time, 1.5);
-  const auto after = std::ranges::lower_bound(trajectory, time, {}, &TrajectoryRow::time);
+  const auto after =
+      std::ranges::lower_bound(trajectory, time, {}, &reduced_model::TrajectoryRow::time);
   ASSERT_NE(after, trajectory.end());
   // The page holds every tenth row or so and draws lines between them.
   EXPECT_NEAR(shown / after->gap, 1, 0.02);

@@ -44,7 +44,7 @@ class Run : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  FakeFreeFem fake_;
+  freefem_axi::FakeFreeFem fake_;
 };
 
 }  // namespace viscontact

@@ -38,14 +38,14 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
   for (const auto* plot :
        {"thinnest_film", "gap", "gap_logarithmic", "external_force", "gamma", "fit", "uncertainty"})
     expected.push_back(fmt::format("plots/{}.svg", plot));
-  for (const auto& model : default_models())
+  for (const auto& model : reduced_model::default_models())
     expected.push_back("trajectories/" + std::string(model.name) + ".csv");
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     found.push_back(entry.path().lexically_relative(folder));
   EXPECT_THAT(found, ::testing::UnorderedElementsAreArray(expected));  // no journal, no *.tmp
 
-  const auto table = read_force_table(folder / "table.csv");
+  const auto table = lubrication::read_force_table(folder / "table.csv");
   ASSERT_EQ(table.rows.size(), 6U);
   for (const auto& row : table.rows)
     EXPECT_LE(row.relative_error_estimate, 1e-3);  // asked by the case
@@ -53,8 +53,8 @@ TEST(RunWithFreeFem, MakesEveryFileAndThenNothingAgain) {
     EXPECT_TRUE(table.versions.contains(program)) << program;
   // Six gaps and five terms: nearly interpolation. The basis lacks ln q, which it makes up for to a
   // few parts in a thousand.
-  EXPECT_LT(read_fit(folder / "fit.json").largest_relative_residual, 1e-2);
-  for (const auto& model : read_comparison(folder / "comparison.json").models)
+  EXPECT_LT(lubrication::read_fit(folder / "fit.json").largest_relative_residual, 1e-2);
+  for (const auto& model : reduced_model::read_comparison(folder / "comparison.json").models)
     if (!model.contact_interval) {
       EXPECT_GT(model.minimal_gap, 0.05) << model.model;  // within the table
     }
@@ -101,7 +101,7 @@ TEST_F(Run, ChangedBasisIsFittedAgainButNotTabulated) {
   put_text(case_file(), replaced(gentle_case_text(), "\"lecture\"", "\"asymptotic\""));
   expect_done(run());
   EXPECT_EQ(fake_.answered().size(), 6U);
-  EXPECT_EQ(read_fit(folder() / "fit.json").basis, "asymptotic");
+  EXPECT_EQ(lubrication::read_fit(folder() / "fit.json").basis, "asymptotic");
 }
 
 TEST_F(Run, ModelsThatTheCaseNoLongerNamesAreGone) {
@@ -110,7 +110,7 @@ TEST_F(Run, ModelsThatTheCaseNoLongerNamesAreGone) {
                                  "end_time = 4.0\nmodels = [\"inertial\", \"reference\"]"));
   expect_done(run());
   EXPECT_EQ(files_below(folder() / "trajectories").size(), 2U);
-  EXPECT_EQ(read_comparison(folder() / "comparison.json").models.size(), 2U);
+  EXPECT_EQ(reduced_model::read_comparison(folder() / "comparison.json").models.size(), 2U);
 }
 
 /// Damages a file of a finished run, runs again, and expects the file and all that is made from it

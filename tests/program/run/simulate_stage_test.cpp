@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 
 TEST_F(Stages, SimulateSaysWhatTheFitsErrorsDoToTheAnswer) {
   simulate();
-  const auto uncertainty = read_uncertainty(path("run/uncertainty.json"));
+  const auto uncertainty = reduced_model::read_uncertainty(path("run/uncertainty.json"));
   EXPECT_EQ(uncertainty.draws, 10000U);
   EXPECT_LT(uncertainty.smallest.misfit[0], 2.97084661e-3);
   EXPECT_GT(uncertainty.smallest.misfit[1], 2.97084661e-3);
@@ -59,7 +59,7 @@ TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {
 
 TEST_F(Stages, SimulateWritesOneTrajectoryForEachModelAndCopiesCaseAndFit) {
   simulate();
-  for (const auto& model : default_models()) {
+  for (const auto& model : reduced_model::default_models()) {
     const auto result = trajectory(std::string(model.name));
     EXPECT_EQ(result.model, model.name);
     EXPECT_EQ(result.rows.front().time, 0);
@@ -82,7 +82,7 @@ TEST_F(Stages, SimulateTakesTheExactDragOfTheCase) {
       {"simulate", path("exact.toml"), "-o", path("run"), "--models", "reference_exact,inertial"});
   expect_done(result);
   EXPECT_THAT(result.errors, HasSubstr("the drag is the exact one near a plane"));
-  EXPECT_EQ(read_fit(path("run/fit.json")).basis, kExactPlane);
+  EXPECT_EQ(lubrication::read_fit(path("run/fit.json")).basis, lubrication::kExactPlane);
   expect_done(run_viscontact({"compare", path("run")}));
   // docs/theory.md, section 3: the digits that are given there, and a row's distance from the
   // minimum.
@@ -91,7 +91,7 @@ TEST_F(Stages, SimulateTakesTheExactDragOfTheCase) {
   const auto again = run_viscontact(
       {"simulate", path("exact.toml"), "-o", path("run"), "--models", "reference_exact,inertial"});
   expect_done(again);
-  EXPECT_EQ(read_fit(path("run/fit.json")).basis, kExactPlane);
+  EXPECT_EQ(lubrication::read_fit(path("run/fit.json")).basis, lubrication::kExactPlane);
 }
 
 TEST_F(Stages, SimulateTakesTheFitFileOfTheCaseOrOfItsFolder) {
@@ -104,7 +104,9 @@ TEST_F(Stages, SimulateTakesTheFitFileOfTheCaseOrOfItsFolder) {
     return run_viscontact(arguments);
   };
   const auto rows = [&](const std::string& folder) {
-    return read_trajectory(path(folder + "/trajectories/reference_exact.csv")).rows.back().gap;
+    return reduced_model::read_trajectory(path(folder + "/trajectories/reference_exact.csv"))
+        .rows.back()
+        .gap;
   };
   expect_done(simulate("case.toml", "given", {"--fit", path("fit.json")}));
   // Relative to the case, as for `run`.
@@ -136,9 +138,9 @@ TEST_F(Stages, SimulateNeedsNoSectionOfNumericalSettings) {
   expect_done(run_viscontact(
       {"simulate", path("short.toml"), "--fit", path("fit.json"), "-o", path("run")}));
   simulate_into("whole");
-  for (const auto& model : default_models()) {
+  for (const auto& model : reduced_model::default_models()) {
     const auto name = std::string(model.name);
-    const auto whole = read_trajectory(path("whole/trajectories/" + name + ".csv"));
+    const auto whole = reduced_model::read_trajectory(path("whole/trajectories/" + name + ".csv"));
     EXPECT_EQ(trajectory(name).rows.back().gap, whole.rows.back().gap) << name;
     EXPECT_EQ(trajectory(name).rows.size(), whole.rows.size()) << name;
   }

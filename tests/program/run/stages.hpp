@@ -18,7 +18,7 @@
 namespace viscontact {
 
 inline std::size_t number_of_models() {
-  return static_cast<std::size_t>(std::ranges::distance(default_models()));
+  return static_cast<std::size_t>(std::ranges::distance(reduced_model::default_models()));
 }
 
 class Stages : public ::testing::Test {
@@ -44,11 +44,11 @@ class Stages : public ::testing::Test {
     expect_done(run_viscontact(
         {"simulate", path("case.toml"), "--fit", path("fit.json"), "-o", path(folder)}));
   }
-  Trajectory trajectory(const std::string& model) const {
-    return read_trajectory(path("run/trajectories/" + model + ".csv"));
+  reduced_model::Trajectory trajectory(const std::string& model) const {
+    return reduced_model::read_trajectory(path("run/trajectories/" + model + ".csv"));
   }
-  ModelComparison comparison_of(const std::string& model) const {
-    for (const auto& entry : read_comparison(path("run/comparison.json")).models)
+  reduced_model::ModelComparison comparison_of(const std::string& model) const {
+    for (const auto& entry : reduced_model::read_comparison(path("run/comparison.json")).models)
       if (entry.model == model) return entry;
     throw std::invalid_argument("not compared: " + model);
   }

@@ -89,7 +89,7 @@ TEST_F(SweepCommand, InWhichEveryPointFailedEndsWithAnErrorThatSaysWhy) {
   // The same again when the file is up to date.
   for (const std::string said : {"2 rows in", "is up to date"}) {
     const auto result = sweep(kVanishing, options);
-    EXPECT_EQ(result.exit_status, exit_code_of(ErrorKind::kNotConverged));
+    EXPECT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kNotConverged));
     EXPECT_THAT(result.errors,
                 AllOf(HasSubstr(said), HasSubstr("every model failed at 2 points"),
                       HasSubstr("rows.csv: every model failed at every point"),

@@ -35,8 +35,9 @@ class DisturbedTabulation : public ::testing::Test {
   /// "GAP VELOCITY" of the rows that are finished: on disk.
   std::set<std::string> finished(const std::string& table) const {
     std::set<std::string> rows;
-    const auto hash = tabulation_hash(*read_case(path("case.toml")).tabulation);
-    for (const auto& [point, row] : read_row_record(table, hash).finished)
+    const auto hash =
+        freefem_axi::tabulation_hash(*case_file::read_case(path("case.toml")).tabulation);
+    for (const auto& [point, row] : freefem_axi::read_row_record(table, hash).finished)
       rows.insert(format_number(point.gap) + " " + format_number(point.reference_velocity));
     return rows;
   }

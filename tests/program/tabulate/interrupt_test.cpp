@@ -26,7 +26,7 @@ TEST_P(Interrupt, KeepsFinishedRowsEndsFreeFemAndTheNextRunComputesOnlyTheRest) 
   const auto path = [&](const std::string& name) { return (scratch.path() / name).string(); };
   // The third row interrupts viscontact and would then take an hour; without the marker file it is
   // a row like any other.
-  const FakeFreeFem fake(scratch.path(), R"sh(
+  const freefem_axi::FakeFreeFem fake(scratch.path(), R"sh(
 if [ -e "$folder/interrupt" ] && [ "$(wc -l < "$folder/answered")" = 2 ]; then
   rm "$folder/interrupt"; echo $$ > "$folder/slow_row"
   kill -)sh" + GetParam() + R"sh( $PPID
@@ -52,14 +52,14 @@ fi
   const auto resumed = run_viscontact(arguments, environment);
   expect_done(resumed);
   EXPECT_THAT(resumed.errors, HasSubstr("tabulate: 6 rows (2 of them from before) on 1 processes"));
-  EXPECT_THAT(read_force_table(path("table.csv")).rows, SizeIs(6));
+  EXPECT_THAT(lubrication::read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
 }
 
 TEST(InterruptUnderNohup, HangupThatIsIgnoredStaysIgnored) {
   const TemporaryFolder scratch;
-  const FakeFreeFem fake(scratch.path(), "kill -HUP $PPID");
+  const freefem_axi::FakeFreeFem fake(scratch.path(), "kill -HUP $PPID");
   put_text(scratch.path() / "case.toml", gentle_case_text());
   expect_done(run_viscontact({"tabulate", (scratch.path() / "case.toml").string(), "-o",
                               (scratch.path() / "table.csv").string()},

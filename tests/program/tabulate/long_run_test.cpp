@@ -80,7 +80,7 @@ class LongRun : public DisturbedTabulation {
 };
 
 TEST_F(LongRun, KilledAtRandomMomentsItLosesNoFinishedRowAndEndsWithTheSameTable) {
-  const FakeFreeFem fake(scratch_.path(), "sleep 0.03\n");
+  const freefem_axi::FakeFreeFem fake(scratch_.path(), "sleep 0.03\n");
   put_text(path("case.toml"), case_of_24_rows());
   expect_done(tabulate(path("undisturbed.csv"), fake.executable()));
   disturb_until_done(path("table.csv"), fake.executable(), 0.4, [&] { return fake.answered(); });
@@ -139,9 +139,10 @@ exec FreeFem++-nw "$@"
 }
 
 TEST_F(LongRun, FreeFemDoesNotOutliveAViscontactThatIsKilled) {
-  const FakeFreeFem fake(scratch_.path(),
-                         "[ -e \"$folder/calm\" ] || { echo $$ > \"$folder/row\"; kill -KILL "
-                         "$PPID; exec sleep 3600; }\n");
+  const freefem_axi::FakeFreeFem fake(
+      scratch_.path(),
+      "[ -e \"$folder/calm\" ] || { echo $$ > \"$folder/row\"; kill -KILL "
+      "$PPID; exec sleep 3600; }\n");
   put_text(path("case.toml"), gentle_case_text());
   const auto killed =
       run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv"), "--jobs", "1"},
@@ -164,12 +165,12 @@ TEST_F(LongRun, FreeFemDoesNotOutliveAViscontactThatIsKilled) {
 }
 
 TEST_F(LongRun, TornLineAndRowsOfAnotherCaseInTheJournalAreNoRows) {
-  const FakeFreeFem fake(scratch_.path(), "[ -e \"$folder/full\" ] && exit 1\n");
+  const freefem_axi::FakeFreeFem fake(scratch_.path(), "[ -e \"$folder/full\" ] && exit 1\n");
   put_text(path("case.toml"), gentle_case_text());
   // The journal of another case, finished but for its last row...
   put_text(path("case.toml"), replaced(gentle_case_text(), "viscosity = 3.0", "viscosity = 5.0"));
   expect_done(tabulate(path("other.csv"), fake.executable(), ""));
-  const FakeFreeFem failing(scratch_.path(), "[ $gap = 1.5 ] && exit 1\n");
+  const freefem_axi::FakeFreeFem failing(scratch_.path(), "[ $gap = 1.5 ] && exit 1\n");
   EXPECT_EQ(tabulate(path("table.csv"), failing.executable()).exit_status, 5);
   EXPECT_THAT(finished(path("table.csv")), SizeIs(5));
   // ... to which this case adds its own, the last of them torn.
@@ -180,7 +181,7 @@ TEST_F(LongRun, TornLineAndRowsOfAnotherCaseInTheJournalAreNoRows) {
   put_text(path("table.csv.rows"), journal.substr(0, last_row + 40));
   EXPECT_THAT(finished(path("table.csv")), SizeIs(4));
 
-  const FakeFreeFem mended(scratch_.path());
+  const freefem_axi::FakeFreeFem mended(scratch_.path());
   const auto answers_before = mended.answered().size();
   expect_done(tabulate(path("table.csv"), mended.executable()));
   EXPECT_EQ(mended.answered().size(), answers_before + 2);

@@ -39,9 +39,10 @@ class Sweep : public ::testing::Test {
 
   TemporaryFolder scratch_;
   TemporaryFolder fake_folder_;
-  FakeFreeFem fake_{fake_folder_.path(),
-                    "[ -e \"$folder/fails\" ] && [ $viscosity = 3 ] && [ $gap = 1.5 ] && { echo no "
-                    "luck; exit 4; }\n"};
+  freefem_axi::FakeFreeFem fake_{
+      fake_folder_.path(),
+      "[ -e \"$folder/fails\" ] && [ $viscosity = 3 ] && [ $gap = 1.5 ] && { echo no "
+      "luck; exit 4; }\n"};
 };
 
 TEST_F(Sweep, TablesAreNamedAfterTheCasesAndThoseOfEachAlone) {

@@ -46,7 +46,7 @@ class SlurmSubmission : public ::testing::Test {
   std::string asked() const { return "\n" + read_file(path("asked")); }
 
   TemporaryFolder scratch_;
-  FakeFreeFem fake_{scratch_.path()};
+  freefem_axi::FakeFreeFem fake_{scratch_.path()};
 
  private:
   void program(const std::string& name, const std::string& script) const {

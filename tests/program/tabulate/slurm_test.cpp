@@ -113,7 +113,8 @@ class Slurm : public ::testing::Test {
 };
 
 TEST_F(Slurm, ArrayJobIsSubmittedByOneCommandAndGatheredByAnother) {
-  const FakeFreeFem fake(scratch_.path(), "while [ -e \"$folder/hold\" ]; do sleep 0.1; done\n");
+  const freefem_axi::FakeFreeFem fake(scratch_.path(),
+                                      "while [ -e \"$folder/hold\" ]; do sleep 0.1; done\n");
   put_text(path("hold"), "");
   const auto submitted = tabulate("out", {"--launcher", "slurm"}, fake.executable());
   expect_done(submitted);
@@ -179,7 +180,7 @@ class NodeThatDies : public Slurm {
     cluster_.kill_node(1);
   }
 
-  FakeFreeFem fake_{scratch_.path(), kEndlessOnNode1};
+  freefem_axi::FakeFreeFem fake_{scratch_.path(), kEndlessOnNode1};
 };
 
 TEST_F(NodeThatDies, LosesNoFinishedRowAndASecondJobComputesTheOthersOnly) {
@@ -187,7 +188,7 @@ TEST_F(NodeThatDies, LosesNoFinishedRowAndASecondJobComputesTheOthersOnly) {
   wait_for_the_job();
   EXPECT_THAT(fake_.answered(), SizeIs(14));
   const auto missing = tabulate("out", {"--gather"}, fake_.executable());
-  EXPECT_EQ(missing.exit_status, exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
+  EXPECT_EQ(missing.exit_status, results::exit_code_of(ErrorKind::kNotConverged)) << missing.errors;
   EXPECT_THAT(missing.errors, AllOf(HasSubstr("thin.csv: 4 of 12 rows are missing"),
                                     HasSubstr("thick.csv: 6 of 12 rows are missing")));
   expect_done(tabulate("out", {"--launcher", "slurm"}, fake_.executable()));
@@ -206,7 +207,7 @@ TEST_F(NodeThatDies, ItsTasksGoOnElsewhereByThemselves) {
 }
 
 TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
-  const FakeFreeFem fake(scratch_.path(), R"sh(
+  const freefem_axi::FakeFreeFem fake(scratch_.path(), R"sh(
 [ $gap = 1.5 ] && [ $velocity = 2 ] && [ ! -e "$folder/mended" ] && { echo out of luck; exit 4; }
 )sh");
   expect_done(tabulate("out", {"--launcher", "slurm", "--tasks", "5"}, fake.executable()));

@@ -11,7 +11,7 @@
 #include "tests/report/particles/playbacks.hpp"
 #include "viscontact/report/particles/particles_picture.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -207,4 +207,4 @@ TEST(ParticlesPage, WithoutFramesSaysSo) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::report

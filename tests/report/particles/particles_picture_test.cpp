@@ -9,7 +9,7 @@
 #include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -95,4 +95,4 @@ TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
 }
 
 }  // namespace
-}  // namespace viscontact
+}  // namespace viscontact::report

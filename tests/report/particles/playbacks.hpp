@@ -3,7 +3,7 @@
 
 #include "viscontact/report/particles/particles_page.hpp"
 
-namespace viscontact {
+namespace viscontact::report {
 
 /// Discs or spheres of radius 1 in a row on the first axis, which fall on a floor. Neighbours have
 /// films from the second frame on; the floor has films in the last frame.
@@ -38,4 +38,4 @@ inline particles::Playback one_particle() {
   return playback;
 }
 
-}  // namespace viscontact
+}  // namespace viscontact::report
