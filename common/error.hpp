@@ -32,8 +32,8 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: " before
-/// its message.
+/// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: "
+/// before its message.
 template <class Call>
 auto with_place(const std::string& place, const Call& call) {
   try {

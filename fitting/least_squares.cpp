@@ -78,8 +78,8 @@ void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_sid
   if (refined.allFinite()) solution = refined;
 }
 
-/// Condition number of the matrix with its columns scaled to length 1. Throws Error(kNotConverged) if
-/// the columns are linearly dependent to working precision.
+/// Condition number of the matrix with its columns scaled to length 1. Throws Error(kNotConverged)
+/// if the columns are linearly dependent to working precision.
 double condition_number_of(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd length =
       matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());

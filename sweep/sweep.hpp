@@ -79,7 +79,8 @@ class Sweep {
 
 /// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
 /// Ends early if `stop` requests it or if `take` throws; that exception is thrown again. The memory
-/// that it needs does not grow with the number of rows. Returns the number of the last row taken plus 1.
+/// that it needs does not grow with the number of rows. Returns the number of the last row taken
+/// plus 1.
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,

@@ -17,8 +17,8 @@ namespace viscontact::sweep {
 /// is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the head of a new
 /// file. `progress(done, size)` is called after each row.
 ///
-/// Throws Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if a file cannot be written
-/// or another process writes the same file. Returns the number of rows that were computed.
+/// Throws Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if a file cannot be
+/// written or another process writes the same file. Returns the number of rows that were computed.
 std::uint64_t write_sweep(
     const Sweep& sweep, const std::filesystem::path& path, int jobs, const std::string& version,
     const std::string& how_made,

@@ -54,9 +54,9 @@ std::string shortened(const std::string& text);
 /// Most columns that can be asked of a file.
 constexpr std::size_t kMostCsvColumns = 16;
 
-/// What read_csv does, for any number of columns: calls `add_row` with the fields of each row and its
-/// line in the file. The library is instantiated in csv.cpp alone, because each number of columns
-/// costs seconds to compile.
+/// What read_csv does, for any number of columns: calls `add_row` with the fields of each row and
+/// its line in the file. The library is instantiated in csv.cpp alone, because each number of
+/// columns costs seconds to compile.
 void read_csv_rows(
     const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
     CsvComments& comments, std::set<std::string>& contradictions,

@@ -1,7 +1,9 @@
-// Viscontact from C++: reads a table of forces, fits it, and lets two models move the sphere of the lecture's case with that fit: `inertial`, which resolves
-// the film between sphere and plane, and `viscous_contact`, which does not.
+// Viscontact from C++: reads a table of forces, fits it, and lets two models move the sphere of the
+// lecture's case with that fit: `inertial`, which resolves the film between sphere and plane, and
+// `viscous_contact`, which does not.
 //
-// In the folder of Viscontact, after scripts/build (PREFIX: any folder, /usr/local without --prefix):
+// In the folder of Viscontact, after scripts/build (PREFIX: any folder, /usr/local without
+// --prefix):
 //
 //   cmake --install build/release --prefix PREFIX
 //   cmake -S examples/use_from_cpp -B out/use_from_cpp -D CMAKE_PREFIX_PATH=PREFIX -D CMAKE_BUILD_TYPE=Release
@@ -31,7 +33,8 @@
 
 namespace {
 
-/// A sphere of mass 20, at rest at gap 1, is pushed towards the plane until t = 2, then pulled back. Viscontact has no units of its own: those of the table.
+/// A sphere of mass 20, at rest at gap 1, is pushed towards the plane until t = 2, then pulled
+/// back. Viscontact has no units of its own: those of the table.
 viscontact::reduced_model::Motion lecture_motion() {
   const std::vector<viscontact::reduced_model::ExternalForce::Piece> pieces = {
       {.until = 2, .value = -200}, {.until = 4, .value = 200}};
@@ -49,7 +52,8 @@ viscontact::reduced_model::Motion lecture_motion() {
 }
 
 void print_smallest_gaps(const std::string& table_file) {
-  // The table: one row for each gap and velocity. A user's own needs the columns gap, reference_velocity and force only.
+  // The table: one row for each gap and velocity. A user's own needs the columns gap,
+  // reference_velocity and force only.
   const viscontact::lubrication::ForceTable table =
       viscontact::lubrication::read_force_table(table_file);
 
@@ -61,7 +65,8 @@ void print_smallest_gaps(const std::string& table_file) {
     std::printf("%s %s", &term == &fit.terms.front() ? "" : ",", term.name.c_str());
   std::printf(": largest residual %.2g %%\n", 100 * fit.largest_relative_residual);
 
-  // The force as a function: F_lub(q, u) = -R(q) u in the interval of the gaps that were fitted; outside, asking is an error.
+  // The force as a function: F_lub(q, u) = -R(q) u in the interval of the gaps that were fitted;
+  // outside, asking is an error.
   const viscontact::lubrication::LubricationForce force(fit);
   std::printf("R(q = 0.01) = %.6g\n\n", force.resistance(0.01));
 
@@ -84,7 +89,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: %s TABLE\n", argv[0]);
     return 2;
   }
-  // Every error that a user can cause is a viscontact::Error (common/error.hpp), a std::runtime_error that says what to do.
+  // Every error that a user can cause is a viscontact::Error (common/error.hpp), a
+  // std::runtime_error that says what to do.
   try {
     print_smallest_gaps(argv[1]);
     return 0;

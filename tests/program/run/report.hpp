@@ -1,4 +1,5 @@
-// The report of a run of the lecture's case, which needs no FreeFEM, because the shipped table is used.
+// The report of a run of the lecture's case, which needs no FreeFEM, because the shipped table is
+// used.
 #pragma once
 
 #include <gtest/gtest.h>
