@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
+#include "viscontact/app/arguments/optional_values.hpp"
 #include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/help/completion.hpp"
 #include "viscontact/app/help/manual.hpp"
-#include "viscontact/app/interrupt.hpp"
-#include "viscontact/app/optional_values.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/results/exit_code.hpp"
 #include "viscontact/results/versions.hpp"
@@ -77,8 +77,9 @@ int run(int argc, char** argv) {
     for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
       names.push_back(command->get_name());
     if (std::ranges::find(names, argv[1]) == names.end())
-      throw Error(ErrorKind::kWrongUsage, fmt::format("there is no subcommand '{}'; there are: {}",
-                                                      argv[1], fmt::join(names, ", ")));
+      throw Error(ErrorKind::kWrongUsage,
+                  fmt::format("there is no subcommand '{}'; the subcommands are: {}", argv[1],
+                              fmt::join(names, ", ")));
   }
   try {
     auto arguments = with_files_apart({argv + std::min(argc, 1), argv + argc});
@@ -111,10 +112,10 @@ int main(int argc, char** argv) {
                                                wrong_usage ? "; see viscontact --help" : ""));
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
-    viscontact::terminal::complain("viscontact: there is not enough memory for this");
+    viscontact::terminal::complain("viscontact: there is not enough memory for this command");
     return exit_code_of(ErrorKind::kNotConverged);
   } catch (const std::exception& error) {
-    // An error of the file system or of a library that no check has found before.
+    // An error of the file system or of a library that no earlier check has found.
     viscontact::terminal::complain(fmt::format("viscontact: {}", error.what()));
     return exit_code_of(ErrorKind::kBadInput);
   }

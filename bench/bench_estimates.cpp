@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/freefem_axi/exact_rows.hpp"
+#include "tests/freefem_axi/accuracy/exact_rows.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact {

@@ -2,7 +2,7 @@
 // regression of the NIST Statistical Reference Datasets. bench/run runs it.
 #include <fmt/format.h>
 
-#include "tests/fitting/nist_sets.hpp"
+#include "tests/fitting/nist/nist_sets.hpp"
 
 int main() {
   fmt::print("{:<10} {:>5} {:>8} {:>10} {:>20} {:>18}\n", "set", "rows", "columns", "condition",

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "tests/oracles/bispherical.hpp"
-#include "tests/oracles/sphere_in_cylinder.hpp"
+#include "tests/oracles/bispherical/bispherical.hpp"
+#include "tests/oracles/cylinder/sphere_in_cylinder.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 

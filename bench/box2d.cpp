@@ -17,7 +17,7 @@
 #include <map>
 #include <string>
 
-#include "tests/particles/box2d_case.hpp"
+#include "tests/particles/box2d/box2d_case.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 
 namespace {

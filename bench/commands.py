@@ -33,10 +33,12 @@ def measure(command, times, before=lambda: None):
 
 
 program = sys.argv[1]
-names = re.findall(r"^\.SS (\w+)", subprocess.run([program, "man"], capture_output=True, text=True, check=True).stdout, re.M)
-slowest = max(((measure([program, name, "--help"], 11), name) for name in names), key=lambda found: found[0][0])
-(median, least, memory), name = slowest
-print(f"--help, slowest of {len(names)} commands ({name}): median {median * 1e3:.1f} ms, least {least * 1e3:.1f} ms, {memory:.0f} MB")
+manual = subprocess.run([program, "man"], capture_output=True, text=True, check=True).stdout
+names = re.findall(r"^\.SS (\w+)", manual, re.M)
+times = ((measure([program, name, "--help"], 11), name) for name in names)
+(median, least, memory), name = max(times, key=lambda found: found[0][0])
+print(f"--help, slowest of {len(names)} commands ({name}): median {median * 1e3:.1f} ms, "
+      f"least {least * 1e3:.1f} ms, {memory:.0f} MB")
 
 with tempfile.TemporaryDirectory() as folder:
     # The run has the shipped table of the lecture's case: tabulate finds it up to date, and the
@@ -49,5 +51,6 @@ with tempfile.TemporaryDirectory() as folder:
         shutil.copy("data/tables/lecture.csv", os.path.join(run, "table.csv"))
 
     median, least, memory = measure([program, "run", case, "-o", run], 7, fresh)
-    print(f"run on the shipped table, report included: median {median:.2f} s, least {least:.2f} s, {memory:.0f} MB")
+    print(f"run on the shipped table, report included: median {median:.2f} s, "
+          f"least {least:.2f} s, {memory:.0f} MB")
     print(f"report.html: {os.path.getsize(os.path.join(run, 'report.html')) / 1e6:.2f} MB")

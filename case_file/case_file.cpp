@@ -1,5 +1,6 @@
-// Reads the case file of one sphere (case_file.hpp). The long sections have readers of their own
-// (sections.hpp). Lengths, masses and times are in the units of the case.
+// Reads the case file of one sphere (case_file.hpp); sections.hpp declares the readers of its long
+// sections. Lengths, masses and times are in the units of the case. A change must keep the keys and
+// their defaults, because users have written cases with them.
 #include "viscontact/case_file/case_file.hpp"
 
 #include <fmt/format.h>
@@ -12,13 +13,14 @@
 #include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/terms.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact::case_file {
 namespace {
 
-/// Returns the value that belongs to a word, from a list of all words that are allowed.
+/// Returns the value of a key that must be one of the given words, each of which has a value.
 template <class Value>
 Value one_of(const TomlSection& section, std::string_view key,
              std::initializer_list<std::pair<std::string_view, Value>> words) {
@@ -36,16 +38,20 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
   if (section.has("file")) {
     fit.file = case_folder / section.text("file");
   } else if (section.has("exact")) {
-    if (const auto wall = section.text("exact"); wall != "plane")
-      section.fail("exact", fmt::format("is '{}'; it must be \"plane\"", wall));
+    const auto walls = freefem_axi::geometries_with_exact_drag();
+    if (const auto wall = section.text("exact"); find_named(walls, wall) == nullptr)
+      section.fail("exact",
+                   fmt::format("is '{}'; it must be \"{}\"", wall, names_of(walls, "\" or \"")));
     fit.exact = true;
   } else {
     auto& settings = fit.settings;
     const std::string basis_key = section.has("terms") ? "terms" : "basis";
     // The defaults are those of the command `fit`.
-    const std::string basis = section.has(basis_key) ? section.text(basis_key) : "lecture";
+    const std::string basis = section.has(basis_key)
+                                  ? section.text(basis_key)
+                                  : std::string(lubrication::default_basis().name);
     if (basis_key == "terms" && section.has("basis"))
-      section.fail("basis", "must be left out where terms gives a basis of its own");
+      section.fail("basis", "must be left out, because the key terms defines the basis");
     settings.basis = at_key(section, basis_key, [&] {
       return basis_key == "terms" ? lubrication::parse_terms(basis)
                                   : lubrication::find_basis(basis);
@@ -70,12 +76,12 @@ FitRequest read_fit_request(const TomlSection& section, const std::filesystem::p
     }
   }
   if (section.has("below"))
-    fit.below = one_of<lubrication::BelowInterval>(
+    fit.outside.below = one_of<lubrication::BelowInterval>(
         section, "below",
         {{"lubrication_limit", lubrication::BelowInterval::kLubricationLimit},
          {"theory_limit", lubrication::BelowInterval::kTheoryLimit}});
   if (section.has("above"))
-    fit.above = one_of<lubrication::AboveInterval>(
+    fit.outside.above = one_of<lubrication::AboveInterval>(
         section, "above", {{"stokes_limit", lubrication::AboveInterval::kStokesLimit}});
   section.finish();
   return fit;
@@ -168,8 +174,8 @@ Case read_case(const TomlSection& root, std::string text, const std::filesystem:
   return c;
 }
 
-/// The text of a case, with empty sections added for those that it lacks, so that their keys can be
-/// set.
+/// The text of a case, with an empty section for each section of models that it lacks, so that a
+/// sweep can set the keys of these sections.
 std::string with_model_sections(std::string text, const std::filesystem::path& path) {
   const auto root = TomlSection::parse(text, path.string());
   for (const auto& name : reduced_model::model_sections())

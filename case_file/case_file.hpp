@@ -25,9 +25,7 @@ struct FitRequest {
   fitting::FitSettings settings;
   /// A fit file that replaces tabulation and fit.
   std::optional<std::filesystem::path> file;
-  /// Drag below and above the interval of the fit.
-  lubrication::BelowInterval below = lubrication::BelowInterval::kError;
-  lubrication::AboveInterval above = lubrication::AboveInterval::kError;
+  lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
   /// True: the exact drag near a plane replaces the fit.
   bool exact = false;
 };
@@ -53,13 +51,13 @@ struct Case {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double radius = 0;     ///< r [L], > 0
   std::string text;      ///< content of the file
-  // A part exists if the file has its sections. Commands that need a part call the required_...
-  // functions below.
+  // Each of these parts exists only if the file has its section. A command that needs a part calls
+  // a required_... function below.
   std::optional<freefem_axi::Tabulation> tabulation;
   std::optional<FitRequest> fit;
   std::optional<reduced_model::Motion>
       motion;  ///< with the settings of the models, or their defaults
-  /// Names of the models to run; empty: all models.
+  /// Names of the models to run; empty: the default models of the registry.
   std::vector<std::string> models;
   std::optional<PublishedGap> published;
   std::optional<SweepRequest> sweep;
@@ -71,7 +69,7 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// A case file that is read once and evaluated many times with other numbers.
+/// A case file that is read once, and from which many cases with other numbers are made.
 class CaseTemplate {
  public:
   /// Reads and parses the file. Throws the errors of read_case.

@@ -1,5 +1,5 @@
 // Scans a TOML text for long dotted keys without parsing it (dotted_keys.hpp). The scan must skip
-// strings and comments, which may contain dots.
+// the contents of strings and comments, because dots in them separate no keys.
 #include "viscontact/case_file/dotted_keys.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// True for characters that end a dotted key or cannot be in one.
+/// True for characters that end a dotted key.
 bool ends_a_key(char c) { return std::string_view("=,[]{}\n#").find(c) != std::string_view::npos; }
 
 std::size_t end_of_bare_word(std::string_view text, std::size_t at) {

@@ -1,5 +1,6 @@
-// Reads the sections of the motion: [motion], and those of the parameters of its models. Lengths,
-// masses and times are in the units of the case.
+// Reads the section [motion] and the sections with the parameters of models (docs/case-file.md).
+// Lengths, masses and times are in the units of the case. A new parameter of a model needs no
+// change here, because the registry of models names them.
 #include <fmt/format.h>
 
 #include <array>
@@ -14,13 +15,13 @@
 namespace viscontact::case_file {
 namespace {
 
-/// Reads an entry of external_force with `until`: a piece of a force, which begins where the piece
-/// before it ends.
+/// Reads an entry of external_force with `until`: a piece of a force, which begins at the time at
+/// which the piece before it ends.
 reduced_model::ExternalForce::Piece read_piece(const TomlSection& entry) {
   reduced_model::ExternalForce::Piece piece{entry.number("until", kPositive), 0};
   if (entry.has("polynomial")) {
     if (entry.has("value"))
-      entry.fail("value", "must be left out where polynomial gives it as the first coefficient");
+      entry.fail("value", "must be left out, because the first coefficient of polynomial gives it");
     auto coefficients = entry.numbers("polynomial", kFinite);
     piece.value = coefficients.front();
     piece.higher.assign(coefficients.begin() + 1, coefficients.end());
@@ -35,12 +36,13 @@ reduced_model::ExternalForce::Sinusoid read_sinusoid(const TomlSection& entry) {
           entry.has("phase") ? entry.number("phase", kFinite) : 0};
 }
 
-/// Path of a file that the case names: relative to the folder of the case or, if it is not there,
-/// in that folder itself, where a run keeps its copies.
+/// The path of a file that the case names relative to its folder. If there is no such file, but the
+/// folder of the case itself has a file of this name, the path of that file: a run keeps copies of
+/// the case and of the files that it names side by side.
 std::filesystem::path force_file(const std::filesystem::path& folder,
                                  const std::filesystem::path& file) {
   const auto copy = folder / file.filename();
-  // Set for a name that no file can have; reading the file reports it.
+  // An error means that no file can have this name; reading the file reports it.
   std::error_code ignored;
   return !std::filesystem::exists(folder / file, ignored) && std::filesystem::exists(copy, ignored)
              ? copy
@@ -88,18 +90,19 @@ double read_parameter(const TomlSection& section, const reduced_model::ModelPara
   return value;
 }
 
-/// Reads `roughness`: its heights on sphere and plane [L], whose sum must be less than the radius.
+/// Reads `roughness`: the heights of the roughness of sphere and plane [L]. Their sum must be less
+/// than the radius.
 std::array<double, 2> read_roughness(const TomlSection& contact, double radius) {
-  const auto roughness = contact.numbers("roughness", kNotNegative);
+  constexpr auto kName = reduced_model::name_of(reduced_model::kRoughnessKey);
+  const auto roughness = contact.numbers(kName, kNotNegative);
   if (roughness.size() != 2)
-    contact.fail("roughness",
+    contact.fail(kName,
                  fmt::format("contains {} number(s); it must be two numbers >= 0, the heights on "
                              "the sphere and on the plane",
                              roughness.size()));
   if (!(roughness[0] + roughness[1] < radius))
-    contact.fail("roughness",
-                 fmt::format("adds up to {}; it must be less than the sphere's radius, {}",
-                             roughness[0] + roughness[1], radius));
+    contact.fail(kName, fmt::format("adds up to {}; it must be less than the sphere's radius, {}",
+                                    roughness[0] + roughness[1], radius));
   return {roughness[0], roughness[1]};
 }
 
@@ -115,14 +118,16 @@ void read_model_sections(const TomlSection& root, double radius, reduced_model::
     for (const auto& parameter : parameters)
       if (parameter.section() == name && section.has(parameter.name()))
         motion.set(parameter, read_parameter(section, parameter, motion.end_time));
-    // The roughness belongs to the surfaces, and so to the motion, and not to one model.
-    if (name == "viscous_contact" && section.has("roughness"))
+    // The roughness is a property of the surfaces, so it is stored with the motion and not as a
+    // parameter of one model.
+    if (name == reduced_model::section_of(reduced_model::kRoughnessKey) &&
+        section.has(reduced_model::name_of(reduced_model::kRoughnessKey)))
       motion.roughness = read_roughness(section, radius);
     section.finish();
   }
 }
 
-/// Multiplies all times by a factor.
+/// Reads `time_scale` and multiplies all times of the motion by it.
 void stretch(const TomlSection& section, reduced_model::Motion& motion) {
   const double scale = section.number("time_scale", kPositive);
   bool representable = std::isnormal(motion.end_time);

@@ -1,4 +1,6 @@
-// Reads the case file of many particles (particles_case.hpp).
+// Reads the case file of many particles (particles_case.hpp). Lengths, masses and times are in the
+// units of the case. A change must keep the keys and their defaults, because users have written
+// cases with them.
 #include "viscontact/case_file/particles_case.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +26,7 @@ namespace {
 using particles::Particles;
 using particles::PiecewiseConstant;
 using particles::Vector;
-using particles::operator*;
+using particles::operator*;  // NOLINT(misc-unused-using-decls): it is used
 
 // Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
 constexpr double kLargest = 1e100;
@@ -72,8 +74,8 @@ PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, 
   if (before < end_time * (1 - 1e-9))
     section.fail(key, fmt::format("ends at {}; it must reach viscous_contact.end_time, {}", before,
                                   end_time));
-  // The last piece is extended, so that rounding errors of the time do not put the end of the last
-  // step after it.
+  // The last piece is extended beyond end_time, because rounding errors could put the end of the
+  // last time step after the end of this piece.
   function.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
   return function;
 }
@@ -85,7 +87,7 @@ void read_law(const TomlSection& section, particles::ContactLaw& law) {
   if (law.gamma_min && law.viscosity)
     section.fail(
         "viscosity",
-        "must be left out where gamma_min is given, because gamma_min would follow from it");
+        "must be left out, because gamma_min is given and would also follow from viscosity");
   if (law.viscosity.has_value() != law.roughness.has_value())
     section.fail(
         law.viscosity ? "roughness" : "viscosity",
@@ -124,19 +126,19 @@ void add(Particles& p, const Vector& centre, const Vector& velocity, double radi
   p.masses.push_back(mass);
 }
 
-/// Gives an id to a particle of a table [[particle]] if the CSV file gives ids: the largest id plus
-/// 1.
+/// Gives an id to a particle of a table [[particle]]: the largest id so far plus 1. Called only if
+/// the CSV file gives ids.
 void add_id(Particles& p, const TomlSection& section) {
   const auto largest = std::ranges::max(p.ids);
   if (largest == std::numeric_limits<std::int32_t>::max())
-    section.fail("centre", fmt::format("is of a particle without an id: the file has the largest "
-                                       "one that is possible, {}, and the particles of tables "
-                                       "have the following ones",
+    section.fail("centre", fmt::format("belongs to a particle that cannot get an id: it would be "
+                                       "the largest id so far plus 1, but {} is the largest id "
+                                       "that is possible",
                                        largest));
   p.ids.push_back(largest + 1);
 }
 
-/// The number of each particle, by its id.
+/// A map from the id of each particle to its index.
 std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
   std::unordered_map<std::int32_t, std::int32_t> places;
   for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
@@ -170,8 +172,8 @@ void read_forces_by_id(const TomlSection& root, int dimension, double end_time, 
   }
 }
 
-/// Reads the key `method`. Earlier versions offered three methods that solve the same problem, so a
-/// case that names one of the other two is still read.
+/// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
+/// case that names one of the other two is still accepted, and the present method is used.
 void read_method(const TomlSection& solver) {
   constexpr std::array kMethods = {"conjugate_gradients", "accelerated_gradient", "gauss_seidel"};
   const auto text = solver.text("method");
@@ -205,8 +207,8 @@ void read_solver(const TomlSection& solver, particles::SolverSettings& settings)
   solver.finish();
 }
 
-/// Reads the particles of the CSV file and of the tables [[particle]]. Returns the lines of the
-/// former in their file.
+/// Reads the particles of the CSV file and of the tables [[particle]]. Returns the line number of
+/// each particle of the CSV file.
 std::vector<int> read_particles(const TomlSection& root, ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   std::vector<int> lines;

@@ -1,4 +1,5 @@
-// Checks the state at the start of a case of many particles (particles_start.hpp).
+// Checks the state at the start of a case of many particles (particles_start.hpp). Lengths are in
+// the unit of the case. Messages must name the line of the CSV file, because it can be long.
 #include "viscontact/case_file/particles_start.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +13,11 @@
 
 namespace viscontact::case_file {
 
-using particles::operator-;
+using particles::operator-;  // NOLINT(misc-unused-using-decls): it is used
 
 namespace {
 
-/// Describes particles in messages.
+/// Describes a particle in a message, and says in which file and line it is given.
 class ParticleNames {
  public:
   ParticleNames(const ParticlesCase& c, const std::vector<int>& lines) : case_(c), lines_(lines) {}

@@ -1,4 +1,4 @@
-// The state at the start of a case of many particles. Lengths are in the unit of the case.
+// A check of the state at the start of a case of many particles.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace viscontact::case_file {
 
-/// Throws the Error(kBadInput) of read_particles_case() for a start that the solver cannot take:
+/// Throws the Error(kBadInput) of read_particles_case() if the solver cannot begin with this state:
 /// overlaps, particles behind a plane or too far away, and radii that are too small. `lines` are
-/// the lines of the first particles in the particle file.
+/// the line numbers of the particles of the CSV file, which are the first ones.
 void check_start(const ParticlesCase& c, const std::vector<int>& lines);
 
 }  // namespace viscontact::case_file

@@ -1,5 +1,5 @@
-// The readers of the sections of a case file, and what they share. Lengths, masses and times are in
-// the units of the case. Each reader checks its section and applies the defaults.
+// The readers of the long sections of a case file, and a function that they share. Lengths, masses
+// and times are in the units of the case. Each reader checks its section and applies the defaults.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 
 namespace viscontact::case_file {
 
-/// Calls `check`, which tests a value in another part of the program, and gives its error the key
-/// and the line of this file.
+/// Calls `check`, with which another part of the program tests the value of `key`. If it throws an
+/// Error, throws one that also names the key and its line in the case file.
 template <class Check>
 auto at_key(const TomlSection& section, std::string_view key, const Check& check) {
   try {
@@ -30,8 +30,8 @@ auto at_key(const TomlSection& section, std::string_view key, const Check& check
 freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
                                         double radius);
 
-/// Reads [motion], but for its models, and the sections of the models' parameters from the root.
-/// Appends the files of the external force to `force_files`.
+/// Reads [motion] except its key `models`, and the sections with parameters of models, which are
+/// tables of `root`. Appends the files of the external force to `force_files`.
 reduced_model::Motion read_motion(const TomlSection& root, const TomlSection& section, double mass,
                                   double radius, const std::filesystem::path& case_folder,
                                   std::vector<std::filesystem::path>& force_files);

@@ -1,5 +1,6 @@
 // Reads the section [tabulation]: gaps, velocities, geometry and container. Lengths are in the unit
-// of the case.
+// of the case. A change must keep the gaps of a grid bit for bit, because finished rows and tables
+// are found again by their gaps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ std::vector<double> read_gaps(const TomlSection& tabulation) {
     auto gaps = tabulation.numbers("gaps", kPositive);
     std::ranges::sort(gaps);
     if (std::ranges::adjacent_find(gaps) != gaps.end())
-      tabulation.fail("gaps", "contains the same gap twice; each gap must be there once");
+      tabulation.fail("gaps", "contains the same gap twice; each gap must be given once");
     return gaps;
   }
   const auto grid = tabulation.section("gaps");
@@ -65,7 +66,7 @@ void read_geometry(const TomlSection& tabulation_section, freefem_axi::Tabulatio
 
 /// Reads `container`: { radius, height } [L], which must contain the sphere and its neighbour at
 /// every gap, or "unbounded".
-void read_container(const TomlSection& section, const freefem_axi::RequiredSpace& room,
+void read_container(const TomlSection& section, const freefem_axi::RequiredSpace& space,
                     freefem_axi::Tabulation& tabulation) {
   if (!freefem_axi::find_geometry(tabulation.geometry).takes_container) {
     if (section.has("container"))
@@ -86,18 +87,19 @@ void read_container(const TomlSection& section, const freefem_axi::RequiredSpace
   const freefem_axi::Container container{table.number("radius", kPositive),
                                          table.number("height", kPositive)};
   table.finish();
-  if (!(container.radius > room.container_radius))
+  if (!(container.radius > space.container_radius))
     table.fail("radius",
                fmt::format("is {}; it must be greater than {}, the radius of sphere and neighbour",
-                           container.radius, room.container_radius));
-  if (!(container.height > room.container_height))
+                           container.radius, space.container_radius));
+  if (!(container.height > space.container_height))
     table.fail(
         "height",
         fmt::format("is {}; it must be greater than {}, what the largest gap, the sphere and "
                     "its neighbour need",
-                    container.height, room.container_height));
+                    container.height, space.container_height));
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
-  // gap (graded_boundary.idp). A container of this size hardly differs from unbounded fluid.
+  // gap (graded_boundary.idp). The drag in a container of this size is nearly that in unbounded
+  // fluid.
   constexpr double kLargestLength = 2e5;
   for (const auto& [key, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
@@ -122,26 +124,26 @@ freefem_axi::Tabulation read_tabulation(const TomlSection& section, double visco
   std::ranges::sort(velocities);
   if (std::ranges::adjacent_find(velocities) != velocities.end())
     section.fail("reference_velocities",
-                 "contains the same velocity twice; each velocity must be there once");
+                 "contains the same velocity twice; each velocity must be given once");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   read_geometry(section, tabulation);
-  // At smaller gaps the matrices exceed double precision.
+  // At smaller gaps the matrices are too ill-conditioned for double precision.
   constexpr double kSmallestGap = 1e-8;
   if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)
     section.fail("gaps",
                  fmt::format("goes down to {}; a gap must be at least {} sphere radii, which is {}",
                              narrowest, kSmallestGap, kSmallestGap * radius));
   const double widest = tabulation.gaps.back();
-  const auto room = freefem_axi::find_geometry(tabulation.geometry)
-                        .required_space(radius, widest, tabulation.geometry_parameters);
-  if (!(room.largest_gap > 0))
+  const auto space = freefem_axi::find_geometry(tabulation.geometry)
+                         .required_space(radius, widest, tabulation.geometry_parameters);
+  if (!(space.largest_gap > 0))
     section.fail("geometry", "leaves no room for the sphere; give it a larger radius");
   // largest_gap is the difference of two lengths. A gap that equals it up to rounding errors is
   // allowed.
-  if (!(widest <= room.largest_gap * (1 + 1e-12)))
+  if (!(widest <= space.largest_gap * (1 + 1e-12)))
     section.fail("gaps", fmt::format("goes up to {}; in this {} a gap must be at most {}", widest,
-                                     tabulation.geometry, room.largest_gap));
-  read_container(section, room, tabulation);
+                                     tabulation.geometry, space.largest_gap));
+  read_container(section, space, tabulation);
   section.finish();
   return tabulation;
 }

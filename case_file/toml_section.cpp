@@ -1,4 +1,5 @@
-// Reads TOML tables with toml++ (toml_section.hpp).
+// Reads TOML tables with toml++ (toml_section.hpp). Every function that reads a key must note it in
+// `asked`, because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ namespace {
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
-/// The text of a value in a message.
+/// The value of a node as text for a message.
 std::string show(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   std::ostringstream text;
@@ -33,7 +34,7 @@ std::string show(const toml::node& node) {
   return text.str();
 }
 
-/// The number of a node; nothing if it is not a finite number that is allowed.
+/// The value of a node, or nothing if it is not a finite number that is allowed.
 std::optional<double> allowed_number(const toml::node& node, const Allowed& allowed) {
   const auto value = node.is_number() ? node.value<double>() : std::nullopt;
   return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;

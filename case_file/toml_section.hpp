@@ -24,8 +24,9 @@ class TomlSection {
   static TomlSection parse(const std::string& text, const std::string& file);
 
   /// A copy of this root table with other numbers, each at a path such as
-  /// "motion.external_force[0].value". Only the last key of a path may be new. Throws
-  /// Error(kBadInput) if a path leads to no key or to a value that is not a number.
+  /// "motion.external_force[0].value". Only the last key of a path need not exist yet. Throws
+  /// Error(kBadInput) if another part of a path does not exist, or if the value at a path is not a
+  /// number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
 
   bool has(std::string_view key) const;
@@ -45,8 +46,8 @@ class TomlSection {
   /// An array of at least one table.
   std::vector<TomlSection> sections(std::string_view key) const;
 
-  /// Throws Error(kBadInput) if this table has a key that none of the functions above was called
-  /// for.
+  /// Throws Error(kBadInput) if this table has a key for which none of the functions above has been
+  /// called.
   void finish() const;
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
@@ -55,8 +56,8 @@ class TomlSection {
 
  private:
   struct Node;
-  /// Same as fail, but without a line if this is the root table, in which a missing section has no
-  /// line.
+  /// Same as fail, but the message has no line if this is the root table, because a section that is
+  /// missing from the file has no line.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
   explicit TomlSection(std::shared_ptr<Node> node) : node_(std::move(node)) {}
   std::shared_ptr<Node> node_;

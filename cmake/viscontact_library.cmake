@@ -1,5 +1,5 @@
 # viscontact_library(NAME SOURCES FILE... [HEADERS FILE...] [NEEDS PART...] [FIND PACKAGE...]
-#                    [PUBLIC LIBRARY...] [PRIVATE LIBRARY...])
+#                    [PUBLIC LIBRARY...] [PRIVATE LIBRARY...] [COMPUTES_LITTLE])
 #
 # Adds a part of Viscontact that can be used on its own, as the targets viscontact_NAME and
 # viscontact::NAME. Paths of files are relative to the folder of the CMakeLists.txt that calls it.
@@ -10,30 +10,35 @@
 #          through find_package(viscontact COMPONENTS NAME)
 # PUBLIC   external libraries whose headers the public headers include
 # PRIVATE  external libraries that only the sources of the part use
+# COMPUTES_LITTLE  the part prints, draws and calls the parts that compute, so it needs no -O3: in
+#          the preset release it is compiled with -O1, which takes two thirds of the time
 #
-# A part without HEADERS belongs to the program alone and is not installed.
+# A part without HEADERS is used by the program alone and is not installed.
 function(viscontact_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;NEEDS;FIND;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES_LITTLE" ""
+                        "SOURCES;HEADERS;NEEDS;FIND;PUBLIC;PRIVATE")
   set(target viscontact_${name})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(viscontact::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${VISCONTACT_INCLUDE_FOLDER}>
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM arg_NEEDS PREPEND viscontact_ OUTPUT_VARIABLE parts)
   target_link_libraries(${target} PUBLIC ${parts} ${arg_PUBLIC}
                         PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:viscontact_warnings>)
-  if(NOT arg_HEADERS)
-    # These parts print, draw and start the parts that compute: -O1 takes two thirds of the time of -O3
-    # to compile them.
+  if(arg_COMPUTES_LITTLE)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(NOT arg_HEADERS)
     return()
   endif()
 
   install(TARGETS ${target} EXPORT viscontact-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   foreach(header IN LISTS arg_HEADERS)
-    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR}
+               OUTPUT_VARIABLE folder)
     cmake_path(GET header PARENT_PATH below)
     install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/viscontact/${folder}/${below})
   endforeach()

@@ -1,4 +1,4 @@
-// Conditions on numbers that users give, with the words for messages.
+// Conditions that a number in an input must meet, each with the words for it in messages.
 #pragma once
 
 #include <string_view>

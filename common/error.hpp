@@ -1,5 +1,5 @@
 // The error type of Viscontact. Every error that a user can cause or meet is thrown as
-// viscontact::Error and caught once, in app/.
+// viscontact::Error, and is caught in one place, in app/.
 #pragma once
 
 #include <stdexcept>
@@ -17,7 +17,7 @@ enum class ErrorKind {
   kNotConverged,
   /// FreeFEM or gnuplot failed or is missing.
   kExternalProgram,
-  /// The user interrupted; everything finished so far is kept.
+  /// The user interrupted the program; everything finished so far is kept.
   kInterrupted,
 };
 
@@ -33,17 +33,18 @@ class Error : public std::runtime_error {
 };
 
 /// Calls `call` and returns its value. An Error that it throws is thrown again with "PLACE: "
-/// before its message.
+/// before its message, except kInterrupted, which has no place.
 template <class Call>
 auto with_place(const std::string& place, const Call& call) {
   try {
     return call();
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInterrupted) throw;
     throw Error(error.kind(), place + ": " + error.what());
   }
 }
 
-/// A position in an input file. `line` is 0 if the file as a whole is meant.
+/// A position in an input file. `line` is 0 for the file as a whole.
 struct FilePosition {
   std::string file;
   int line = 0;

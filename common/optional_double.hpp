@@ -1,4 +1,4 @@
-// A number that may be missing, in the size of a double.
+// A number that may be missing. It takes no more memory than a double.
 #pragma once
 
 #include <cassert>
@@ -7,8 +7,9 @@
 
 namespace viscontact {
 
-/// Like std::optional<double>, but in the size of a double, because millions of rows store several
-/// of these values. NaN stands for a missing value, so that a value must not be NaN.
+/// Like std::optional<double>, but no larger than a double, because millions of rows store several
+/// of these values. NaN stands for a missing value; therefore a value must not be NaN, and sources
+/// that include this file must not be compiled with -ffast-math, which ignores NaN.
 class OptionalDouble {
  public:
   constexpr OptionalDouble() = default;

@@ -1,6 +1,7 @@
-// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket.
-// Boost.Math 1.74 is not used: its iterations take other points and stop elsewhere, so that
-// trajectories would differ in their last digits, and its header takes 1.2 s to compile.
+// Root finding in one unknown: bisection of a condition, and Newton's method in a bracket. A change
+// must keep the points at which functions are evaluated, because trajectories depend on them in
+// their last digits. Boost.Math 1.74 takes other points and is therefore not used; besides, its
+// header takes 1.2 s to compile.
 #pragma once
 
 #include <utility>
@@ -8,8 +9,8 @@
 namespace viscontact {
 
 /// Returns the smallest double at which a condition is true, where the condition is false at `from`
-/// and true at `to`; `to` if it is true only there. If the condition changes more than once in
-/// between, returns one of the places where it becomes true.
+/// and true at `to`. The result is `to` if the condition is true only there. If the condition
+/// changes more than once in between, returns one of the places where it becomes true.
 template <class Condition>
 double bisect_first_true(double from, double to, const Condition& holds) {
   for (double middle = from + (to - from) / 2; from < middle && middle < to;
@@ -18,7 +19,8 @@ double bisect_first_true(double from, double to, const Condition& holds) {
   return to;
 }
 
-/// Whether Newton's method may step onto an end of the bracket. If not, such a step is bisected.
+/// Whether Newton's method may step onto an end of the bracket. If not, such a step is replaced by
+/// bisection.
 enum class Bracket { kOpen, kClosed };
 
 /// The root in [low, high] of an increasing function, by Newton's method from x. A step that leaves
@@ -28,7 +30,8 @@ enum class Bracket { kOpen, kClosed };
 template <class ExcessAndSlope, class Settled>
 double bracketed_newton(double x, double low, double high, Bracket bracket,
                         const ExcessAndSlope& excess_and_slope, const Settled& settled) {
-  // A safety limit: bisection alone needs about 60 steps for each factor of 1e18.
+  // A safety limit. Bisection alone takes about 60 steps to shorten the bracket by a factor of
+  // 1e18.
   constexpr int kMaxSteps = 200;
   for (int step = 0; step < kMaxSteps; ++step) {
     const auto [excess, slope] = excess_and_slope(x);

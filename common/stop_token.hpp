@@ -1,5 +1,5 @@
-// How a long computation is told to stop. Libraries are handed a StopToken and ask it between two
-// pieces of work; they do not know who requests the stop.
+// A flag by which a long computation is asked to stop. The library that computes is given a
+// StopToken and checks it between two pieces of work; it does not know who requests the stop.
 #pragma once
 
 #include <atomic>

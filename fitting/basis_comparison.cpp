@@ -1,4 +1,5 @@
-// One fit for each basis; only the basis differs.
+// Makes one fit for each basis (docs/theory.md); all other settings are equal, so that the criteria
+// can be compared.
 #include "viscontact/fitting/basis_comparison.hpp"
 
 #include "viscontact/common/error.hpp"
@@ -7,7 +8,7 @@
 namespace viscontact::fitting {
 
 std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
-                                       const FitSettings& settings) {
+                                       const FitSettings& settings, const StopToken& stop) {
   auto bases = lubrication::all_bases();
   if (settings.basis.name == lubrication::kOwnTerms) bases.push_back(settings.basis);
   std::vector<BasisResult> results;
@@ -16,8 +17,10 @@ std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
     FitSettings one = settings;
     one.basis = basis;
     try {
-      result.fit = fit_force_table(table, one);
+      stop.throw_if_stop_requested();
+      result.fit = fit_force_table(table, one, stop);
     } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted) throw;
       result.failure = error.what();
     }
     results.push_back(std::move(result));

@@ -1,5 +1,5 @@
-// Fits of one table in several bases, and the choice between them by Akaike's information
-// criterion.
+// Fits of one table in several bases, and the choice between them by Akaike's information criterion
+// (FitDiagnostics::information_criterion). Units are those of the table.
 #pragma once
 
 #include <optional>
@@ -21,8 +21,9 @@ struct BasisResult {
 
 /// Fits the table in every named basis, and in that of `settings` if it is a list of terms. All
 /// other settings are the same. The error of a basis that fails is kept in its result.
+/// Throws Error(kInterrupted) if `stop` requests a stop.
 std::vector<BasisResult> compare_bases(const lubrication::ForceTable& table,
-                                       const FitSettings& settings);
+                                       const FitSettings& settings, const StopToken& stop = {});
 
 /// The result with the smallest information criterion; null if no result has one.
 const BasisResult* best_basis(const std::vector<BasisResult>& results);

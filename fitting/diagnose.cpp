@@ -28,7 +28,8 @@ double chi_squared_quantile(double degrees_of_freedom) {
   return boost::math::quantile(chi_squared, 0.99);
 }
 
-/// True beyond 5 times the scale: one Gaussian residual in two million is as large.
+/// True for a residual of more than 5 times the scale. Of Gaussian residuals, one in two million is
+/// as large.
 bool is_far(double scaled_residual) { return std::abs(scaled_residual) > 5; }
 
 /// True for a row that a robust loss sets aside.
@@ -37,7 +38,8 @@ bool is_outlier(const FittedSystem& system, lubrication::Loss loss, Eigen::Index
 }
 
 /// Compares the residual of each row with the error estimate of the same row, because the estimate
-/// of another row may be much larger. Outliers count in chi_squared only.
+/// of another row may be much larger. Outliers count only in chi_squared and in
+/// largest_error_estimate.
 void compare_with_estimates(const lubrication::ForceTable& table, const FittedSystem& system,
                             lubrication::Loss loss, lubrication::FitDiagnostics& d) {
   bool every_row = true;
@@ -73,8 +75,8 @@ void compare_with_estimates(const lubrication::ForceTable& table, const FittedSy
 /// Leverages of the rows: the diagonal of the projection onto the columns of `matrix`.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return Eigen::VectorXd::Zero(matrix.rows());
-  // The columns are scaled to length 1, as in the least squares. The leverages do not depend on the
-  // scale of the columns, but their rounding does.
+  // The columns are scaled to length 1. The leverages do not depend on the scale of the columns,
+  // but their rounding errors do.
   const Eigen::VectorXd over_length = matrix.colwise().norm().cwiseInverse();
   const Eigen::MatrixXd scaled = matrix * over_length.asDiagonal();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
@@ -111,7 +113,7 @@ void leave_one_out(const lubrication::ForceTable& table, const FittedSystem& sys
   double squares = 0;
   std::optional<lubrication::LeftOutRow> inner, end;
   for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-    // This row determines a coefficient alone, so the fit of the other rows does not exist.
+    // Without this row the coefficients are not determined, so that the other rows have no fit.
     if (1 - leverage(i) < round_off) return;
     const double predicted = std::abs(system.relative_residual(i) / (1 - leverage(i)));
     squares += predicted * predicted;
@@ -174,7 +176,8 @@ void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDia
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
     warnings.emplace_back(
-        "as many coefficients as rows: the residuals and the standard errors say nothing");
+        "there are as many coefficients as rows, so that the residuals and the standard errors "
+        "have no meaning");
   for (const auto& term : fit.terms) {
     if (!term.is_fixed && term.standard_error >= std::abs(term.coefficient) &&
         term.standard_error > 0)
@@ -186,8 +189,9 @@ void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDia
       continue;
     const double theory = -*fit.leading_coefficient * fit.reference_velocity;
     const double departure = term.coefficient - theory;
-    // Pure noise exceeds two standard errors in one fit of twenty. Besides, the fit cannot know the
-    // coefficient better than the error estimates of the table allow.
+    // Two standard errors, because random errors exceed them in only one fit of twenty. The error
+    // estimates of the table count, too, because they limit how well the fit can know the
+    // coefficient.
     const double error =
         std::max(2 * term.standard_error, d.largest_error_estimate * std::abs(theory));
     if (d.degrees_of_freedom > 0 && std::abs(departure) > error)
@@ -217,8 +221,8 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
   if (fit.loss != lubrication::Loss::kSquared) d.outliers = outliers(table, system);
   warn_of_shape(fit, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
-  // This threshold is above the 0.05 by which the lecture's five terms miss a row on forty gaps. A
-  // formula that misses a row by a tenth is no longer lubrication theory.
+  // A formula that misses a row by more than a tenth does not describe lubrication theory. The
+  // lecture's five terms on forty gaps miss a row by 0.05, for which there is no warning.
   constexpr double kFar = 0.1;
   if (d.left_out_inner && d.left_out_inner->relative_residual > kFar)
     d.warnings.push_back(

@@ -1,5 +1,5 @@
-// Diagnostics of a fit: its residuals, compared with the error estimates of the table's rows. Units
-// are those of the table. The thresholds of the warnings are in diagnose.cpp.
+// Diagnostics of a fit (docs/theory.md): its residuals, compared with the error estimates of the
+// table's rows. Units are those of the table. The thresholds of the warnings are in diagnose.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,8 @@ struct FittedSystem {
   Eigen::VectorXd weighted_residual;
   /// Fit/table - 1.
   Eigen::VectorXd relative_residual;
-  /// Weighted residual over the scale of all residuals, which the loss is a function of.
+  /// The argument of the loss: weight * (fit - table), without the loss's own weight, divided by
+  /// the scale of all residuals.
   Eigen::VectorXd scaled_residual;
 };
 

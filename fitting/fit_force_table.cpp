@@ -1,4 +1,5 @@
-// Assembles the equations of a fit from the rows of a table, solves them, and fills in the fit.
+// Assembles the equations of a fit, physics.md (3.2), from the rows of a table, solves them, and
+// sets the members of the fit. Units are those of the table.
 #include "viscontact/fitting/fit_force_table.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,8 @@ namespace viscontact::fitting {
 namespace {
 
 /// Throws Error(kBadInput) if F/u differs between rows of equal gap by more than their error
-/// estimates. Stokes flow is linear in the velocity. Rows without an estimate are not checked.
+/// estimates. F/u must be equal there, because Stokes flow is linear in the velocity. Rows without
+/// an estimate are not checked.
 void check_linearity(const lubrication::ForceTable& table) {
   std::map<double, const lubrication::ForceTableRow*> first_at;
   for (const auto& row : table.rows) {
@@ -62,7 +64,7 @@ void check_gaps(const lubrication::ForceTable& table, const FitSettings& setting
                             gaps.size(), settings.basis.name, needed));
 }
 
-/// The equations of the least squares, with a row for each row of the table.
+/// The equations of the least-squares problem, with a row for each row of the table.
 struct Equations {
   // The forces, scaled to the velocity of the first row.
   Eigen::VectorXd force;
@@ -142,15 +144,15 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
 
 }  // namespace
 
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table,
-                                 const FitSettings& settings) {
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings,
+                                 const StopToken& stop) {
   check_linearity(table);
   check_gaps(table, settings);
   const double fixed = settings.fix_leading ? fixed_leading(table, settings) : 0;
   const auto equations = assemble(table, settings, fixed);
-  const auto solution =
-      solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
-                                 equations.weight.cwiseProduct(equations.left), settings.loss);
+  const auto solution = solve_robust_least_squares(equations.weight.asDiagonal() * equations.terms,
+                                                   equations.weight.cwiseProduct(equations.left),
+                                                   settings.loss, stop);
 
   lubrication::Fit fit;
   fit.basis = settings.basis.name;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/terms.hpp"
@@ -13,7 +14,7 @@ namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  lubrication::Basis basis = lubrication::find_basis("lecture");
+  lubrication::Basis basis = lubrication::default_basis();
   lubrication::Weights weights = lubrication::Weights::kRelative;
   lubrication::Loss loss = lubrication::Loss::kSquared;
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
@@ -28,9 +29,10 @@ struct FitSettings {
 /// F (u0/u), because Stokes flow is linear. The caller sets table_sha256 and versions. Throws
 /// Error(kBadInput) if there are fewer different gaps than fitted coefficients or than two, if rows
 /// of equal gap have values of F/u that differ by more than their error estimates, or if a
-/// coefficient is to be fixed that the basis or the table does not have; and Error(kNotConverged)
-/// from the least squares.
-lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings);
+/// coefficient is to be fixed that the basis or the table does not have; and the
+/// errors of solve_robust_least_squares().
+lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const FitSettings& settings,
+                                 const StopToken& stop = {});
 
 /// The same with a basis by name and the loss kSquared. Throws Error(kBadInput) for an unknown
 /// basis, too.

@@ -1,5 +1,6 @@
-// Least squares in three steps: columns scaled by powers of two, solution by Ceres, iterative
-// refinement in extended precision.
+// Linear least squares in three steps: the columns are scaled by powers of two, Ceres solves the
+// problem, and the solution is refined in extended precision. A change must keep the digits that
+// least_squares.hpp names.
 #include "viscontact/fitting/least_squares.hpp"
 
 #include <ceres/ceres.h>
@@ -55,7 +56,8 @@ Eigen::VectorXd binary_scale(const Eigen::MatrixXd& matrix) {
 void refine(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
             Eigen::VectorXd& solution) {
   using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  // Each step gains as many digits as the conditioning leaves; further steps change nothing.
+  // Each step gains as many digits as the condition number leaves of double precision. After four
+  // steps, further steps change nothing.
   constexpr int kSteps = 4;
   const Eigen::Index columns = matrix.cols();
   const auto long_matrix = matrix.cast<long double>();
@@ -99,7 +101,7 @@ double condition_number_of(const Eigen::MatrixXd& matrix) {
 RowMajorMatrix unit_covariance(ceres::Problem& problem, const Eigen::VectorXd& x) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  // condition_number_of() has already decided on the rank.
+  // So small a number turns off the test of the rank, which condition_number_of() has already made.
   options.min_reciprocal_condition_number = 1e-32;
   ceres::Covariance covariance(options);
   RowMajorMatrix unit(x.size(), x.size());
@@ -141,7 +143,8 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   options.max_trust_region_radius = 1e32;
   options.min_lm_diagonal = 1e-32;
   options.jacobi_scaling = false;
-  // Round-off may let a further step raise the cost. Such a step is dropped and is no failure.
+  // Round-off may let a further step raise the cost. Ceres drops such a step, and this is not a
+  // failure.
   options.max_num_iterations = 4;
   options.max_num_consecutive_invalid_steps = 20;
   options.function_tolerance = 1e-16;
@@ -150,7 +153,7 @@ LeastSquaresSolution solve_least_squares(const Eigen::MatrixXd& matrix,
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable() || !x.allFinite())
-    throw Error(ErrorKind::kNotConverged, "the least squares failed: " + summary.message);
+    throw Error(ErrorKind::kNotConverged, "the least-squares fit failed: " + summary.message);
   refine(scaled, right_hand_side, x);
   solution.coefficients = x.cwiseQuotient(scale);
 

@@ -1,4 +1,5 @@
-// Iteratively reweighted least squares with the losses of Huber and Cauchy.
+// Iteratively reweighted least squares with the losses of Huber and Cauchy. The constants 1.345 and
+// 2.385 are those of Loss in lubrication/fit/fit.hpp.
 #include "viscontact/fitting/robust_least_squares.hpp"
 
 #include <ceres/loss_function.h>
@@ -41,17 +42,19 @@ double scale_of(const Eigen::VectorXd& residual, Eigen::Index columns) {
 
 /// Reweights the rows, starting from `solution`, until the residuals do not change.
 void iterate(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right_hand_side,
-             const ceres::LossFunction& loss, RobustSolution& solution) {
+             const ceres::LossFunction& loss, const StopToken& stop, RobustSolution& solution) {
   // At first the scale is computed again in each step. Then it is constant, because only with a
   // constant scale the sum of losses falls in every step.
   constexpr int kStepsWithScale = 20;
   constexpr int kMostSteps = 1000;
-  // Part of the scale, far below what the data can distinguish.
+  // The iteration ends when no residual changes by more than this fraction of the scale, which is
+  // far smaller than any difference that matters.
   constexpr double kSettled = 1e-9;
-  // Residuals of the size of round-off must not make outliers.
+  // Residuals as small as round-off must not be taken for outliers.
   const double round_off = 1e-14 * right_hand_side.cwiseAbs().maxCoeff();
   Eigen::VectorXd residual = matrix * solution.least_squares.coefficients - right_hand_side;
   for (int step = 0; step < kMostSteps; ++step) {
+    stop.throw_if_stop_requested();
     if (step < kStepsWithScale)
       solution.scale = std::max(round_off, scale_of(residual, matrix.cols()));
     for (Eigen::Index i = 0; i < residual.size(); ++i) {
@@ -100,19 +103,21 @@ Eigen::MatrixXd robust_covariance(const Eigen::MatrixXd& matrix,
 
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
-                                          lubrication::Loss loss) {
+                                          lubrication::Loss loss, const StopToken& stop) {
   RobustSolution solution;
   solution.least_squares = solve_least_squares(matrix, right_hand_side);
   solution.row_weights = Eigen::VectorXd::Ones(matrix.rows());
   solution.scale =
       scale_of(matrix * solution.least_squares.coefficients - right_hand_side, matrix.cols());
   if (loss == lubrication::Loss::kSquared) return solution;
-  // Huber's sum has one minimum, Cauchy's may have several. The iteration with Cauchy's loss starts
-  // from Huber's solution to find the minimum that most rows agree on.
+  // The sum of Huber's losses has one minimum, that of Cauchy's losses may have several. The
+  // iteration with Cauchy's loss starts from Huber's solution to find the minimum that most rows
+  // agree on.
   const auto function = make_loss(loss);
   const auto plain = solution.least_squares;
-  iterate(matrix, right_hand_side, *make_loss(lubrication::Loss::kHuber), solution);
-  if (loss != lubrication::Loss::kHuber) iterate(matrix, right_hand_side, *function, solution);
+  iterate(matrix, right_hand_side, *make_loss(lubrication::Loss::kHuber), stop, solution);
+  if (loss != lubrication::Loss::kHuber)
+    iterate(matrix, right_hand_side, *function, stop, solution);
   solution.least_squares.covariance =
       robust_covariance(matrix, right_hand_side, plain, *function, solution);
   return solution;

@@ -1,13 +1,14 @@
 // Least squares that are insensitive to a few wrong rows: M-estimates (Huber 1981), with the loss
-// functions of Ceres.
+// functions of Ceres. The residuals and the scale are in the unit of the right-hand side.
 #pragma once
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/fitting/least_squares.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
 
 namespace viscontact::fitting {
 
-/// The solution, with what the loss made of the rows.
+/// The solution, with the weights that the loss gives to the rows.
 struct RobustSolution {
   /// Solution for the rows with their final weights. Its covariance is that of the M-estimate
   /// (Huber 1981, section 7.6), scale^2 sum psi^2/(n - p)/(mean psi')^2 (A^T A)^-1, with psi the
@@ -22,9 +23,10 @@ struct RobustSolution {
 
 /// The x that minimises the sum of loss((A x - b)_i/scale), by iteratively reweighted least
 /// squares. Arguments and errors are those of solve_least_squares(). Throws Error(kNotConverged)
-/// also if the weights do not converge.
+/// also if the weights do not converge, and Error(kInterrupted) if `stop` requests a stop; it is asked
+/// before each reweighting.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
-                                          lubrication::Loss loss);
+                                          lubrication::Loss loss, const StopToken& stop = {});
 
 }  // namespace viscontact::fitting

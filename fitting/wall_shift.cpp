@@ -1,4 +1,5 @@
-// Gauss-Newton iteration for the one unknown shift.
+// Finds the shift of a rough wall by Gauss-Newton iteration in this one unknown (wall_shift.hpp).
+// Lengths are in the units of the table.
 #include "viscontact/fitting/wall_shift.hpp"
 
 #include <fmt/format.h>
@@ -39,9 +40,8 @@ WallShift fit_wall_shift(const lubrication::ForceTable& rough,
                          const lubrication::LubricationForce& smooth) {
   if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the table is of viscosity {} and radius {} and the fit of viscosity "
-                            "{} and radius {}; both "
-                            "must be equal",
+                fmt::format("the table has viscosity {} and radius {}, and the fit has viscosity "
+                            "{} and radius {}; they must be equal",
                             rough.viscosity, rough.radius, smooth.viscosity(), smooth.radius()));
   WallShift result;
   // Bounds of the shift, so that all shifted gaps are in the interval of the smooth force.
@@ -60,7 +60,8 @@ WallShift fit_wall_shift(const lubrication::ForceTable& rough,
   std::ranges::sort(shifts, {}, &ShiftedRow::shift);
   double shift = std::clamp(shifts[shifts.size() / 2].shift, least, most);
   constexpr int kMostSteps = 100;
-  // Relative to the shifted gap of the first row: round-off.
+  // The iteration ends if the shift changes by no more than this fraction of the first gap plus
+  // |shift|; such a change is round-off.
   constexpr double kTolerance = 1e-14;
   for (int step = 0;; ++step) {
     if (step == kMostSteps)

@@ -1,4 +1,4 @@
-// The command line and the environment of FreeFEM processes.
+// The command line and the environment of FreeFEM processes. Times are in seconds.
 #include "viscontact/freefem_axi/freefem.hpp"
 
 #include <fmt/format.h>
@@ -60,17 +60,18 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit) {
   const auto scripts = std::filesystem::absolute(freefem.script_folder);
-  // A name with a slash is a path relative to our working folder; it is made absolute because
-  // FreeFEM runs in another folder.
+  // A name with a slash is a path relative to the working folder of Viscontact. It is made
+  // absolute, because FreeFEM runs in another folder.
   const bool is_path = freefem.executable.find('/') != std::string::npos;
   const std::string executable =
       is_path ? std::filesystem::absolute(freefem.executable).string() : freefem.executable;
   std::vector<std::string> command = {executable, "-nw", "-v", "0", (scripts / script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  // One process for each row already uses all cores, so threads in one process would only disturb
-  // the others. The working folder is that of the scripts, because FreeFEM looks for includes there
-  // first, and a user's folder may contain files with the same names.
-  const auto result =
+  // Several processes, one for each row, already use all cores, so that further threads in a
+  // process would only slow down the others. The working folder is that of the scripts, because
+  // FreeFEM looks for includes there first, and a user's folder may contain files with the same
+  // names.
+  auto result =
       run_process(command,
                   {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),
                    fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
@@ -105,7 +106,7 @@ std::string freefem_version(const FreeFem& freefem) {
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} does not say which version it is: {}", freefem.executable,
                             timed_out_in_words(freefem.version_limit)));
-  const std::string version = line_after(result.output, "viscontact-version");
+  std::string version = line_after(result.output, "viscontact-version");
   if (result.exit_status != 0 || version.empty())
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} does not answer as FreeFEM does (exit status {})",

@@ -1,5 +1,5 @@
-// Runs FreeFEM as a separate process: it is given a script and numbers, and answers with lines of
-// text. A change must keep each process on one thread and within its time limit.
+// Runs FreeFEM as a separate process, which gets a script and numbers and prints lines of text
+// (docs/extending.md). A change must keep each process on one thread and within its time limit.
 #pragma once
 
 #include <chrono>
@@ -14,29 +14,30 @@
 
 namespace viscontact::freefem_axi {
 
-/// The FreeFEM program, the folder of the scripts, and what ends a process before it is done.
+/// The FreeFEM program, the folder of the scripts, and the conditions on which a process is killed.
 struct FreeFem {
   std::string executable;  ///< a name to look for on PATH, or a path
   /// Folder share/viscontact/freefem_axi with the scripts.
   std::filesystem::path script_folder;
   /// Time limit for one row. The slowest row that was measured took less than two minutes.
   std::chrono::seconds row_limit = std::chrono::minutes(30);
-  /// Time limit for the question of its version, which FreeFEM answers within a second.
+  /// Time limit for FreeFEM to print its version, which takes it less than a second.
   std::chrono::seconds version_limit = std::chrono::minutes(2);
   /// If it requests a stop, FreeFEM is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
 };
 
 /// The executable is that of the environment variable VISCONTACT_FREEFEM if it is set, else
-/// FreeFem++-nw. The script folder is share/viscontact/freefem_axi beside or above this program.
-/// VISCONTACT_FREEFEM_TIME_LIMIT, if set, is the number of seconds of both time limits. Throws
-/// Error(kExternalProgram) if there is no script folder, and Error(kWrongUsage) if the limit is not
-/// a whole number from 1 to 10 million.
+/// FreeFem++-nw. The script folder is share/viscontact/freefem_axi in the folder of this program or
+/// in the one above it. VISCONTACT_FREEFEM_TIME_LIMIT, if set, is the number of seconds of both
+/// time limits. Throws Error(kExternalProgram) if there is no script folder, and Error(kWrongUsage)
+/// if the limit is not a whole number from 1 to 10 million.
 FreeFem default_freefem(const StopToken& stop = {});
 
 /// Runs a script with arguments "-name value" on one thread. After `time_limit`, which is row_limit
-/// unless given, FreeFEM is killed and `timed_out` is set in the result. If the script fails, the
-/// result says so. Throws Error(kExternalProgram) with a remedy if FreeFEM cannot be started.
+/// unless given, FreeFEM is killed and `timed_out` is set in the result. If the script fails, this
+/// is not an error here; the caller must look at the result. Throws Error(kExternalProgram) with a
+/// remedy if FreeFEM cannot be started.
 ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "viscontact/common/named.hpp"
 
@@ -46,8 +47,9 @@ RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
 }
 
 // Lubrication theory (Cox & Brenner 1967; Jeffrey & Onishi 1984) gives k = 6 pi mu r_eff^2 with
-// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity is negative. k is multiplied with the
-// velocity of approach over that of the sphere, and is a quarter of this at a shear-free neighbour.
+// 1/r_eff = 1/r + 1/r_neighbour, where the radius of a cavity is negative. If the neighbour moves,
+// k is multiplied by the velocity of approach over that of the sphere. At a shear-free neighbour k
+// is a quarter of this.
 double leading_of_plane(double, Parameters) { return 1; }
 double leading_of_free_surface(double, Parameters) { return 0.25; }
 double leading_of_pair(double radius, Parameters parameters) {
@@ -59,6 +61,7 @@ double leading_in_cavity(double radius, Parameters parameters) {
   return share * share;
 }
 
+// The first row is the geometry of a case that names none.
 constexpr std::array kGeometries = {
     Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, space_above_floor, true},
     Geometry{"free_surface",
@@ -69,15 +72,26 @@ constexpr std::array kGeometries = {
              leading_of_free_surface,
              space_above_floor},
     Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
-             space_of_pair},
+             space_of_pair, false, 2.5},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
              space_in_cavity},
-    // Ripples under the film's middle change it as the gap goes to 0.
+    // k is not known for this geometry, because the ripples under the middle of the film change R
+    // as the gap goes to 0.
     Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
              space_above_ripples},
 };
 
 }  // namespace
+
+std::span<const Geometry> all_geometries() { return kGeometries; }
+
+std::vector<Geometry> geometries_with_exact_drag() {
+  std::vector<Geometry> geometries;
+  std::ranges::copy_if(kGeometries, std::back_inserter(geometries), &Geometry::has_exact_drag);
+  return geometries;
+}
+
+const Geometry& default_geometry() { return kGeometries.front(); }
 
 const Geometry& find_geometry(std::string_view name) {
   return require_named(kGeometries, name, "geometry");

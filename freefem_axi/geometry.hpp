@@ -1,11 +1,13 @@
 // The registry of geometries: what the sphere approaches. Lengths are in any one unit. A new
-// geometry needs a script and a row in geometry.cpp; docs/extending.md shows how.
+// geometry needs a script and a row in geometry.cpp; docs/extending.md shows how. A change must
+// keep names and keys, which case files contain, and flags, which scripts read.
 #pragma once
 
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "viscontact/common/allowed.hpp"
 
@@ -48,7 +50,18 @@ struct Geometry {
   RequiredSpace (*required_space)(double radius, double gap, std::span<const double> parameters);
   /// True if the exact drag near a plane (lubrication/plane_drag.hpp) is the drag of this geometry.
   bool has_exact_drag = false;
+  /// Computing time of a row over that of a row above a plane [1], for estimates.
+  double relative_cost = 1;
 };
+
+/// All geometries.
+std::span<const Geometry> all_geometries();
+
+/// The geometries whose drag is the exact one near a plane.
+std::vector<Geometry> geometries_with_exact_drag();
+
+/// The geometry of a case that names none.
+const Geometry& default_geometry();
 
 /// The geometry with this name. Throws Error(kBadInput), which lists the names, if there is none.
 const Geometry& find_geometry(std::string_view name);

@@ -1,4 +1,5 @@
 // Reads the meshes and the flow that scripts/pictures.idp prints, and writes them for ParaView.
+// Units are those of row_picture.hpp.
 #include "viscontact/freefem_axi/row_picture.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +21,8 @@ class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh, with `columns` numbers for each node. Those after (rho, z) go to
-  /// `fields`.
+  /// Reads the next mesh, with `columns` numbers for each node. The numbers after (rho, z) are
+  /// stored in `fields`.
   CurvedMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields) {
     std::string line;
     while (std::getline(stream_, line) && !line.starts_with("viscontact-mesh ")) {

@@ -10,8 +10,8 @@
 
 namespace viscontact::freefem_axi {
 
-/// What an edge of a boundary is. A wall is a no-slip wall or the neighbour; an interface is inside
-/// the fluid, or where unbounded fluid is cut off.
+/// The kind of an edge of a boundary. A wall is a no-slip wall or the neighbour; an interface is
+/// inside the fluid, or where unbounded fluid is cut off.
 enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 
 /// Triangles with quadratic sides in the half-plane (rho, z) [L]. The origin is the point of the

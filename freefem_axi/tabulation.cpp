@@ -1,5 +1,5 @@
-// The arguments of a row, the call of FreeFEM, and the result. Units are those of the case, but for
-// solve_scale().
+// The arguments of a row, the call of FreeFEM, and the result. Units are those of the case, except
+// that FreeFEM computes in those of solve_scale().
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +20,9 @@ namespace {
 
 // Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
 // each of the others is twice as fine as the one before it. If the accuracy is not reached, further
-// sequences start from finer meshes (drag.idp). The first sequence reaches 1e-5 for gaps of 1e-6 to
-// 10 radii in about a second (bench/README.md). With fewer cells the film would have one layer.
+// sequences start from finer meshes (drag.idp). The first sequence reaches an accuracy of 1e-5 for
+// gaps of 1e-6 to 10 radii in about a second (bench/README.md). With fewer than two cells the film
+// would be a single layer of triangles.
 constexpr int kCoarsestCells = 2;
 constexpr int kLevels = 3;
 constexpr int kAttempts = 3;
@@ -137,7 +138,7 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
-  // Well within the range 1e-12..1e20 in which the solver's penalty gives correct forces.
+  // This range is well within 1e-12..1e20, where the solver's penalty gives correct forces.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

@@ -1,5 +1,6 @@
 // The tabulation of the lubrication force (physics.md, section 2): its inputs, and the solution of
-// one row. Lengths, masses and times are in any one consistent system of units.
+// one row. Lengths, masses and times are in any one consistent system of units. If a change alters
+// tabulation_hash(), finished tables are computed again.
 #pragma once
 
 #include <optional>
@@ -27,9 +28,9 @@ struct Tabulation {
   /// Larger than the RequiredSpace of the geometry. Nothing: the fluid is unbounded, or the
   /// geometry takes no container.
   std::optional<Container> container;
-  double relative_accuracy = 0;             ///< asked of every row [1], in (0, 1)
-  std::string geometry = "plane";           ///< name of a Geometry
-  std::vector<double> geometry_parameters;  ///< in the order of Geometry::parameters
+  double relative_accuracy = 0;                   ///< asked of every row [1], in (0, 1)
+  std::string geometry{default_geometry().name};  ///< name of a Geometry
+  std::vector<double> geometry_parameters;        ///< in the order of Geometry::parameters
 };
 
 /// The container in words for the header of a table: "closed cylinder, radius 40, height 80",
@@ -53,17 +54,17 @@ std::string tabulation_hash(const Tabulation& tabulation);
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// The units of viscosity and speed in which FreeFEM solves. Stokes flow is linear in both, so both
-/// may be replaced by 1 if FreeFEM's arithmetic would fail. The force in these units is then
-/// multiplied with them.
+/// The units of viscosity and speed in which FreeFEM solves. Stokes flow is linear in both, so that
+/// FreeFEM can solve with both equal to 1 if its arithmetic would fail otherwise. The force in
+/// these units is then multiplied by both.
 struct SolveScale {
   double viscosity = 1;  ///< [M/(L T)], > 0
   double speed = 1;      ///< [L/T], > 0
 };
 
-/// The value 1 for both if viscosity and velocity are within 1e-9..1e9: such rows are solved as
-/// they are. Otherwise the viscosity and the absolute velocity themselves. Below 1e-12 and above
-/// 1e20 the penalty of the solver, 1e30, would give wrong forces without an error.
+/// Returns 1 for both if viscosity and velocity are within 1e-9..1e9, so that such rows are solved
+/// as they are; otherwise the viscosity and the absolute velocity. Below 1e-12 and above 1e20 the
+/// penalty of the solver, 1e30, would give wrong forces without an error.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 
 /// Solves one row (q, u0) in a FreeFEM process. `further_arguments` are added to its command line.

@@ -1,5 +1,6 @@
 // Resistance, its derivative and its primitive, inside the fitted interval and in the limits
-// outside of it, and the inverse of the primitive.
+// outside of it, and the inverse of the primitive. Equations and units are those of
+// lubrication_force.hpp.
 #include "viscontact/lubrication/lubrication_force.hpp"
 
 #include <fmt/format.h>
@@ -35,12 +36,16 @@ LubricationForce LubricationForce::exact_plane(double viscosity, double radius) 
   return {viscosity, radius};
 }
 
-LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInterval above)
+OutsideInterval OutsideInterval::with_limits() const {
+  return {below == BelowInterval::kError ? BelowInterval::kLubricationLimit : below,
+          AboveInterval::kStokesLimit};
+}
+
+LubricationForce::LubricationForce(const Fit& fit, const OutsideInterval& outside)
     : radius_(fit.radius),
       viscosity_(fit.viscosity),
       fitted_interval_(fit.gap_interval),
-      below_(below),
-      above_(above) {
+      outside_(outside) {
   if (is_exact_plane(fit)) {
     *this = exact_plane(fit.viscosity, fit.radius);
     return;
@@ -65,9 +70,9 @@ LubricationForce::LubricationForce(const Fit& fit, BelowInterval below, AboveInt
 
 void LubricationForce::set_limits(const Fit& fit) {
   const auto [smallest, largest] = fitted_interval_;
-  if (below_ == BelowInterval::kLubricationLimit && leading_ > 0)
+  if (outside_.below == BelowInterval::kLubricationLimit && leading_ > 0)
     limit_ = {leading_, regular_resistance(smallest)};
-  if (below_ == BelowInterval::kTheoryLimit) {
+  if (outside_.below == BelowInterval::kTheoryLimit) {
     if (!fit.leading_coefficient || !(*fit.leading_coefficient > 0))
       throw Error(ErrorKind::kBadInput,
                   "the fit does not say what theory's coefficient k of k/q is (its key "
@@ -79,16 +84,17 @@ void LubricationForce::set_limits(const Fit& fit) {
 }
 
 std::array<double, 2> LubricationForce::interval() const {
-  return {below_ == BelowInterval::kError ? fitted_interval_[0] : 0.0,
-          above_ == AboveInterval::kError ? fitted_interval_[1]
-                                          : std::numeric_limits<double>::infinity()};
+  return {outside_.below == BelowInterval::kError ? fitted_interval_[0] : 0.0,
+          outside_.above == AboveInterval::kError ? fitted_interval_[1]
+                                                  : std::numeric_limits<double>::infinity()};
 }
 
 void LubricationForce::check_gap(double gap) const {
   const auto [smallest, largest] = fitted_interval_;
   const bool allowed =
-      gap >= smallest ? gap <= largest || (above_ != AboveInterval::kError && std::isfinite(gap))
-                      : below_ != BelowInterval::kError && gap > 0;
+      gap >= smallest
+          ? gap <= largest || (outside_.above != AboveInterval::kError && std::isfinite(gap))
+          : outside_.below != BelowInterval::kError && gap > 0;
   if (allowed) return;
   const char* remedy = "";
   if (exact_ && gap >= 0 && gap < smallest)
@@ -99,7 +105,7 @@ void LubricationForce::check_gap(double gap) const {
                 fmt::format("gap {} is outside [{}, {}], the gaps at which the exact drag can be "
                             "computed",
                             gap, smallest, largest));
-  if (gap < smallest && below_ == BelowInterval::kError)
+  if (gap < smallest && outside_.below == BelowInterval::kError)
     remedy =
         ", or let the drag follow the lubrication limit below it (below = \"lubrication_limit\" in "
         "the section [fit] of the case)";
@@ -210,7 +216,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
     if (exact_)
       throw Error(ErrorKind::kNotConverged,
                   "the film is thinner than the smallest number that a double can hold");
-    if (below_ == BelowInterval::kError)
+    if (outside_.below == BelowInterval::kError)
       throw Error(
           ErrorKind::kBadInput,
           fmt::format("the film would be thinner than the fitted interval [{:.6g}, "
@@ -232,7 +238,7 @@ std::array<double, 2> LubricationForce::bracket_of_impulse(double impulse_wanted
   }
   const double beyond = impulse_wanted - impulse(largest);
   if (!(beyond > 0)) return {low, high};
-  if (above_ == AboveInterval::kError)
+  if (outside_.above == AboveInterval::kError)
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the gap would be wider than the fitted interval [{:.6g}, {:.6g}]; "
                             "tabulate and fit further, or let the drag tend to Stokes' drag above "

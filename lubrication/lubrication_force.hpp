@@ -30,21 +30,29 @@ enum class AboveInterval {
   /// R(q) = R_S (1 + c/(q + r)), with R_S = 6 pi mu r and c such that R is continuous at q2. The
   /// drag tends to Stokes' drag as the first reflection at a wall decays (Happel & Brenner 1983,
   /// section 7-4: 1 + (9/8) r/h for a plane at distance h). The first reflection at a second sphere
-  /// at rest decays faster, as 1/h^2. The limit leaves out the container's other walls.
+  /// at rest decays faster, as 1/h^2. The limit neglects all other walls of the container.
   kStokesLimit
+};
+
+/// What the force is outside the fitted interval.
+struct OutsideInterval {
+  BelowInterval below = BelowInterval::kError;
+  AboveInterval above = AboveInterval::kError;
+
+  /// The same with kLubricationLimit or kStokesLimit in place of kError.
+  OutsideInterval with_limits() const;
 };
 
 /// The force of one fit at every velocity. Stokes flow is linear in the velocity, so a fit at u0
 /// gives F_lub(q, u) = (u/u0) F_lub(q, u0). Every function of the gap throws Error(kBadInput),
-/// which names the interval, if the gap is outside it, unless `below`, `above` or the comment of
-/// the function allows that gap.
+/// which names the interval, if the gap is outside it, unless `outside` or the comment of the
+/// function allows that gap.
 class LubricationForce {
  public:
   /// Throws Error(kBadInput) if the fit's resistance is not positive at one of the 201 gaps of
-  /// spread_gaps() on its interval, or if `below` asks for theory's k and the fit does not state
+  /// spread_gaps() on its interval, or if `outside` asks for theory's k and the fit does not state
   /// it. A fit whose basis is kExactPlane gives exact_plane().
-  explicit LubricationForce(const Fit& fit, BelowInterval below = BelowInterval::kError,
-                            AboveInterval above = AboveInterval::kError);
+  explicit LubricationForce(const Fit& fit, const OutsideInterval& outside = {});
 
   /// The exact drag of a sphere near a no-slip plane in a half-space (plane_drag.hpp), for every
   /// gap > 0. `viscosity` [M/(L T)] > 0, `radius` [L] > 0.
@@ -57,15 +65,16 @@ class LubricationForce {
   /// dR/d ln q = q dR/dq [M/T].
   double resistance_log_slope(double gap) const;
 
-  /// R(q) - k/q [M/T] with the fitted k, for q >= 0. Below the interval it is constant and has its
-  /// value at the smallest fitted gap.
+  /// R(q) - k/q [M/T] with the fitted k, for q >= 0. Below the interval it is constant: the value
+  /// at the smallest fitted gap.
   double regular_resistance(double gap) const;
 
-  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, with the same continuation below the interval.
+  /// int_0^q (R(s) - k/s) ds [M L/T] for q >= 0, where R - k/q is the same constant below the
+  /// interval.
   double regular_impulse(double gap) const;
 
-  /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is a closed form and increases
-  /// with q.
+  /// Gamma(q) = int_r^q R(s) ds [M L/T], r the sphere's radius. It is computed from a closed form
+  /// and increases with q.
   double impulse(double gap) const;
 
   /// The gap q [L] with Gamma(q) = impulse [M L/T], to round-off. Throws Error(kBadInput) if the
@@ -105,8 +114,7 @@ class LubricationForce {
   double radius_, viscosity_;
   double leading_ = 0;  // k [M L/T]
   std::array<double, 2> fitted_interval_;
-  BelowInterval below_ = BelowInterval::kError;
-  AboveInterval above_ = AboveInterval::kError;
+  OutsideInterval outside_;
   LubricationLimit limit_ = {};
   double image_ = 0;  // c [L] of the Stokes limit
   // The sum of antiderivatives at q = r, which is subtracted to make Gamma(r) = 0.

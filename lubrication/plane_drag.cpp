@@ -1,5 +1,6 @@
-// Three expansions of lambda in eps = gap/radius: near contact, between, and far away. The
-// constants are computed from Brenner's series and belong together: change none of them by hand.
+// Three expansions of the drag factor lambda of plane_drag.hpp in eps = gap/radius, all without
+// dimension: near contact, far away, and in the range between. The constants are computed from
+// Brenner's series and belong together: change none of them by hand.
 #include "viscontact/lubrication/plane_drag.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Sample points for functions of the gap.
+// Sample points for functions of the gap. The default of 201 points is also stated in the help of
+// `export` and in docs/file-formats.md.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,8 @@
 namespace viscontact::lubrication {
 namespace {
 
-// Keeps each expression both as text and as code, so that an exported fit computes what was fitted.
+// Makes a Formula of an expression, as text and as code, so that an exported fit computes what was
+// fitted.
 #define FORMULA(expression)                                                                       \
   Formula {                                                                                       \
 #expression,                                                                                  \
@@ -102,12 +103,15 @@ std::optional<Term> find_term(std::string_view name) {
 
 const std::vector<Basis>& all_bases() {
   static const std::vector<Basis> bases = {
+      // the first one is the default
       make_basis("lecture", "1/q, 1, q, q^2, q^3"),
       make_basis("asymptotic", "1/q, ln q, 1, q ln q, q"),
       make_basis("asymptotic_extended", "1/q, ln q, 1, q ln q, q, q^2 ln q, q^2, q^3"),
   };
   return bases;
 }
+
+const Basis& default_basis() { return all_bases().front(); }
 
 const Basis& find_basis(std::string_view name) { return require_named(all_bases(), name, "basis"); }
 

@@ -14,17 +14,19 @@ namespace viscontact::lubrication {
 /// A function of the gap q > 0 and of l = ln q. The logarithm is an argument, so that a sum of
 /// terms computes it once.
 struct Formula {
-  /// The expression in q and l, with + - * / ( ) and numbers that a float represents exactly: C,
-  /// Fortran and Python read it alike.
+  /// The expression in q and l, with + - * / ( ) and numbers. C, Fortran and Python must compute
+  /// the same from it. The numbers must therefore be exact in single precision, because Fortran
+  /// reads them so.
   std::string_view text;
   double (*at)(double gap, double log_gap);
 
   double operator()(double gap) const { return at(gap, std::log(gap)); }
 };
 
-/// A function phi of the gap q > 0, where q is a number in the table's unit of length. Another unit
-/// moves parts of the coefficients between the terms ln q and 1, and between q ln q and q. A
-/// coefficient has the dimension [M L/T^2] of a force over that of phi.
+/// A function phi of the gap q > 0, where q is a number in the table's unit of length. With another
+/// unit, the same function has other coefficients of 1 and of q, to which parts of the coefficients
+/// of ln q and q ln q are added. A coefficient has the dimension [M L/T^2] of a force over that of
+/// phi.
 struct Term {
   std::string_view name;
   Formula value;  ///< phi(q)
@@ -37,7 +39,7 @@ struct Term {
 /// Name of the leading term of lubrication, 1/q.
 inline constexpr std::string_view kLeadingTerm = "1/q";
 
-/// All terms. A new term needs a row in the table of terms.cpp and nothing else.
+/// All terms. A new term needs only a row in the table of terms.cpp.
 std::span<const Term> all_terms();
 
 /// The term with this name, or nothing if there is none.
@@ -70,6 +72,9 @@ inline constexpr std::string_view kOwnTerms = "terms";
 ///                        the expansion near contact: Cox & Brenner 1967; Cooley & O'Neill 1969
 ///   asymptotic_extended  those of `asymptotic`, and q^2 ln q, q^2, q^3
 const std::vector<Basis>& all_bases();
+
+/// The basis of a fit for which a user names none.
+const Basis& default_basis();
 
 /// The basis with this name. Throws Error(kBadInput), which lists the names, if there is none.
 const Basis& find_basis(std::string_view name);

@@ -1,5 +1,5 @@
 // Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
-// close the gap. All lengths and displacements are in one consistent unit of length.
+// close the gap. Units are any one consistent system.
 #pragma once
 
 #include <algorithm>
@@ -23,15 +23,15 @@ struct Contact {
   std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets a plane
   std::int32_t second = 0;       ///< number of a particle
   std::array<double, D> normal;  ///< e_ij, unit normal from first (or the plane) to second
-  /// D_ij at the begin of the step, for a plane at its position at the end of the step, plus
-  /// `tolerated` [L].
+  /// D_ij at the beginning of the step, plus `tolerated` [L]. A plane is taken at its position at
+  /// the end of the step.
   double gap = 0;
   double gamma = 0;  ///< gamma_ij^n [M L/T], <= 0
-  /// p_ij = h lambda_ij [M L/T], >= gamma: first a guess, then the solution.
+  /// p_ij = h lambda_ij [M L/T], >= gamma: before the solution a guess, then the solution.
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
-  double tolerated = 0;  ///< overlap that is not pushed out [L], >= 0
+  double tolerated = 0;  ///< overlap that is left as it is [L], >= 0
 };
 
 /// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); planes are at
@@ -77,13 +77,14 @@ double gap_after(const Contact<D>& contact, std::span<const double> displacement
   return sum;
 }
 
-/// Returns a contact, as contact_of gave it, with the gap that a step can and should close.
+/// Returns a contact that contact_of made, with its gap changed to the one that the step is to
+/// close.
 ///
 /// The gap is set to 0 if it is no larger than the rounding errors of the positions and radii that
 /// it is computed from. Otherwise these errors would cause impulses m D/h, which exceed any load if
-/// the step is short. An overlap of up to `tolerated` [L] counts as gap 0: it is kept from growing
-/// but not pushed out, because a packing may have no space for it, and it would be motion without a
-/// force.
+/// the step is short. An overlap of up to `tolerated` [L] counts as gap 0: the projection keeps it
+/// from growing but does not remove it, because a packing may have no space for that, and because
+/// removing it would move particles without a force.
 template <int D>
 Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
                     std::span<const PlanePosition> places, double tolerated) {

@@ -12,7 +12,7 @@ namespace viscontact::particles {
 
 /// Solid contact of rough particles, docs/physics.md (4.6) and (5.5). Either gamma_min is set, or
 /// both viscosity and roughness, or nothing (smooth particles without solid contact). gamma_min = 0
-/// leaves no film at all, which makes contact inelastic.
+/// leaves no film, so that contact is plain inelastic contact.
 struct ContactLaw {
   std::optional<double> gamma_min;  ///< of every pair [M L/T], <= 0
   std::optional<double> viscosity;  ///< mu [M/(L T)], > 0

@@ -1,5 +1,6 @@
 // Lists the contacts of a state for output, and measures its overlaps. Lengths, masses and times
-// are in the units of the case.
+// are in the units of the case. A change must keep the order of contacts_of(), which vtk_reader.cpp
+// restores.
 #pragma once
 
 #include <cstdint>

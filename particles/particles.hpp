@@ -1,5 +1,6 @@
 // The particles of a simulation: rigid discs or spheres without rotation. Lengths, masses and times
-// are in any one consistent system of units.
+// are in any one consistent system of units. The restart file stores these arrays as they are
+// (io/restart.cpp).
 #pragma once
 
 #include <cstddef>

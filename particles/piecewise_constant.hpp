@@ -1,5 +1,5 @@
 // A vector that is constant between given times, such as a force [M L/T^2] or the velocity of a
-// plane [L/T].
+// plane [L/T]. Times are in any unit [T].
 #pragma once
 
 #include <vector>

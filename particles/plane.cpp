@@ -1,4 +1,5 @@
-// Position of a plane at a given time: a turn about its pivot, then a translation.
+// Computes the position of a plane at a given time: a rotation about its pivot, then a translation.
+// Units are those of plane.hpp.
 #include "viscontact/particles/plane.hpp"
 
 #include <cmath>

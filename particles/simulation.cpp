@@ -49,8 +49,9 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   for (std::size_t d = 0; d < 3; ++d)
     if (!(std::abs(x[d]) <= largest && std::abs(w[d]) <= largest))
       throw Error(ErrorKind::kNotConverged,
-                  fmt::format("particle {} is at {} and moves by {} in the step to time {}: beyond "
-                              "what can be computed with; check its forces and the time step",
+                  fmt::format("particle {} is at {} and moves by {} in the step to time {}, too "
+                              "far for the precision of a double; check its forces and the time "
+                              "step",
                               p.id(k), x[d], w[d], time));
   return norm(w);
 }
@@ -157,7 +158,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     for_pairs([](Pair& pair) { pair.impulse /= 2; });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
-    // The caller may go on with a part of twice the length, for which the impulses are the first
+    // The caller may continue with a part of twice the length, for which the impulses are the first
     // guess.
     if (halvings > 0) for_pairs([](Pair& pair) { pair.impulse *= 2; });
     return;
@@ -234,7 +235,7 @@ void Simulation::throw_step_without_solution(const ProjectionResult& projected, 
           : fmt::format("particles {} and {}", id(overlapping.first), id(overlapping.second));
   throw Error(
       ErrorKind::kNotConverged,
-      fmt::format("the step to time {} has no solution that was found: {} would overlap by {:.3g} "
+      fmt::format("no solution of the step to time {} was found: {} would overlap by {:.3g} "
                   "mean radii{}",
                   next, pair, -projected.smallest_gap / mean_radius_,
                   moving.empty() ? std::string("; is the time step too long for the forces?")

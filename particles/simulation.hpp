@@ -72,8 +72,8 @@ class Simulation {
   Simulation(Setting setting, State state, int threads);
 
   /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
-  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`,
-  /// there is no step. The millionth keeps rounding errors of the times from causing tiny steps.
+  /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, no
+  /// step is made. Without this millionth, rounding errors of the times would cause tiny steps.
   ///
   /// A step in which touching particles turn about each other by more than kLargestTurn is halved,
   /// up to kMostHalvings times. The contacts and glued pairs in the report are then those of the

@@ -1,5 +1,6 @@
-// Vectors of the plane or of space, and access to flat arrays of them. With Eigen::Vector3d each
-// source that includes this file would take a second longer to compile, and Vector{} is not zero.
+// Vectors of the plane or of space, and access to flat arrays of them. Eigen::Vector3d is not used,
+// because each source that includes this file would take a second longer to compile, and because
+// its Vector{} is not zero.
 #pragma once
 
 #include <array>

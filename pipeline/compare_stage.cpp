@@ -1,4 +1,6 @@
-// Finding the trajectory files of a folder, and comparing them.
+// Finds the trajectory files of a folder, compares them and writes the comparison. The order of the
+// files must be kept: the models of the comparison have it, and if `inertial` failed, the first
+// file is the reference.
 #include "viscontact/pipeline/compare_stage.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +81,7 @@ void print_comparison(const reduced_model::Comparison& comparison, bool json) {
 
 void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
                    const std::string& reference_model, const fs::path& comparison_path,
-                   const std::vector<fs::path>& given, bool json) {
+                   const std::vector<fs::path>& given, bool json, const StopToken& stop) {
   auto files = trajectory_files(folder);
   files.insert(files.end(), others.begin(), others.end());
   if (files.empty()) throw_bad_input({folder.string()}, "has no trajectory files");
@@ -89,11 +91,14 @@ void compare_stage(const fs::path& folder, const std::vector<fs::path>& others,
   const auto provenance = results::provenance_of(given.empty() ? results::Inputs{inputs, {}}
                                                                : results::Inputs{given, inputs});
   std::vector<reduced_model::Trajectory> trajectories;
-  for (const auto& file : files) trajectories.push_back(reduced_model::read_trajectory(file));
+  for (const auto& file : files) {
+    stop.throw_if_stop_requested();
+    trajectories.push_back(reduced_model::read_trajectory(file));
+  }
   warn_of_different_inputs(trajectories);
   const auto failed = results::failures_without(trajectories, results::RunFolder{folder});
   auto comparison = reduced_model::compare_trajectories(
-      trajectories, results::reference_among(trajectories, failed, reference_model));
+      trajectories, results::reference_among(trajectories, failed, reference_model), stop);
   comparison.failed_models = failed;
   results::write_output(comparison_path, TextKind::kJson,
                         reduced_model::write_comparison(comparison), provenance);

@@ -1,10 +1,12 @@
-// The stage compare: the distances between the trajectories of a folder.
+// The stage compare: how far the trajectories of a folder are from that of the reference
+// (docs/file-formats.md, "Comparison").
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 
 namespace viscontact::pipeline {
@@ -18,11 +20,13 @@ void print_comparison(const reduced_model::Comparison& comparison, bool json);
 /// Compares the trajectories of a folder, and those in the files `others`, and writes the
 /// comparison to `comparison_path`. `given` are the files of the user from which the same command
 /// made the trajectories; it is empty if the user gave the trajectories themselves. If
-/// `reference_model` is empty, the reference is `inertial`, or the first model with a trajectory if
-/// `inertial` failed. The comparison is printed, as JSON if `json` is true.
+/// `reference_model` is empty, the reference is the usual one, or the first model with a trajectory
+/// if the usual one failed. The comparison is printed, as JSON if `json` is true.
+/// Throws Error(kInterrupted) if `stop` requests a stop; then nothing is written.
 void compare_stage(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& others,
                    const std::string& reference_model, const std::filesystem::path& comparison_path,
-                   const std::vector<std::filesystem::path>& given, bool json);
+                   const std::vector<std::filesystem::path>& given, bool json,
+                   const StopToken& stop);
 
 }  // namespace viscontact::pipeline

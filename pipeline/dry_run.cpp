@@ -1,4 +1,5 @@
-// Estimates of computing times, from finished rows, from a sample or from measured constants.
+// Estimates computing times [s] from finished rows, from a few rows that are computed now, or from
+// measured constants. Scripts of users read the keys of the JSON (docs/command-line.md).
 #include "viscontact/pipeline/dry_run.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +18,12 @@ namespace {
 /// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
 /// each, at gaps of 0.01 and 0.3. The time is constant down to a relative accuracy of 1e-5 (kKnee),
 /// because the coarsest meshes suffice there. Below, it grows by a factor of 2.8 = 10^kPower for
-/// each decade of the accuracy. Two spheres take 2.5 times as long as one sphere.
+/// each decade of the accuracy. The geometry's relative_cost multiplies it.
 double typical_seconds(const freefem_axi::Tabulation& tabulation) {
-  constexpr double kCoarse = 1.3, kKnee = 1e-5, kPower = 0.45, kSecondSphere = 2.5;
+  constexpr double kCoarse = 1.3, kKnee = 1e-5, kPower = 0.45;
   const double finer = std::max(1.0, kKnee / tabulation.relative_accuracy);
-  return kCoarse * std::pow(finer, kPower) * (tabulation.geometry == "sphere" ? kSecondSphere : 1);
+  return kCoarse * std::pow(finer, kPower) *
+         freefem_axi::find_geometry(tabulation.geometry).relative_cost;
 }
 
 double remaining_seconds(const DryRun& run, int jobs) {

@@ -10,10 +10,10 @@
 
 namespace viscontact::pipeline {
 
-/// The number of rows of one output and their time.
+/// How many rows one output has, and how long they take.
 struct DryRun {
   std::string output;  ///< path of the table or of the sweep's file
-  /// All rows, and those of them that are finished and would not be computed again.
+  /// The number of all rows, and of those that are finished and would not be computed again.
   std::uint64_t rows = 0, finished = 0;
   double seconds_per_row = 0;  ///< on one core [s]
   std::string basis;           ///< what seconds_per_row was estimated from, in words
@@ -24,12 +24,12 @@ struct DryRun {
 /// magnitude on a similar machine.
 DryRun dry_run(const CaseTable& one);
 
-/// The estimate for a sweep into the file `output`; computes up to three of its rows to measure
-/// them.
+/// The estimate for a sweep into the file `output`. Up to three of its rows are computed to measure
+/// their time.
 DryRun dry_run(const sweep::Sweep& sweep, const std::string& output, const StopToken& stop);
 
-/// A line for each output, then the time for all of them if `jobs` rows are computed at once; the
-/// same as JSON if `json` is true.
+/// A line for each output, then the time that all of them take if `jobs` rows are computed at once.
+/// If `json` is true, the same as JSON.
 std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json);
 
 }  // namespace viscontact::pipeline

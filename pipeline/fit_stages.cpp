@@ -1,4 +1,5 @@
-// Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance.
+// Reads tables, calls the fits, and writes fits, shifts and pictures with their provenance. The
+// columns of the file of shifts are in docs/file-formats.md.
 #include "viscontact/pipeline/fit_stages.hpp"
 
 #include <fmt/format.h>
@@ -24,8 +25,8 @@ void fit_stage(const fs::path& table_path, const fs::path& fit_path,
                const StopToken& stop) {
   const auto table = lubrication::read_force_table(table_path);
   stop.throw_if_stop_requested();
-  lubrication::Fit fit =
-      with_place(table_path.string(), [&] { return fitting::fit_force_table(table, settings); });
+  lubrication::Fit fit = with_place(
+      table_path.string(), [&] { return fitting::fit_force_table(table, settings, stop); });
   if (fs::is_regular_file(table_path))  // a pipe cannot be read a second time
     fit.table_sha256 = results::content_sha256(read_file(table_path));
   fit.versions = results::library_versions();
@@ -45,7 +46,7 @@ void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings&
                          const fs::path& plot_path, bool json, const StopToken& stop) {
   const auto provenance = results::provenance_of({{table_path}, {}});
   const auto table = lubrication::read_force_table(table_path);
-  const auto results = fitting::compare_bases(table, settings);
+  const auto results = fitting::compare_bases(table, settings, stop);
   if (std::ranges::none_of(
           results, [](const fitting::BasisResult& result) { return result.fit.has_value(); }))
     throw_bad_input({table_path.string()}, results.front().failure);

@@ -1,5 +1,5 @@
 // The stages that fit: a table in one basis, a table in every basis, and the shift of a rough wall.
-// If `stop` requests a stop, a stage throws Error(kInterrupted); what is finished stays.
+// If `stop` requests a stop, a stage throws Error(kInterrupted); finished files are kept.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,9 @@ void compare_bases_stage(const std::filesystem::path& table_path,
                          const fitting::FitSettings& settings,
                          const std::filesystem::path& plot_path, bool json, const StopToken& stop);
 
-/// Fits how far below its crests a rough wall acts like a smooth wall (fitting/wall_shift.hpp),
-/// from the rough wall's table and the smooth wall's fit. Prints the shift [L], writes the shift of
-/// each row (CSV) and, unless `plot_path` is empty, a picture (SVG).
+/// Fits the shift of a rough wall: the depth below its crests at which a smooth wall has the same
+/// drag (fitting/wall_shift.hpp). Uses the rough wall's table and the smooth wall's fit. Prints the
+/// shift [L], writes the shift of each row (CSV) and, unless `plot_path` is empty, a picture (SVG).
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path,
                  const StopToken& stop);

@@ -66,7 +66,7 @@ bool uncertainty_is_lost(const results::RunFolder& run) {
 /// Throws Error(kBadInput) if a run would replace or delete a file that Viscontact did not write.
 /// Called before any work is done, because the tabulation can take hours.
 void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
-  // The folder of an earlier run may hold a copy of a fit that the user wrote by hand.
+  // An earlier run may have copied a fit that the user wrote by hand into its folder.
   const bool is_copy = holds_a_run(run) && is_fit(run.fit());
   if (writes_fit && !is_copy) results::refuse_other_kind(run.fit(), "\"gap_interval\"", "fit");
   results::refuse_other_kind(run.comparison(), "\"reference_model\"", "comparison");
@@ -77,18 +77,17 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
     results::refuse_other_kind(file, "", "trajectory");
 }
 
-/// Makes or finds the fit that the case asks for, and returns its path. `given` are the files of
-/// the user.
+/// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
+/// its force files.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
                      const std::vector<fs::path>& given, int jobs, const StopToken& stop) {
   const auto& request = case_file::required_fit(c);
   if (request.file) return *request.file;
   if (request.exact) {
-    const std::string text =
-        lubrication::write_fit(lubrication::exact_plane_fit(c.viscosity, c.radius));
-    if (!results::has_content(run.fit(), text))
-      results::write_output(run.fit(), TextKind::kJson, text, results::provenance_of({given, {}}));
-    return run.fit();
+    const auto fit = exact_fit_file(c, run, results::provenance_of({given, {}}));
+    if (!fs::is_regular_file(fit.path) || read_file(fit.path) != fit.text)
+      write_file(fit.path, fit.text);
+    return fit.path;
   }
   const auto models = models_to_run(c);
   check_run(c, models);
@@ -116,9 +115,8 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
   stop.throw_if_stop_requested();
 
   const auto models = models_to_run(c);
-  const OutsideFit outside{request.below, request.above};
   const std::string fit_text = read_file(fit);
-  const auto made_from = identity_of_trajectory(c, fit_text, outside);
+  const auto made_from = identity_of_trajectory(c, fit_text, request.outside);
   auto failed = results::recorded_failures(run, made_from);
   std::erase_if(failed, [&](const results::FailedModel& model) {
     return std::ranges::find(models, model.model) == models.end();
@@ -133,7 +131,7 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
     is_current = has_reference(run.comparison(), results::reference_without(models, failed)) &&
                  report::report_is_current(folder);
   } else {
-    const auto results = simulate_case(c, {fit, fit_text}, models, outside, stop);
+    const auto results = simulate_case(c, {fit, fit_text}, models, request.outside, stop);
     stop.throw_if_stop_requested();
     // Outputs that were made from the old trajectories are removed before the new trajectories are
     // written, so that a crash never leaves both in the folder.
@@ -151,7 +149,7 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
   } else {
     stop.throw_if_stop_requested();
     compare_stage(folder, {}, results::reference_without(models, failed), run.comparison(), given,
-                  json);
+                  json, stop);
     stop.throw_if_stop_requested();
     report::write_report(folder, given, stop);
   }

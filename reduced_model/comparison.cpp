@@ -1,5 +1,5 @@
 // Distances between trajectories that are linear between their rows, by exact integrals, and the
-// comparison file.
+// comparison file (docs/file-formats.md). Units are those of comparison.hpp.
 #include "viscontact/reduced_model/comparison.hpp"
 
 #include <fmt/format.h>
@@ -99,7 +99,7 @@ std::optional<std::array<double, 2>> contact_interval(const Trajectory& trajecto
 }  // namespace
 
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
-                                std::string_view reference_model) {
+                                std::string_view reference_model, const StopToken& stop) {
   const auto reference = std::ranges::find(trajectories, reference_model, &Trajectory::model);
   if (reference == trajectories.end()) {
     std::string names;
@@ -112,6 +112,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
   Comparison comparison{std::string(reference_model), {}};
   std::set<std::string> seen;
   for (const auto& trajectory : trajectories) {
+    stop.throw_if_stop_requested();
     if (!seen.insert(trajectory.model).second)
       throw Error(
           ErrorKind::kBadInput,

@@ -10,11 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
 #include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::reduced_model {
 
-/// What is said of one trajectory.
+/// What the comparison finds for one trajectory.
 struct ModelComparison {
   std::string model;
   double minimal_gap = 0;       ///< smallest gap of the rows [L]
@@ -29,7 +30,7 @@ struct ModelComparison {
   double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]
   double l1_gap_distance = 0;       ///< integral over time of |q - q_ref| [L T]
   double l1_velocity_distance = 0;  ///< integral over time of |u - u_ref| [L]
-  long steps = 0;                   ///< of the integrator
+  long steps = 0;                   ///< number of steps of the integrator
   double seconds = 0;               ///< wall time [s]
 };
 
@@ -47,9 +48,10 @@ struct Comparison {
 
 /// Compares each trajectory with that of `reference_model` over the times that both cover. Each is
 /// taken as linear between its rows. Throws Error(kBadInput) if no trajectory has that name, if two
-/// have the same name, or if two have no time in common.
+/// have the same name, or if two have no time in common, and Error(kInterrupted) if `stop` requests a stop; it is
+/// asked before each trajectory.
 Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
-                                std::string_view reference_model);
+                                std::string_view reference_model, const StopToken& stop = {});
 
 /// Reads the comparison file (JSON). Throws Error(kBadInput) for another file.
 Comparison read_comparison(const std::filesystem::path& path);

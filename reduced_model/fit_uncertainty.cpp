@@ -1,5 +1,5 @@
 // Random draws of the coefficients of a fit, the bound from the misfit, and the file
-// uncertainty.json.
+// uncertainty.json. Units are those of fit_uncertainty.hpp.
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace viscontact::reduced_model {
 namespace {
 
 /// A matrix L with L L^T = covariance, which may be singular. It is made from the eigenvectors of
-/// the correlations, because the sizes of the coefficients differ by decades.
+/// the correlations, because the coefficients differ in size by many powers of ten.
 Eigen::MatrixXd root_of(const std::vector<std::vector<double>>& covariance) {
   const auto size = static_cast<Eigen::Index>(covariance.size());
   Eigen::MatrixXd matrix(size, size);
@@ -62,11 +62,8 @@ std::vector<double> instants_of(const Motion& motion, std::size_t times) {
 }  // namespace
 
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
-                             lubrication::BelowInterval below, lubrication::AboveInterval above,
-                             std::size_t draws) {
-  if (below == lubrication::BelowInterval::kError)
-    below = lubrication::BelowInterval::kLubricationLimit;
-  if (above == lubrication::AboveInterval::kError) above = lubrication::AboveInterval::kStokesLimit;
+                             const lubrication::OutsideInterval& outside, std::size_t draws) {
+  const auto limits = outside.with_limits();
   const auto instants = instants_of(motion, times);
   const auto gaps_with = [&](const lubrication::LubricationForce& force, double share,
                              std::vector<double>& gaps) {
@@ -80,7 +77,7 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
       fit.diagnostics ? fit.diagnostics->largest_inlier_residual : fit.largest_relative_residual;
   const double estimate = fit.diagnostics ? fit.diagnostics->largest_error_estimate : 0;
   result.misfit = std::min(1.0, residual + estimate + residual * estimate);
-  const lubrication::LubricationForce force(fit, below, above);
+  const lubrication::LubricationForce force(fit, limits);
   std::vector<double> gaps(instants.size()), less(instants.size()), more(instants.size());
   gaps_with(force, 1, gaps);
   gaps_with(force, 1 - result.misfit, less);
@@ -99,7 +96,7 @@ FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, 
     for (std::size_t i = 0; i < one.terms.size(); ++i)
       one.terms[i].coefficient = fit.terms[i].coefficient + shift(static_cast<Eigen::Index>(i));
     try {
-      gaps_with(lubrication::LubricationForce(one, below, above), 1, of_draw);
+      gaps_with(lubrication::LubricationForce(one, limits), 1, of_draw);
     } catch (const Error&) {
       ++result.refused;
       continue;

@@ -1,5 +1,6 @@
 // How the errors of a fit change the motion without inertia (physics.md (4.2) with m = 0). Lengths,
-// masses and times are in the units of the case. A change must keep the draws reproducible.
+// masses and times are in the units of the case. A change must keep the draws equal for equal
+// arguments.
 #pragma once
 
 #include <array>
@@ -49,15 +50,13 @@ inline constexpr std::size_t kDraws = 10000;
 ///   misfit  uses |R_fit/R - 1| <= misfit, so that Gamma_fit(q(t)) is between Gamma_fit(q0) +
 ///           (1 - misfit) int f_ext and Gamma_fit(q0) + (1 + misfit) int f_ext. This bound is valid
 ///           for every shape of the misfit, as far as the misfit is known at the gaps of the table.
-/// Outside the fit's interval the drag follows the limits `below` and `above`, where kError stands
-/// for kLubricationLimit and kStokesLimit. q_min is the smallest gap at the beginnings and ends of
-/// the force's pieces. `times` is the number of further, equidistant instants from 0 to
+/// Outside the fit's interval the drag follows outside.with_limits(). q_min is the smallest gap at the beginnings and
+/// ends of the force's pieces. `times` is the number of further, equidistant instants from 0 to
 /// motion.end_time; 0 asks for q_min alone. Equal arguments give equal numbers. Throws the Error of
 /// LubricationForce if the fit itself is impossible, and Error(kNotConverged) if no draw is
 /// possible.
 FitUncertainty propagate_fit(const Motion& motion, const lubrication::Fit& fit, std::size_t times,
-                             lubrication::BelowInterval below = lubrication::BelowInterval::kError,
-                             lubrication::AboveInterval above = lubrication::AboveInterval::kError,
+                             const lubrication::OutsideInterval& outside = {},
                              std::size_t draws = kDraws);
 
 /// The text of the file uncertainty.json.

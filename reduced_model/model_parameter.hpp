@@ -1,5 +1,6 @@
 // Parameters of models of motion: numbers of the case file that a model declares. A new parameter
-// stands beside its model and in no other file.
+// is declared beside its model and in no other file. A parameter of several models is in
+// motion.hpp.
 #pragma once
 
 #include <string_view>
@@ -10,12 +11,16 @@ namespace viscontact::reduced_model {
 
 struct Motion;
 
+/// The parts SECTION and NAME of a key SECTION.NAME in the case file.
+constexpr std::string_view section_of(std::string_view key) { return key.substr(0, key.find('.')); }
+constexpr std::string_view name_of(std::string_view key) { return key.substr(key.find('.') + 1); }
+
 /// A parameter of a model of motion, or of several models. A model lists its parameters in its row
 /// of the table of models and reads their values by Motion::parameter().
 struct ModelParameter {
   std::string_view key;          ///< SECTION.NAME in the case file
   std::string_view description;  ///< for the report
-  std::string_view dimension;    ///< of the values, as "L"; for the report
+  std::string_view dimension;    ///< dimension of the values, such as "L"; for the report
   Allowed allowed;               ///< the values that are accepted
   /// Value for a case without this key. `motion` has no parameters yet; `radius` is that of the
   /// sphere [L].
@@ -23,8 +28,8 @@ struct ModelParameter {
   /// True for a time step: it is at most Motion::end_time, and motion.time_scale stretches it.
   bool is_time_step = false;
 
-  constexpr std::string_view section() const { return key.substr(0, key.find('.')); }
-  constexpr std::string_view name() const { return key.substr(key.find('.') + 1); }
+  constexpr std::string_view section() const { return section_of(key); }
+  constexpr std::string_view name() const { return name_of(key); }
 };
 
 }  // namespace viscontact::reduced_model

@@ -19,8 +19,8 @@ namespace viscontact::reduced_model {
 ///
 /// The contact models add up each step. In the other models the film is the whole drag. Its impulse
 /// then is the change of momentum minus the impulse of the external force. Its work is a sum over
-/// the rows, with an error of second order in their spacing, and external_work is what closes the
-/// balance.
+/// the rows, with an error of second order in their spacing, and external_work is set so that the
+/// works are balanced.
 struct MomentumEnergyBudget {
   double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
   double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;

@@ -1,4 +1,5 @@
-// Values of parameters, progress reports, the number of steps, and the times of rows.
+// Values of parameters, progress reports, the number of steps, and the times of rows. Units are
+// those of motion.hpp.
 #include "viscontact/reduced_model/motion.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,8 @@ namespace viscontact::reduced_model {
 double Motion::parameter(const ModelParameter& which) const {
   const auto found = parameters.find(which.key);
   if (found == parameters.end())
-    throw Error(ErrorKind::kBadInput, fmt::format("the motion has no {}", which.key));
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("the parameter {} of the model has no value", which.key));
   return found->second;
 }
 

@@ -14,6 +14,9 @@
 
 namespace viscontact::reduced_model {
 
+/// Key of Motion::roughness in the case file.
+inline constexpr std::string_view kRoughnessKey = "viscous_contact.roughness";
+
 /// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)):
 /// m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
 struct Motion {
@@ -36,7 +39,7 @@ struct Motion {
   /// If it requests a stop, report_progress() throws Error(kInterrupted).
   StopToken stop{};
 
-  /// The value of a parameter. Throws Error(kBadInput) if the motion has none.
+  /// The value of a parameter. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
@@ -46,7 +49,12 @@ inline double default_time_step(const Motion& motion, double) { return motion.en
 
 /// Step h of `reference` [T], and spacing of the rows of models that choose their steps themselves.
 inline constexpr ModelParameter kReferenceTimeStep = {
-    "reference.time_step", "time step of the reference", "T", kPositive, default_time_step, true};
+    "reference.time_step",
+    "time step of the reference, row spacing of reference_exact and inertial",
+    "T",
+    kPositive,
+    default_time_step,
+    true};
 /// Step h of the contact models and of `explicit_euler` [T].
 inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     "time step of the contact models",

@@ -1,4 +1,5 @@
-// Reads and writes the CSV file of a trajectory. Units are those of trajectory.hpp.
+// Reads and writes the CSV file of a trajectory (docs/file-formats.md). Units are those of
+// trajectory.hpp.
 #include "viscontact/reduced_model/trajectory.hpp"
 
 #include <fmt/format.h>

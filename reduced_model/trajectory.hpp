@@ -29,8 +29,8 @@ struct TrajectoryRow {
   OptionalDouble solid_force{};
 };
 
-/// Number of the revision of the models. Raise it when a model gives other numbers: trajectories of
-/// another revision are then computed again.
+/// Number of the revision of the models. Raise it when a change makes a model compute other
+/// numbers; trajectories of another revision are then computed again.
 inline constexpr int kModelsRevision = 3;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
@@ -43,7 +43,7 @@ struct Trajectory {
   std::optional<std::array<double, 2>> contact_interval;
   /// Nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
-  long steps = 0;      ///< of the integrator
+  long steps = 0;      ///< number of steps of the integrator
   double seconds = 0;  ///< wall time [s]
   /// Further lines "# key: value" of the file, such as fit, case and time step.
   std::map<std::string, std::string> provenance;

@@ -1,4 +1,5 @@
-// The report's plots of a fit and of what its errors do to the motion.
+// The report's plots of a fit, and of the effect of its errors on the motion (report_plots.hpp).
+// Gaps [L] and times [T] are in the units of the case. The names of the plots are names of files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +16,14 @@ namespace viscontact::report {
 Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit) {
   PlotCurve points{"table (FreeFEM)", {kBlack, 0, {}, PointKind::kCircle, 0.7}, {}};
   PlotCurve line{fmt::format("fit, basis {}", fit.basis), {kBlue}, {}};
-  PlotCurve residual{"fit - table, in size", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
+  PlotCurve residual{"|fit / table - 1|", {kBlue, 1.5, {}, PointKind::kDisc, 0.4}, {}};
   PlotCurve estimate{
       "table's own error estimate", {kVermilion, 0, {}, PointKind::kSquare, 0.6}, {}};
   const lubrication::LubricationForce force(fit);
   const double stokes = lubrication::stokes_resistance(fit.viscosity, fit.radius);
   for (const auto& row : table.rows) {
     points.points.emplace_back(row.gap, row.drag_factor);
-    // A row outside the fit's interval belongs to another table than that of the fit.
+    // The fit was made from another table if this one has rows outside the fit's interval.
     if (row.gap < fit.gap_interval[0] || row.gap > fit.gap_interval[1]) continue;
     residual.points.emplace_back(
         row.gap, std::abs(force.resistance(row.gap) / (-row.force / row.reference_velocity) - 1));
@@ -37,7 +38,7 @@ Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit)
         high);
     line.points.emplace_back(gap, force.resistance(gap) / stokes);
   }
-  // A table with several velocities has the gaps once for each; curves need them in order.
+  // A table with several velocities has each gap several times; curves need the gaps in order.
   for (auto* curve : {&points, &residual, &estimate})
     std::ranges::stable_sort(curve->points, {}, &std::pair<double, double>::first);
   // A logarithmic axis has no zero, so a residual of 0 is not drawn.
@@ -60,7 +61,7 @@ Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit)
 }
 
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty) {
-  PlotPanel panel{"Gap without inertia: intervals around the fit's, relative",
+  PlotPanel panel{"Gap without inertia: intervals, relative to the gap with the fit",
                   {"time t"},
                   {"q / q of the fit - 1"},
                   {}};
@@ -73,10 +74,11 @@ Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty) {
     panel.curves.push_back(result);
   };
   const CurveStyle random{kBlue}, misfit{kVermilion, 2, {8, 5}};
-  curve("95 % of the draws of coefficients", random, &reduced_model::UncertainGap::random, 0);
-  curve("", random, &reduced_model::UncertainGap::random, 1);
-  curve("drag off by the largest misfit everywhere", misfit, &reduced_model::UncertainGap::misfit,
+  curve("95 % of the random draws of coefficients", random, &reduced_model::UncertainGap::random,
         0);
+  curve("", random, &reduced_model::UncertainGap::random, 1);
+  curve("drag wrong by the largest misfit at every gap", misfit,
+        &reduced_model::UncertainGap::misfit, 0);
   curve("", misfit, &reduced_model::UncertainGap::misfit, 1);
   return {"uncertainty", 440, {panel}};
 }

@@ -1,5 +1,5 @@
-// The files of report/page and report/particles/page, as they are built into the executable
-// (report/embed_texts.cmake).
+// The texts of the files in report/page and report/particles/page, which are built into the
+// executable (report/embed_texts.cmake). report/CMakeLists.txt lists the same names with the files.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,7 @@
-// Puts the report together: tables, warnings, plots and provenance. The plots are drawn by gnuplot
-// as still pictures and by report/page/report.js as pictures that can be zoomed.
+// Writes the report: tables, warnings, plots and provenance. gnuplot draws the plots as still
+// pictures, and report/page/report.js draws them so that they can be zoomed. kPlotNames must
+// contain the name of every plot, because it decides which files in plots/ may be replaced or
+// removed.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
@@ -38,9 +40,11 @@ constexpr std::string_view kStillPicture = "<div class=still><svg";
 
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
-  // Below the fit's interval, the lubrication limit is used here without asking: only pictures
-  // depend on it, and trajectories reach that far only if the user has allowed a limit there.
-  const lubrication::LubricationForce force(run.fit, lubrication::BelowInterval::kLubricationLimit);
+  // Below the fit's interval, the lubrication limit is always used here, because only pictures
+  // depend on it, and a trajectory goes below the interval only if the user has allowed a limit
+  // there.
+  const lubrication::LubricationForce force(run.fit,
+                                            {lubrication::BelowInterval::kLubricationLimit});
   std::vector<Plot> plots = {plot_minimal_gaps(run.comparison, run.c.published),
                              plot_gaps(run.trajectories),
                              plot_gaps_logarithmic(run.trajectories, motion, force),
@@ -54,9 +58,9 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   return plots;
 }
 
-/// Draws all plots at the same time, because each is a process of gnuplot and most of its time is
-/// its start. If one plot cannot be drawn, no picture is returned with an SVG, and `failure` is the
-/// reason.
+/// Draws all plots at the same time, each in a process of gnuplot, because most of the time of such
+/// a process is its start. If one plot cannot be drawn, all pictures are returned without an SVG,
+/// and `failure` is the reason.
 std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure,
                           const StopToken& stop) {
   std::vector<std::future<std::string>> drawings;
@@ -79,8 +83,8 @@ std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure,
   return pictures;
 }
 
-/// The pictures of these names as HTML. Each has the data from which report.js draws the plot that
-/// can be zoomed, and the still picture for browsers without scripts and for printing.
+/// The pictures with these names as HTML. Each has the data from which report.js draws a plot that
+/// can be zoomed, and a still picture for browsers without scripts and for printing.
 std::string figures(const std::vector<Picture>& pictures,
                     std::initializer_list<std::string_view> names) {
   std::string text;
@@ -104,8 +108,9 @@ std::string warnings_box(const results::RunResults& run) {
   const auto warnings = warnings_of(run);
   if (warnings.empty())
     return fmt::format(
-        "<p class=fine>No warnings: drag within the fitted gaps, residuals at most {:g}, the table "
-        "as accurate as asked, no sphere through the plane, all files made from each other.</p>\n",
+        "<p class=fine>No warnings: all gaps are within the fitted interval, residuals are at most "
+        "{:g}, the table is as accurate as asked, no sphere goes through the plane, and all files "
+        "belong together.</p>\n",
         kPoorFit);
   std::string items;
   for (const auto& warning : warnings)
@@ -144,21 +149,20 @@ std::string page_of(const results::RunResults& run, const std::vector<Picture>& 
       escaped(run.c.title), uplot_style(), report_style());
   page += summary(run) + warnings_box(run);
   page +=
-      "<p class=hint>Drag in a plot to zoom, double click or tap twice for the whole; the values "
-      "under the "
-      "pointer stand beside its legend.</p>\n";
+      "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
+      "again. "
+      "The values at the pointer are shown beside the legend.</p>\n";
   if (std::ranges::any_of(pictures, [](const Picture& picture) { return picture.svg.empty(); }))
     page +=
-        "<p class=fine>gnuplot could not draw when this page was made: it has no still pictures, "
-        "so "
-        "that print, and a browser without JavaScript, show no plots. Install gnuplot "
-        "(<code>apt-get install gnuplot-nox</code>) and make the report again.</p>\n";
+        "<p class=fine>gnuplot was missing or failed when this page was made. The page therefore "
+        "has no still pictures, and prints and browsers without JavaScript show no plots. Install "
+        "gnuplot (<code>apt-get install gnuplot-nox</code>) and make the report again.</p>\n";
   page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
   page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
   page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
   page += section("Impulse and work", budget_table(run));
   page += section("Lubrication force and fit", figures(pictures, {"fit"}) + fit_table(run));
-  page += section("What the fit does to the answer",
+  page += section("How errors of the fit change the motion",
                   uncertainty_words(run) + figures(pictures, {"uncertainty"}));
   page += section("Parameters", parameters_table(run));
   page += section("How it was made", origin_section(run));
@@ -169,8 +173,8 @@ std::string page_of(const results::RunResults& run, const std::vector<Picture>& 
   return page;
 }
 
-/// To be called after a report without still pictures is written: warns if gnuplot is missing,
-/// throws Error(kExternalProgram) if gnuplot failed.
+/// Warns if gnuplot is missing; throws Error(kExternalProgram) if gnuplot failed. Called after a
+/// report without still pictures is written.
 void warn_or_throw(const std::exception_ptr& failure) {
   constexpr const char* kWritten =
       "the report is written, without still pictures and without the files in plots/";

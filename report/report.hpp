@@ -10,9 +10,9 @@
 namespace viscontact::report {
 
 /// Writes report.html into a run's folder from its case, fit, trajectories, comparison and table
-/// (if there is one), and its plots into plots/. If gnuplot cannot be run, a warning says so and
-/// the report is written without still pictures and without plots/; the plots that the browser
-/// draws need no gnuplot. Throws Error(kBadInput) if an input is missing or wrong, or as
+/// (if there is one), and its plots into plots/. If gnuplot cannot be run, a warning says so, and
+/// the report is written without still pictures and without plots/. The plots that the browser
+/// draws do not need gnuplot. Throws Error(kBadInput) if an input is missing or wrong, or as
 /// check_report_files does. If gnuplot fails, throws Error(kExternalProgram) after the report is
 /// written without still pictures. `given` are the files of the user from which the same command
 /// made the files in the folder; it is empty if the user gave the files in the folder. Throws

@@ -1,4 +1,5 @@
-// Translates a plot into panels of gnuplot and into JSON.
+// Translates a plot into panels of gnuplot and into JSON. The keys of the JSON and the names of
+// kinds of points must agree with report/page/report.js.
 #include "viscontact/report/report_plot.hpp"
 
 #include <fmt/format.h>
@@ -21,8 +22,8 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // [pixels]
 
-/// What gnuplot (pointtype) and report.js call a kind of point. The rows are in the order of
-/// PointKind.
+/// The names that gnuplot (pointtype) and report.js have for a kind of point. The rows must be in
+/// the order of PointKind.
 struct PointName {
   PointKind kind;
   int gnuplot;
@@ -73,8 +74,8 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
   return settings;
 }
 
-/// The number with eight digits, which are more than a picture can show and keep the page small.
-/// Null if the number is not finite.
+/// The number with eight digits; null if it is not finite. A picture cannot show more digits, and
+/// they would make the page larger.
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(std::stod(fmt::format("{:.8g}", value)))
                               : nlohmann::ordered_json(nullptr);

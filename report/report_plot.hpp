@@ -34,7 +34,7 @@ struct PlotCurve {
 struct PlotAxis {
   std::string label{};
   bool logarithmic = false;
-  std::optional<double> low{}, high{};  ///< range at first; nothing: as the curves need
+  std::optional<double> low{}, high{};  ///< range before zooming; nothing: as the curves need
 };
 
 /// Where the legend of the still picture is.

@@ -13,8 +13,8 @@
 
 namespace viscontact::report {
 
-/// The drag factor of the table and of the fit; below, the relative difference of the two beside
-/// the table's error estimates.
+/// The drag factor of the table and of the fit; in a second panel the relative difference of the
+/// two beside the table's error estimates.
 Plot plot_fit(const lubrication::ForceTable& table, const lubrication::Fit& fit);
 
 /// The gap q(t) of all trajectories, on a linear scale.
@@ -40,8 +40,8 @@ Plot plot_external_force(const reduced_model::ExternalForce& force, double end_t
 Plot plot_minimal_gaps(const reduced_model::Comparison& comparison,
                        const std::optional<case_file::PublishedGap>& published);
 
-/// Uncertainty of the gap over time in the motion without inertia, as bands relative to the gap
-/// with the fit as it is.
+/// The uncertainty of the gap over time in the motion without inertia, as bands relative to the gap
+/// that the fit gives.
 Plot plot_uncertainty(const reduced_model::FitUncertainty& uncertainty);
 
 }  // namespace viscontact::report

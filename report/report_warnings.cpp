@@ -1,4 +1,5 @@
-// Finds what to warn of in fit, table, trajectories and hashes of a run.
+// Looks for reasons to warn in fit, table, trajectories and hashes of a run (report_warnings.hpp).
+// Gaps [L] and times [T] are in the units of the case.
 #include "viscontact/report/report_warnings.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ std::string trajectory_name(const std::string& model) { return "trajectories/" +
 void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
   if (run.fit.terms.empty()) return;  // exact
   const auto [low, high] = run.fit.gap_interval;
-  const lubrication::LubricationForce force(run.fit, lubrication::BelowInterval::kLubricationLimit);
+  const lubrication::LubricationForce force(run.fit,
+                                            {lubrication::BelowInterval::kLubricationLimit});
   for (const auto& trajectory : run.trajectories) {
     const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->exact_drag) continue;
@@ -49,7 +51,8 @@ void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
           "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
           trajectory.model, contact ? "a film of" : "a gap of", thinnest, low);
     const bool drag_at_distance =
-        !contact || choice->model->contact(run.c.motion.value(), force).drag.has_value();
+        !contact ||
+        reduced_model::contact_model_of(*choice, run.c.motion.value(), force).drag.has_value();
     if (largest > high && drag_at_distance)
       warnings.add(
           trajectory_name(trajectory.model),
@@ -87,8 +90,8 @@ void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
   const auto& diagnostics = fit.diagnostics;
   if (std::abs(fit.largest_relative_residual) > kPoorFit)
     warnings.add("fit.json",
-                 "Poor fit: it misses the table by up to {:.2g} relative{}; "
-                 "called poor beyond {:g}",
+                 "Poor fit: the largest relative residual is {:.2g}{}; "
+                 "a fit is called poor above {:g}",
                  fit.largest_relative_residual,
                  diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
                  kPoorFit);
@@ -116,8 +119,8 @@ void add_passage_through_plane(Warnings& warnings, const results::RunResults& ru
     const auto choice = reduced_model::known_model(trajectory.model);
     if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
     warnings.add(trajectory_name(trajectory.model),
-                 "The sphere of {} goes through the plane at time {:.4g}, which no "
-                 "drag of a film allows: its time step is too long",
+                 "The sphere of {} goes through the plane at time {:.4g}, although "
+                 "the drag of a film forbids it: the time step is too long",
                  trajectory.model, trajectory.rows.back().time);
   }
 }
@@ -134,8 +137,8 @@ void add_roughness(Warnings& warnings, const results::RunResults& run) {
         std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
     if (smallest < roughness)
       warnings.add(trajectory_name(trajectory.model),
-                   "{} knows no roughness: it gets down to a gap of {:.4g}, where the solids "
-                   "would touch at {:.4g}",
+                   "{} ignores the roughness: its gap falls to {:.4g}, but the solids would "
+                   "touch at {:.4g}",
                    trajectory.model, smallest, roughness);
   }
 }
@@ -145,8 +148,8 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
   const auto& u = *run.uncertainty;
   if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
     warnings.add("uncertainty.json",
-                 "{} of {} draws of the fit's coefficients make no possible drag: "
-                 "the interval from them is too narrow",
+                 "{} of {} draws of the fit's coefficients were refused, because they "
+                 "give no possible drag; the interval from the others is too narrow",
                  u.refused, u.draws);
 }
 

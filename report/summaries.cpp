@@ -1,4 +1,5 @@
-// Columns and words of the summaries.
+// Writes the columns and words of the summaries (summaries.hpp). Scripts of users read the JSON,
+// whose keys must be kept.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

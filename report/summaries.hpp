@@ -1,4 +1,5 @@
-// What the terminal shows of fits and comparisons: words, tables, and the picture of several bases.
+// Summaries of fits and comparisons: words and tables for the terminal, and the picture of several
+// bases. Gaps and times are in the units of the case.
 #pragma once
 
 #include <string>
@@ -16,8 +17,8 @@ std::string fit_in_words(const lubrication::Fit& fit);
 /// A table with one line for each basis, and a last line that names the best basis.
 std::string basis_table(const std::vector<fitting::BasisResult>& results);
 
-/// The results as JSON: a list with an object for each basis, which is its fit file, or has "basis"
-/// and "failure" if the fit failed.
+/// The results as JSON: a list with an object for each basis. The object is the content of the fit
+/// file; if the fit failed, it has only the keys "basis" and "failure".
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
 /// An SVG of the relative residuals of every basis over the gap, beside the table's error

@@ -1,4 +1,5 @@
-// The report's plots of trajectories and of their comparison.
+// The report's plots of trajectories and of their comparison (report_plots.hpp). Gaps [L], times
+// [T], gamma [M L/T] and forces [M L/T^2] are in the units of the case.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,9 +20,9 @@ constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 
 using Value = double (*)(const reduced_model::TrajectoryRow&);
 
-/// The style of a model's line. The row of the model in the table of models decides on the row of
-/// kLines; after the last one, the colours begin again with longer dashes. Widths differ, too, so
-/// that curves that lie on each other can be seen.
+/// The style of a model's line. The model's row in the registry of models decides on the row of
+/// kLines; if there are more models than rows, the colours are used again with longer dashes.
+/// Widths differ, too, so that curves that lie on each other can be seen.
 CurveStyle line_style(std::string_view model, bool film = false) {
   struct Line {
     const char* colour;
@@ -55,9 +56,9 @@ std::string legend_of(std::string_view model) {
   return choice ? reduced_model::description_of(*choice) : std::string(model);
 }
 
-/// Rows of a trajectory, few enough for a page. The rows are divided into runs of n rows; the first
-/// row of each run is kept, and the rows in which `value` is smallest and largest, so that no
-/// extreme is lost.
+/// So many rows of a trajectory as a page can have. The rows are divided into runs of n rows. Of
+/// each run the first row is kept, and the rows in which `value` is smallest and largest, so that
+/// no extreme is lost.
 std::vector<const reduced_model::TrajectoryRow*> thinned(
     const std::vector<reduced_model::TrajectoryRow>& rows, std::size_t trajectories, Value value) {
   // At most 400 runs for a trajectory and about 3200 for all of them keep the page small.
@@ -113,9 +114,10 @@ Plot plot_gaps_logarithmic(const std::vector<reduced_model::Trajectory>& traject
     const auto choice = reduced_model::known_model(trajectory.model);
     const lubrication::LubricationForce own_force =
         choice ? reduced_model::drag_of(*choice, force) : force;
-    const auto contact = choice && choice->model->contact != nullptr
-                             ? std::optional(choice->model->contact(motion, own_force))
-                             : std::nullopt;
+    const auto contact =
+        choice && choice->model->contact != nullptr
+            ? std::optional(reduced_model::contact_model_of(*choice, motion, own_force))
+            : std::nullopt;
     for (const auto* row : thinned(trajectory.rows, trajectories.size(), gap_of)) {
       const bool in_contact = row->gamma && *row->gamma < 0;
       curve.points.emplace_back(row->time, row->gap > 0 && !in_contact ? row->gap : kGap);
@@ -167,7 +169,7 @@ Plot plot_gamma(const std::vector<reduced_model::Trajectory>& trajectories) {
 
 Plot plot_solid_force(const std::vector<reduced_model::Trajectory>& trajectories) {
   PlotPanel panel{
-      "What the solid carries; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
+      "Force of the solid contact; impacts are cut off", {"time t"}, {"force of the solids"}, {}};
   double load = 0;
   const Value solid_of = [](const reduced_model::TrajectoryRow& row) {
     return row.solid_force ? *row.solid_force : 0;

@@ -1,4 +1,5 @@
-// The table of exit codes, with a row for success and for each kind of error.
+// The table of exit codes, with a row for success and one for each kind of error. The codes must
+// not change, because scripts of users rely on them.
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ constexpr ExitCode kExitCodes[] = {
      "a computation did not converge, every point of a sweep failed, or memory ran out"},
     {ErrorKind::kExternalProgram, 5,
      "an external program (FreeFEM, gnuplot, Slurm) failed or is missing"},
-    // Shells report a process that SIGINT (signal 2) ended by 128 + 2.
+    // For a process that SIGINT (signal 2) ended, shells report the exit code 128 + 2.
     {ErrorKind::kInterrupted, 130,
      "interrupted; what was finished is kept, and the same command continues from there"},
 };

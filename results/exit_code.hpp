@@ -1,5 +1,6 @@
 // The exit code of the program for each kind of error. Scripts of users rely on these numbers;
-// --help and the manual print this table, and docs/command-line.md repeats it.
+// --help and the manual print this table, and docs/command-line.md repeats it. The table is here
+// and not in app, because failed_models.json stores the codes.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// Reading and writing failed_models.json, and the choice of the reference when models have failed.
+// Reads and writes failed_models.json (docs/file-formats.md), and chooses the reference if models
+// have failed. A change must keep the keys of the file, because earlier runs have it.
 #include "viscontact/results/failed_models.hpp"
 
 #include <fmt/format.h>
@@ -8,14 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/results/exit_code.hpp"
 
 namespace viscontact::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::string_view kUsualReference = "inertial";
 
 }  // namespace
 
@@ -84,15 +84,13 @@ std::string reference_without(const std::vector<std::string>& models,
   std::ranges::copy_if(models, std::back_inserter(computed), [&](const std::string& model) {
     return std::ranges::find(failed, model, &FailedModel::model) == failed.end();
   });
-  const bool has_inertial = std::ranges::find(computed, kUsualReference) != computed.end();
-  if (has_inertial || computed.empty()) return std::string(kUsualReference);
-  return computed.front();
+  return reduced_model::reference_of(computed);
 }
 
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked) {
-  const std::string reference = asked.empty() ? std::string(kUsualReference) : asked;
+  const std::string reference = asked.empty() ? reduced_model::usual_reference() : asked;
   const auto found =
       std::ranges::find(failed, reference, &reduced_model::ModelWithoutTrajectory::model);
   if (found == failed.end()) return reference;

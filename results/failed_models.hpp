@@ -1,5 +1,5 @@
-// The record of the models that failed in a simulation (failed_models.json in a run's folder), so
-// that `compare` and `report` can say why these models have no trajectory.
+// The record of the models that failed in a simulation, failed_models.json in a run's folder. By it
+// `compare` and `report` can say why these models have no trajectory.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct FailedModel {
   std::string model;   ///< name of the model, with suffixes
   std::string reason;  ///< message of the Error, without the name of the model
   ErrorKind kind = ErrorKind::kBadInput;
-  CsvComments made_from;  ///< what identifies case, fit and version, as in a trajectory file
+  CsvComments made_from;  ///< comments that identify case, fit and version, as in a trajectory
 };
 
 /// Reads the record (JSON). Returns an empty list if there is no such file.
@@ -33,21 +33,21 @@ std::vector<FailedModel> recorded_failures(const RunFolder& run, const CsvCommen
 std::string write_failed_models(const std::vector<FailedModel>& failed);
 
 /// The error that ends a simulation in which the models of `failed` (at least one) failed and
-/// `computed` other models (0 or more) did not. The error names the case and has the kind and the
-/// reason of the first model that failed.
+/// `computed` other models (0 or more) were computed. The error names the case and has the kind and
+/// the reason of the first model that failed.
 Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
                const std::filesystem::path& case_path);
 
-/// The models in the record of the folder that have none of these trajectories.
+/// The models in the record of the folder of which `trajectories` has no trajectory.
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
     const std::vector<reduced_model::Trajectory>& trajectories, const RunFolder& run);
 
-/// The reference that `run` compares `models` (at least one) with: `inertial` if it was computed,
-/// else the first model that was computed, else `inertial`.
+/// The reference that `run` compares `models` (at least one) with: reduced_model::reference_of
+/// those that were computed.
 std::string reference_without(const std::vector<std::string>& models,
                               const std::vector<FailedModel>& failed);
 
-/// The reference that `compare` uses: `asked`, or if this is empty `inertial`, or if `inertial`
+/// The reference that `compare` uses: `asked`, or if this is empty the usual reference, or if that
 /// failed the model of the first trajectory. Throws Error(kBadInput) with the recorded reason if
 /// the model `asked` failed.
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,

@@ -1,4 +1,5 @@
-// Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp).
+// Recognises files of Viscontact by the provenance in their first MiB (provenance.hpp). A change
+// must still recognise the files that earlier versions wrote.
 #include "viscontact/results/foreign_files.hpp"
 
 #include <fmt/format.h>
@@ -12,18 +13,6 @@
 
 namespace viscontact::results {
 namespace {
-
-/// The first MiB of a file. Throws Error(kBadInput) that names the path if it cannot be read.
-std::string head_of(const std::filesystem::path& path) {
-  constexpr std::size_t kMost = std::size_t{1} << 20U;
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw_bad_input({path.string()}, fmt::format("cannot be read ({})", std::strerror(errno)));
-  std::string head(kMost, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return head;
-}
 
 /// True if the text contains a provenance (provenance.hpp): the word "provenance", then an object
 /// whose first key is "command". Other programs may have written the JSON again with other spaces
@@ -41,8 +30,19 @@ bool has_provenance(std::string_view text) {
 
 }  // namespace
 
+std::string read_head(const std::filesystem::path& path) {
+  constexpr std::size_t kMost = std::size_t{1} << 20U;
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw_bad_input({path.string()}, fmt::format("cannot be read ({})", std::strerror(errno)));
+  std::string head(kMost, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return head;
+}
+
 bool is_written_by_viscontact(const std::filesystem::path& path) {
-  return has_provenance(head_of(path));
+  return has_provenance(read_head(path));
 }
 
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
@@ -50,13 +50,15 @@ void refuse_other_kind(const std::filesystem::path& path, std::string_view marke
   // If `path` is a folder or a device, write_file throws an error that says so.
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return;
-  const std::string head = head_of(path);
+  const std::string head = read_head(path);
   if (head.empty() || (head.find(marker) != std::string::npos && has_provenance(head))) return;
   throw_bad_input(
       {path.string()},
-      fmt::format("is not a {} that Viscontact wrote and is not replaced; remove it first, or "
-                  "write elsewhere",
-                  kind));
+      fmt::format(
+          "is not {} {} that Viscontact wrote, so it is not replaced; remove it first, or "
+          "write elsewhere",
+          std::string_view("aeiou").find(kind.front()) != std::string_view::npos ? "an" : "a",
+          kind));
 }
 
 }  // namespace viscontact::results

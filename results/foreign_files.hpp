@@ -3,20 +3,24 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace viscontact::results {
 
-/// True if Viscontact wrote the file at `path`, which must exist. Only the first MiB is read,
-/// because every output records its provenance there and a restart file can be a gigabyte long.
-/// Throws Error(kBadInput) that names the path if the file cannot be read.
+/// The first MiB of a file, which contains the provenance of every output. Throws Error(kBadInput)
+/// that names the path if the file cannot be read.
+std::string read_head(const std::filesystem::path& path);
+
+/// True if Viscontact wrote the file at `path`, which must exist. Only its head is read,
+/// because a restart file can be a gigabyte long. Throws as read_head does.
 bool is_written_by_viscontact(const std::filesystem::path& path);
 
 /// Throws Error(kBadInput) if the file at `path` must not be replaced or deleted, because
 /// Viscontact did not write it or because it is of another kind. `marker` is a text that every file
 /// of the right kind has in its first MiB; an empty marker accepts any kind. `kind` names the kind
 /// in the message, for example "picture". An empty file may be replaced. Does nothing if there is
-/// no regular file at `path`. To be called before any work is done, so that no work is lost.
+/// no regular file at `path`. Call it before any work is done, so that no work is lost.
 void refuse_other_kind(const std::filesystem::path& path, std::string_view marker,
                        std::string_view kind);
 

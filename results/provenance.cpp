@@ -1,5 +1,5 @@
-// The provenance line: writing it into each kind of file, finding it and reading it again. The
-// beginning of its JSON (kBegin) must not change, because earlier files are recognised by it.
+// Writes the provenance line into each kind of file, and finds and reads it again. The beginning of
+// its JSON (kBegin) must not change, because earlier files are recognised by it.
 #include "viscontact/results/provenance.hpp"
 
 #include <fmt/chrono.h>
@@ -34,7 +34,7 @@ std::vector<std::string> own_command() {
   return command;
 }
 
-/// The present time, or the time in SOURCE_DATE_EPOCH [s since 1970] if that is set
+/// The current time, or the time in SOURCE_DATE_EPOCH [s since 1970] if this variable is set
 /// (reproducible-builds.org). Throws Error(kWrongUsage) if SOURCE_DATE_EPOCH is not such a time.
 std::string time_of_making() {
   std::time_t now = std::time(nullptr);
@@ -76,8 +76,8 @@ std::string as_line(const Provenance& provenance) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// `json` in which each of the `characters` is written as \uXXXX, because it would end the element,
-/// script or comment around the JSON. The JSON keeps its meaning.
+/// `json` with each of the `characters` replaced by \uXXXX, because these characters could end the
+/// element, script or comment around the JSON. The meaning of the JSON does not change.
 std::string without(std::string_view characters, const std::string& json) {
   std::string text;
   for (const char c : json)
@@ -88,7 +88,7 @@ std::string without(std::string_view characters, const std::string& json) {
   return text;
 }
 
-/// What stands around the JSON in a kind of file.
+/// The text before and after the JSON in a kind of file.
 struct Wrapping {
   std::string before, after;
   std::string_view forbidden;  ///< characters that must not stand between `before` and `after`
@@ -141,8 +141,8 @@ std::size_t place_in(TextKind kind, const std::string& text) {
   return 0;
 }
 
-/// Positions in the line that contains the provenance: begin of the line, begin of the JSON, end of
-/// the line.
+/// Three positions in a text: begin of the line that contains the provenance, begin of its JSON,
+/// and end of the line.
 struct Line {
   std::size_t begin = 0, json = 0, end = 0;
 };
@@ -153,7 +153,7 @@ std::optional<Line> find_line(const std::string& text) {
     const Line line{newline == std::string::npos ? 0 : newline + 1, at,
                     std::min(text.find('\n', at), text.size())};
     const auto before = std::string_view(text).substr(line.begin, at - line.begin);
-    // All frames have at most three characters between the name and the object ("\": ").
+    // In every Wrapping, at most three characters are between the name and the object ("\": ").
     if (const auto name = before.rfind(kName);
         name != std::string_view::npos && before.size() - name - kName.size() <= 3)
       return line;
@@ -271,7 +271,7 @@ std::string output_text(const std::filesystem::path& path, TextKind kind, const 
                         Provenance provenance) {
   provenance.output = path.string();
   provenance.made = time_of_making();
-  // After without_folders, the name of the output must not tell its folder either.
+  // A provenance without folders (without_folders) must not contain the output's folder either.
   if (provenance.folder.empty()) {
     provenance.folder = std::filesystem::current_path().string();
     provenance = without_folders(provenance);

@@ -15,7 +15,7 @@ namespace viscontact::results {
 /// A file that an output was made from.
 struct InputFile {
   std::string file;           ///< path, relative to the folder of the command
-  std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is no file but a pipe
+  std::string sha256;         ///< SHA-256 of the file's bytes; empty if it is a pipe
   bool intermediate = false;  ///< true if the same command made it, as `run` makes its table
 };
 
@@ -42,23 +42,25 @@ struct Inputs {
   std::vector<std::filesystem::path> intermediate;  ///< files that the same command made
 };
 
-/// The provenance of what this process makes from these files; `output` and `made` are empty. The
-/// files are read for their hashes, so this function must be called before a long computation,
-/// during which a user may edit them. Throws Error(kBadInput) if a file cannot be read.
+/// The provenance of an output that this process makes from these files; `output` and `made` are
+/// empty. The files are read to compute their hashes. Call it before a long computation, because a
+/// user may edit the files during the computation. Throws Error(kBadInput) if a file cannot be
+/// read.
 Provenance provenance_of(const Inputs& inputs);
 
 /// The position in a word of a command at which an absolute path would begin: after "--output=" (or
 /// another option with "=") or after "-o", otherwise 0.
 std::size_t path_in_word(const std::string& word);
 
-/// The provenance for a file that users pass on to others: it names the sources, but not the
-/// folders of a machine. `folder` becomes empty. An absolute path below `folder` becomes relative
+/// The provenance for a file that users pass on to others. It names the inputs, but no folders of
+/// the machine. `folder` becomes empty. An absolute path below `folder` becomes relative
 /// to `folder`; of any other absolute path, and of the program, only the file name stays.
 Provenance without_folders(Provenance provenance);
 
-/// `text` with the provenance in it as one line: the first key for kJson, metadata for kSvg, a data
-/// script in <head> for kHtml, and otherwise a comment at the head. `text` must be a complete file
-/// of that kind; for kJson it must be an object with at least one key.
+/// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
+/// element <metadata> of a kSvg file, a data script in <head> of a kHtml file, and a comment at the
+/// head of any other file. `text` must be a complete file of this kind; for kJson it must be an
+/// object with at least one key.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);
 
 /// `text` as it was before with_provenance. Two files that were made in the same way at different
@@ -69,8 +71,8 @@ std::string without_provenance(const std::string& text);
 /// not written again, so that it keeps its time of making. False if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const std::string& text);
 
-/// SHA-256 of the text without its provenance. Files of Viscontact refer to each other by this
-/// hash.
+/// SHA-256 of the text without its provenance. Outputs of Viscontact record by this hash from which
+/// other output they were made.
 std::string content_sha256(const std::string& text);
 
 /// The provenance in a text of any kind, or nothing if the text has none. Throws Error(kBadInput)
@@ -86,12 +88,12 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 /// read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
-/// The text that write_output writes: `text` with the provenance and the present time. Throws
+/// The text that write_output writes: `text` with the provenance and the current time. Throws
 /// Error(kWrongUsage) if SOURCE_DATE_EPOCH is not a valid time.
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,
                         Provenance provenance);
 
-/// Writes `text` with the provenance and the present time to `path`. Throws as output_text and
+/// Writes `text` with the provenance and the current time to `path`. Throws as output_text and
 /// write_file do.
 void write_output(const std::filesystem::path& path, TextKind kind, const std::string& text,
                   Provenance provenance);

@@ -7,8 +7,8 @@
 
 namespace viscontact::results {
 
-/// The message for a folder that another process has locked (LockedFolder).
-inline constexpr const char* kFolderIsHeld =
+/// The message if another process has locked a folder (LockedFolder).
+inline constexpr const char* kFolderIsLocked =
     "another viscontact writes into it; wait until it has ended, or write elsewhere";
 
 /// The folder of a run; each function returns the path of a file or sub-folder in it.

@@ -1,4 +1,5 @@
-// Reads case, fit, comparison, trajectories, table and uncertainty of a run.
+// Reads case, fit, comparison, trajectories, table and uncertainty of a run (run_folder.hpp). A
+// change must still read the runs of earlier versions.
 #include "viscontact/results/run_results.hpp"
 
 #include "viscontact/common/error.hpp"
@@ -8,10 +9,10 @@
 namespace viscontact::results {
 namespace {
 
-/// True if the table in the folder belongs to the run. This is so if the fit was made from it, and
-/// also if the case asks for a fit of a table: then the report warns if the table is another one. A
-/// case with `exact` or `file` in [fit] needs no table, so that table.csv may be the table of an
-/// earlier case or any file of the user.
+/// True if the table in the folder belongs to the run. It does if the fit was made from it. It also
+/// does if the case asks for a fit of a table; the report then warns if the fit was made from
+/// another table. A case with `exact` or `file` in [fit] needs no table; then table.csv may be the
+/// table of an earlier case or any file of the user.
 bool has_table(const RunFolder& run, const case_file::Case& c, const lubrication::Fit& fit) {
   if (!std::filesystem::is_regular_file(run.table())) return false;
   const bool needs_none =

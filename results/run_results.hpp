@@ -28,8 +28,8 @@ struct RunResults {
   std::optional<reduced_model::FitUncertainty> uncertainty;
 };
 
-/// Throws Error(kBadInput) if case, fit, comparison or all trajectories are missing, or if a file
-/// cannot be read.
+/// Reads the results of the run in `folder`. Throws Error(kBadInput) if case, fit, comparison or
+/// all trajectories are missing, or if a file cannot be read.
 RunResults read_run(const std::filesystem::path& folder);
 
 /// The files that the results were read from.

@@ -1,4 +1,5 @@
-// Versions as the headers of the libraries state them, and as FreeFEM reports its own.
+// Takes the versions of libraries from their headers, and asks FreeFEM for its version. The names
+// are keys in the provenance of files, so a change must keep them.
 #include "viscontact/results/versions.hpp"
 
 #include <ceres/version.h>

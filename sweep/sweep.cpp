@@ -1,5 +1,6 @@
-// Plans, checks and computes the rows of a sweep (sweep.hpp). Threads compute rows in any order;
-// rows are taken in order, so that the file does not depend on the number of threads.
+// Plans, checks and computes the rows of a sweep (sweep.hpp). Threads compute rows in any order,
+// but the rows must be passed on in order, so that the file does not depend on the number of
+// threads.
 #include "viscontact/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -73,9 +74,9 @@ void refuse_doubles(const Names& names, std::string_view kind) {
       throw Error(ErrorKind::kWrongUsage, fmt::format("{} {} is given twice", kind, name));
 }
 
-/// Throws Error(kWrongUsage) for a key of a case that changes no row: a sweep does not read it, or
-/// none of the models depends on it. Keys that do not exist pass; the reader of the case reports
-/// them.
+/// Throws Error(kWrongUsage) if a key of a case changes no row, because a sweep does not read it or
+/// none of the models depends on it. Does not throw if the key does not exist; the reader of the
+/// case reports such a key.
 void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
   constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
   if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
@@ -104,8 +105,7 @@ SweepPlan planned(const case_file::Case& c) {
   const case_file::FitRequest fit = c.fit.value_or(case_file::FitRequest{});
   SweepPlan plan;
   plan.case_path = c.path;
-  plan.below = fit.below;
-  plan.above = fit.above;
+  plan.outside = fit.outside;
   if (fit.file)
     plan.fit = lubrication::read_fit(*fit.file);
   else if (fit.exact)
@@ -119,14 +119,10 @@ SweepPlan planned(const case_file::Case& c) {
   }
   plan.samples = request.samples;
   plan.models = request.models;
-  if (plan.models.empty()) plan.models = {"inertial", "viscous_contact"};
+  if (plan.models.empty())
+    for (const auto& model : reduced_model::sweep_models()) plan.models.emplace_back(model.name);
   plan.reference = request.reference;
   return plan;
-}
-
-std::string default_reference(const std::vector<std::string>& models) {
-  const bool has_inertial = std::ranges::find(models, "inertial") != models.end();
-  return has_inertial ? "inertial" : models.front();
 }
 
 std::uint64_t sweep_size(const SweepPlan& plan) {
@@ -146,7 +142,7 @@ Sweep::Sweep(SweepPlan plan) : plan_(std::move(plan)), case_(plan_.case_path) {
   if (plan_.variations.empty()) throw Error(ErrorKind::kWrongUsage, "the sweep varies no key");
   if (plan_.fit.basis.empty())
     throw Error(ErrorKind::kWrongUsage, "the sweep has no fit of the drag");
-  if (plan_.reference.empty()) plan_.reference = default_reference(plan_.models);
+  if (plan_.reference.empty()) plan_.reference = reduced_model::reference_of(plan_.models);
   std::vector<std::string> keys;
   for (const auto& variation : plan_.variations) keys.push_back(variation.key);
   refuse_doubles(keys, "the key");
@@ -174,14 +170,14 @@ case_file::Case Sweep::case_at(std::uint64_t index) const {
     if (!lubrication::is_exact_plane(plan_.fit) && c.radius != plan_.fit.radius)
       throw_bad_input(
           {plan_.case_path.string()},
-          fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is of one "
-                      "radius, so that the radius can be varied with the exact drag only",
+          fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is valid for "
+                      "one radius only, and only the exact drag allows other radii",
                       c.radius, plan_.fit.radius));
     return c;
   } catch (const Error& error) {
     std::string values;
     for (const auto& [key, value] : numbers) values += fmt::format(" {} = {}", key, value);
-    throw Error(error.kind(), fmt::format("{}, with{}", error.what(), values));
+    throw Error(error.kind(), fmt::format("{} (at the point{})", error.what(), values));
   }
 }
 
@@ -201,7 +197,7 @@ std::string Sweep::row(std::uint64_t index, const StopToken& stop) const {
     const lubrication::Fit fit = lubrication::is_exact_plane(plan_.fit)
                                      ? lubrication::exact_plane_fit(c.viscosity, c.radius)
                                      : lubrication::with_viscosity(plan_.fit, c.viscosity);
-    const lubrication::LubricationForce force(fit, plan_.below, plan_.above);
+    const lubrication::LubricationForce force(fit, plan_.outside);
     reduced_model::Motion motion = case_file::required_motion(c);
     motion.stop = stop;
     for (const auto& model : plan_.models) {
@@ -241,7 +237,7 @@ std::uint64_t run_sweep(
     const std::function<void(std::uint64_t index, const std::string& row)>& take,
     const StopToken& stop) {
   const std::uint64_t size = sweep_size(sweep.plan());
-  // No thread computes rows further ahead of the last row taken than this, which limits the memory.
+  // At most so many rows are begun and not yet taken. This limits the memory.
   const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
   std::mutex mutex;
   std::condition_variable row_taken;

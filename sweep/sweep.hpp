@@ -1,5 +1,6 @@
-// A sweep: one case is run with many values of its numbers, and each run gives a row of results.
-// Lengths, masses and times are in the units of the case.
+// A sweep: a case is run many times with other values of its keys, and each run gives a row of
+// results (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change
+// of the columns must keep their names, because scripts of users read them.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +19,16 @@ namespace viscontact::sweep {
 /// What is computed at each point of a sweep.
 struct SweepPlan {
   std::filesystem::path case_path;
-  lubrication::Fit fit;  ///< multiplied by the viscosity of each point over that of the fit
-  lubrication::BelowInterval below = lubrication::BelowInterval::kError;
-  lubrication::AboveInterval above = lubrication::AboveInterval::kError;
+  lubrication::Fit fit;  ///< each point multiplies it by its viscosity over that of the fit
+  lubrication::OutsideInterval outside;
   std::vector<Variation> variations;  ///< at least one
   /// Number of random points; 0: the whole grid.
   std::uint64_t samples = 0;
   /// Seed of the random points.
   std::uint64_t seed = 1;
   std::vector<std::string> models;  ///< at least one
-  /// The model with which the others are compared, one of `models`; empty: default_reference.
+  /// The model with which the others are compared, one of `models`; empty:
+  /// reduced_model::reference_of.
   std::string reference;
 };
 
@@ -36,9 +37,6 @@ struct SweepPlan {
 /// the fit file cannot be read.
 SweepPlan planned(const case_file::Case& c);
 
-/// "inertial" if it is one of the models, otherwise the first model.
-std::string default_reference(const std::vector<std::string>& models);
-
 /// Number of points of a sweep.
 std::uint64_t sweep_size(const SweepPlan& plan);
 
@@ -46,7 +44,7 @@ std::uint64_t sweep_size(const SweepPlan& plan);
 /// [L], MODEL.minimal_gap_time [T], MODEL.film (recovered from gamma) [L], MODEL.contact_from [T],
 /// MODEL.contact_until [T], MODEL.sup_gap_distance, MODEL.l1_gap_distance,
 /// MODEL.l1_velocity_distance (distances to the reference), MODEL.film_ratio (thinnest film over
-/// that of the reference), MODEL.steps; at last `failure`.
+/// that of the reference), MODEL.steps; and finally `failure`.
 std::vector<std::string> sweep_columns(const SweepPlan& plan);
 
 /// Computes rows of a sweep, in any order and on any thread.
@@ -61,7 +59,7 @@ class Sweep {
 
   const SweepPlan& plan() const { return plan_; }
 
-  /// The varied numbers of a point as CSV fields, with which its row begins.
+  /// The values of the varied keys at a point, as the CSV fields with which its row begins.
   std::string key_fields(std::uint64_t index) const;
 
   /// The row of a point as a line of CSV. The fields of a model that fails are empty, and `failure`
@@ -78,9 +76,9 @@ class Sweep {
 };
 
 /// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
-/// Ends early if `stop` requests it or if `take` throws; that exception is thrown again. The memory
-/// that it needs does not grow with the number of rows. Returns the number of the last row taken
-/// plus 1.
+/// Ends early if `stop` requests it, or if `take` throws; then throws the same exception. The
+/// memory that it needs does not grow with the number of rows. Returns the index of the last row
+/// taken plus 1, or `begin` if none was taken.
 std::uint64_t run_sweep(
     const Sweep& sweep, std::uint64_t begin, int jobs,
     const std::function<void(std::uint64_t index, const std::string& row)>& take,

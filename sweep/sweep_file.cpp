@@ -1,5 +1,5 @@
-// Writes, resumes and reads the file of a sweep (sweep_file.hpp). A change of what determines the
-// rows must change identity_of, so that rows of another sweep are not kept.
+// Writes, continues and reads the file of a sweep (sweep_file.hpp). Everything that determines the
+// rows must go into identity_of, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,8 @@ std::string identity_of(const SweepPlan& plan) {
   }
   return sha256(fmt::format("{}{}{}{}{}{}{}", text, plan.samples, plan.samples > 0 ? plan.seed : 0,
                             fmt::join(plan.models, ","), plan.reference,
-                            static_cast<int>(plan.below), static_cast<int>(plan.above)));
+                            static_cast<int>(plan.outside.below),
+                            static_cast<int>(plan.outside.above)));
 }
 
 std::string header_of(const SweepPlan& plan, const std::string& version) {
@@ -55,14 +56,14 @@ std::string header_of(const SweepPlan& plan, const std::string& version) {
 
 constexpr std::string_view kHowMade = "# provenance: ";
 
-/// Finished rows of this sweep after the header, and the number of bytes up to the end of the last
-/// of them. Nothing if the file does not begin with this header.
+/// The number of finished rows of this sweep after the header, and the number of bytes up to the
+/// end of the last of these rows. Nothing if the file does not begin with this header.
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
 std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Sweep& sweep) {
   std::ifstream file(path, std::ios::binary);
-  // The provenance line does not influence the rows, so that it may differ.
+  // The provenance line may differ, because it does not influence the rows.
   std::string first;
   if (!std::getline(file, first) || !first.starts_with(kHowMade)) {
     file.clear();
@@ -78,7 +79,7 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
   Kept kept{0, header_at + header.size()};
   std::string line;
   // After a power cut a file may contain anything after the last row that was flushed to disk.
-  // Reading therefore stops at the first line that is no row of this sweep.
+  // Reading therefore stops at the first line that is not a row of this sweep.
   while (kept.rows < size && std::getline(file, line) && !file.eof() &&
          line.starts_with(sweep.key_fields(kept.rows) + ",") &&
          std::ranges::count(line, ',') == separators) {
@@ -104,7 +105,9 @@ std::uint64_t write_sweep(
   part += ".part";
   if (part.has_parent_path()) make_folder(part.parent_path());
   const Descriptor file = open_and_lock(
-      part, "is locked by another sweep into the same file; wait for it, or write elsewhere");
+      part,
+      "is locked by another sweep that writes the same file; wait until it has ended, or write "
+      "elsewhere");
   auto kept = kept_rows(part, header, sweep);
   // Removes an incomplete last row, or all rows of another plan.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
@@ -134,14 +137,16 @@ std::uint64_t write_sweep(
   try {
     taken = run_sweep(sweep, kept->rows, jobs, take, stop);
   } catch (...) {
-    write();  // finished rows are kept whatever ended the sweep
+    write();  // finished rows are kept, whatever error ended the sweep
     throw;
   }
   write();
   if (taken < size)
-    throw Error(ErrorKind::kInterrupted,
-                fmt::format("interrupted; {} of {} rows are kept in {}: the same command goes on",
-                            taken, size, part.string()));
+    throw Error(
+        ErrorKind::kInterrupted,
+        fmt::format(
+            "interrupted; {} of {} rows are kept in {}; the same command continues from there",
+            taken, size, part.string()));
   sync_file(file, part);
   std::error_code error;
   fs::rename(part, target, error);

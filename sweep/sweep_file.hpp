@@ -1,5 +1,5 @@
-// The CSV file of a sweep. It is written row by row, and a sweep that was interrupted goes on where
-// it stopped.
+// The CSV file of a sweep (docs/file-formats.md). It is written row by row, so that a later call
+// can continue an interrupted sweep after its last row.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace viscontact::sweep {
 
-/// Computes the missing rows of a sweep and writes them into a CSV file. Until all rows are there,
-/// they are in PATH.part, in order. A later call keeps the rows in that file if they belong to the
-/// same case, fit, plan and version, and otherwise deletes them. A finished file of the same sweep
-/// is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the head of a new
-/// file. `progress(done, size)` is called after each row.
+/// Computes the missing rows of a sweep and writes them into a CSV file. Until all rows are
+/// finished, they are in PATH.part, in order. A later call keeps the rows in that file if they
+/// belong to the same case, fit, plan and version, and otherwise deletes them. A finished file of
+/// the same sweep is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the
+/// head of a new file. `progress(done, size)` is called after each row.
 ///
 /// Throws Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if a file cannot be
 /// written or another process writes the same file. Returns the number of rows that were computed.
@@ -25,7 +25,7 @@ std::uint64_t write_sweep(
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
     const StopToken& stop = {});
 
-/// How the points of a finished sweep ended.
+/// How many points of a finished sweep have results, and why others have none.
 struct SweepOutcome {
   std::uint64_t points = 0;
   std::uint64_t without_result = 0;  ///< number of points at which every model failed
@@ -35,7 +35,7 @@ struct SweepOutcome {
   std::string first_failure;
 };
 
-/// Reads how the points ended from the finished file of a sweep with this plan. Throws
+/// Reads from the finished file of a sweep with this plan how many points have results. Throws
 /// Error(kBadInput) if the file cannot be read.
 SweepOutcome read_outcome(const SweepPlan& plan, const std::filesystem::path& path);
 

@@ -1,5 +1,5 @@
-// Ranges, grids and random points (variation.hpp). A change must keep the values bit for bit,
-// because a sweep that goes on compares them with the rows that it has.
+// Reads ranges, and computes the points of grids and random points (variation.hpp). A change must
+// keep the values bit for bit, because a sweep that continues compares them with its finished rows.
 #include "viscontact/sweep/variation.hpp"
 
 #include <fmt/format.h>
@@ -58,8 +58,8 @@ double Variation::at(double share) const {
   if (!values.empty())
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
   if (!logarithmic) return std::lerp(first, last, share);
-  // The logarithms are interpolated, because the ratio of the ends may overflow. Rounding errors
-  // must not lead outside the range.
+  // The logarithms are interpolated, because the ratio of the ends may overflow. The result is
+  // clamped, because rounding errors must not lead outside the range.
   const double size =
       std::exp(std::lerp(std::log(std::abs(first)), std::log(std::abs(last)), share));
   const double a = std::abs(first), b = std::abs(last);
@@ -94,7 +94,7 @@ Variation parse_variation(std::string_view text) {
   variation.count = static_cast<std::uint64_t>(count);
   if (variation.logarithmic && (variation.first == 0 || variation.last == 0 ||
                                 std::signbit(variation.first) != std::signbit(variation.last)))
-    refuse(text, "a logarithmic range must not reach 0 or change sign");
+    refuse(text, "a logarithmic range must not contain 0 or change sign");
   return variation;
 }
 

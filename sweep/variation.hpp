@@ -1,5 +1,5 @@
-// What a sweep varies: keys of a case, and the values of each key in the unit that it has in the
-// case.
+// The keys of a case that a sweep varies, and the values of each key, in the unit that the key has
+// in the case.
 #pragma once
 
 #include <cstdint>
@@ -23,22 +23,25 @@ struct Variation {
   /// Value i, 0 <= i < count.
   double value(std::uint64_t i) const;
 
-  /// The value at the fraction `share` of the range, 0 <= share < 1; of a list, the element at that
-  /// fraction of its length.
+  /// The value at the fraction `share` of the way from `first` to `last`, 0 <= share < 1, measured
+  /// in the logarithm if `logarithmic`. In a list of n values, the element floor(n share).
   double at(double share) const;
 };
 
 /// Reads "KEY=A:B:log:N", "KEY=A:B:N" (equal distances) or "KEY=V,V,...". "motion.mass" stands for
 /// "sphere.mass". Throws Error(kBadInput), which names the fault: the key is missing, a number is
-/// not finite, a logarithmic range contains 0 or changes sign, or N is no integer in [1, 1e9].
+/// not finite, a logarithmic range contains 0 or changes sign, or N is not an integer in [1, 1e9].
 Variation parse_variation(std::string_view text);
 
-/// The numbers of point `index` of the grid of all values. The last variation changes fastest.
+/// Keys and values of point `index` of the grid that combines every value of each variation with
+/// every value of the others. From one point to the next, the last variation changes first.
 std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variation>& variations,
                                                        std::uint64_t index);
 
-/// The numbers of random sample `index`. They are independent of each other, and always the same
-/// for a seed.
+/// Keys and values of random sample `index`. Each value is uniformly distributed over its range (in
+/// the logarithm, if the range is logarithmic) or over its list, and independent of all others.
+/// Equal arguments give equal values. A change must keep them bit for bit, because an interrupted
+/// sweep compares them with the rows that it has already written.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
                                                          std::uint64_t index, std::uint64_t seed);
 

@@ -1,5 +1,5 @@
-// Progress line and coloured messages by ANSI escape sequences; a terminal with TERM=dumb gets
-// none.
+// Progress line and coloured messages, made with ANSI escape sequences. No escape sequences are
+// written to a terminal with TERM=dumb.
 #include "viscontact/terminal/progress.hpp"
 
 #include <fmt/format.h>
@@ -36,8 +36,8 @@ bool ProgressTimer::is_due() {
 
 void clear_progress() { show_progress(""); }
 
-// Errors of fputs are ignored: if standard error is closed or full, only the message is lost, and
-// the work goes on.
+// Errors of fputs are ignored: if standard error is closed or full, the message is lost, but the
+// work continues.
 void say(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
 
 void warn(const std::string& text) {

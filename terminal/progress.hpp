@@ -1,5 +1,5 @@
-// Messages on standard error for a person at a terminal: a progress line, messages and words in
-// colour. Where standard error is no terminal, messages are plain text and progress is not shown.
+// What a person at a terminal sees on standard error: a progress line, and messages with coloured
+// words. If standard error is not a terminal, messages are plain text and progress is not shown.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ void clear_progress();
 /// Writes a line to standard error.
 void say(const std::string& text);
 
-/// Writes a line to standard error, in which the word "warning:" is yellow.
+/// Writes a line to standard error, with its first word "warning:" in yellow.
 void warn(const std::string& text);
 
 /// Writes an error message to standard error, with its first word in red.
@@ -39,8 +39,8 @@ void complain(const std::string& text);
 enum class Colour { kRed = 31, kGreen = 32, kYellow = 33 };
 
 /// Returns the word in colour if the file descriptor is a terminal that understands escape
-/// sequences and the variable NO_COLOR (no-color.org) is not set or empty; otherwise the word as it
-/// is.
+/// sequences and the environment variable NO_COLOR (no-color.org) is either unset or empty.
+/// Otherwise returns the word unchanged.
 std::string coloured(std::string_view word, Colour colour, int descriptor);
 
 }  // namespace viscontact::terminal

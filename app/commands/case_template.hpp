@@ -1,5 +1,5 @@
-// The case with comments that `viscontact init` writes; CMake makes the source from
-// case_template.toml.
+// The commented case that `viscontact init` writes. CMake makes its source from case_template.toml;
+// a change must keep all values of that file valid, because users run it as it is.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // The command `doctor`: checks which programs are installed, says how to install missing ones, and
-// compares a small problem that FreeFEM solves with its exact value.
+// compares a drag factor that FreeFEM computes with its exact value. --json prints the same.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
@@ -30,9 +30,9 @@ struct Finding {
 
 using Report = std::function<void(const Finding&)>;
 
-/// Solves a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so wide
-/// that it changes the drag factor by less than 1e-4. kBrenner is the drag factor by the series of
-/// Brenner (1961).
+/// Computes a row whose exact value is known: a gap of 0.1 radii over a plane, in a container so
+/// wide that it changes the drag factor by less than 1e-4. kBrenner is the exact drag factor, from
+/// the series of Brenner (1961).
 Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
   constexpr double kBrenner = 11.45915720340955722964;
   constexpr double kTolerance = 1e-4;
@@ -50,7 +50,7 @@ Finding solve_known_row(const freefem_axi::FreeFem& freefem) {
 void examine_freefem(const Report& report) {
   try {
     auto freefem = freefem_axi::default_freefem(interrupt_token());
-    // The row takes about a second, so the shorter time limit is enough.
+    // The row takes about a second, so the time limit of a version query is long enough.
     freefem.row_limit = freefem.version_limit;
     report(
         {true, fmt::format("FreeFEM {} ({}; scripts in {})", freefem_axi::freefem_version(freefem),

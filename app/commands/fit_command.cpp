@@ -1,13 +1,15 @@
-// Options of `fit` (fits of a table, comparison of bases), `shift` (of a rough wall) and `export`
-// (a fit as code or numbers).
+// The command lines of `fit` (fits a formula to a table, or compares bases), `shift` (finds the
+// shift of a rough wall) and `export` (writes a fit as code or numbers). docs/command-line.md
+// describes them, docs/theory.md the fit. The texts given to refuse_other_kind are parts of the
+// written files, by which a file of another kind is recognised; they must agree with the writers.
 #include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
@@ -20,9 +22,10 @@
 namespace viscontact::app {
 namespace {
 
-/// Reads the value of --fix, which fixes the leading coefficient. No value, "1/q" or "theory" fixes
-/// it at its value by lubrication theory; "1/q=56.5" fixes it at 56.5. Throws Error(kWrongUsage)
-/// for any other value.
+/// Reads the value of --fix, which fixes the coefficient of 1/q in the force at the table's first
+/// velocity [M L^2/T^2]. No value, "1/q" or "theory" fixes it at the value that lubrication theory
+/// gives (docs/theory.md); "1/q=56.5" fixes it at 56.5. Throws Error(kWrongUsage) for any other
+/// value.
 void read_fix(const std::string& word, fitting::FitSettings& settings) {
   settings.fix_leading = true;
   if (word.empty() || word == lubrication::kLeadingTerm || word == "theory") return;
@@ -32,13 +35,15 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
   if (!settings.leading_value)
     throw Error(
         ErrorKind::kWrongUsage,
-        fmt::format("--fix is '{}'; it must be 1/q (theory's coefficient) or 1/q=NUMBER", word));
+        fmt::format("--fix is '{}'; it must be 1/q or theory (the value of theory), or 1/q=NUMBER",
+                    word));
 }
 
 struct FitOptions {
-  std::string table, fit, basis = "lecture", terms, weights = "relative", loss = "none", fix, plot;
+  std::string basis{lubrication::default_basis().name};
+  std::string table, fit, terms, weights = "relative", loss = "none", fix, plot;
   bool compare_bases = false, json = false;
-  /// The options --output, --terms and --fix, which know whether they were given.
+  /// CLI11's objects of --output, --terms and --fix, which tell whether an option was given.
   const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr;
 };
 
@@ -98,8 +103,8 @@ void add_fit(CLI::App& app) {
             "residuals: relative to the force, or absolute")
       ->capture_default_str();
   add_value(*command, "--loss", o->loss, "none|huber|cauchy",
-            "how large residuals count: none (least squares), or one of the robust losses huber "
-            "and cauchy, which name the outliers")
+            "weight of large residuals: none (least squares), or a robust loss, huber or cauchy, "
+            "with which outliers are listed")
       ->capture_default_str();
   o->fix_option =
       add_value(
@@ -107,12 +112,13 @@ void add_fit(CLI::App& app) {
           "fix the coefficient of 1/q in the force at the table's first velocity: at theory's "
           "value, or with 1/q=VALUE at this value")
           ->expected(0, 1);
-  auto* bases = command->add_flag("--compare-bases", o->compare_bases,
-                                  "print every basis side by side, and draw their residuals");
+  auto* bases =
+      command->add_flag("--compare-bases", o->compare_bases,
+                        "print the fits in all bases side by side, and draw their residuals");
   add_json(*command, o->json)->needs(bases);
   add_value(*command, "--plot", o->plot, kFile,
-            "picture of --compare-bases (SVG); default: a file beside the fit; without a fit, "
-            "TABLE.bases.svg in the present folder");
+            "picture of --compare-bases (SVG); default: FIT.bases.svg beside the fit, or without a "
+            "fit TABLE.bases.svg in the current folder");
   command->callback([o] { fit_table(*o); });
 }
 
@@ -121,7 +127,7 @@ void add_shift(CLI::App& app) {
     std::string table, fit, shift, plot;
   };
   auto* command = app.add_subcommand(
-      "shift", "fit how far below its crests a rough wall acts like a smooth one");
+      "shift", "fit the depth below a rough wall's crests at which a smooth wall has equal drag");
   auto o = std::make_shared<Options>();
   add_value(*command, "TABLE", o->table, kFile, "the rough wall's table (CSV)")->required();
   add_value(*command, "--fit", o->fit, kFile, "fit of the smooth wall's force (JSON)")->required();

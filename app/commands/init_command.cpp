@@ -1,10 +1,10 @@
-// Writes the case and prints the next commands for it.
+// The command `init`: writes a commented case and prints the command that runs it.
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/case_template.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/common/error.hpp"
@@ -15,7 +15,7 @@
 namespace viscontact::app {
 
 void add_init(CLI::App& app) {
-  auto* command = app.add_subcommand("init", "write a case with comments to begin with");
+  auto* command = app.add_subcommand("init", "write a commented case as a starting point");
   auto file = std::make_shared<std::string>();
   add_value(*command, "CASE", *file, kFile,
             "case file to write (TOML); a file that exists is not replaced")
@@ -27,7 +27,7 @@ void add_init(CLI::App& app) {
       throw_bad_input({*file}, "exists and is not replaced; remove it first, or write elsewhere");
     write_file(path, case_template());
     // A name that begins with "-" is written as "./-...", so that it is not read as an option.
-    const auto named = [](std::string name) {
+    const auto named = [](const std::string& name) {
       return shell_word(name.starts_with('-') ? "./" + name : name);
     };
     auto results = path;

@@ -1,10 +1,11 @@
-// Options of `particles`.
+// The command line of `particles` (docs/command-line.md). The work is done in
+// pipeline/particles/particles_stage.hpp.
 #include <memory>
 #include <string>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/pipeline/particles/particles_stage.hpp"
 
 namespace viscontact::app {
@@ -19,7 +20,7 @@ void add_particles(CLI::App& app) {
       ->required();
   add_value(*command, "--restart", o->restart, kFile,
             "restart.bin of a run to be continued with the case's forces, planes and end_time");
-  add_jobs(*command, o->threads, "threads; the results do not depend on it");
+  add_jobs(*command, o->threads, "number of threads; the results do not depend on it");
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});

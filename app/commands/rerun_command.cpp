@@ -5,13 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -33,11 +34,11 @@ struct RerunOptions {
 /// itself is refused, and so are the options by which a file could make this program run other
 /// programs (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
-  constexpr std::string_view kWriting[] = {"run",    "tabulate", "fit",   "export",
-                                           "shift",  "simulate", "sweep", "compare",
-                                           "report", "particles"};
+  constexpr auto kWriting =
+      std::to_array<std::string_view>({"run", "tabulate", "fit", "export", "shift", "simulate",
+                                       "sweep", "compare", "report", "particles"});
   const bool known =
-      command.size() > 1 && std::ranges::find(kWriting, command[1]) != std::end(kWriting);
+      command.size() > 1 && std::ranges::find(kWriting, command[1]) != kWriting.end();
   const auto is_refused = [](const std::string& word) {
     return word.find('\0') != std::string::npos || word.starts_with("--launcher") ||
            word.starts_with("--slurm-options");
@@ -46,8 +47,8 @@ void check_command(const std::string& file, const std::vector<std::string>& comm
     throw_bad_input({file}, "its line 'provenance' contains a command that 'rerun' does not run");
 }
 
-/// Where the value of an option stands in a command: index of the word, and position in this word
-/// at which the value begins.
+/// The place of an option's value in a command: index of a word, and position in this word at which
+/// the value begins.
 struct ValuePlace {
   std::size_t word = 0, begin = 0;
 };
@@ -73,8 +74,8 @@ std::string value_at(const std::vector<std::string>& command, const ValuePlace& 
 }
 
 /// The command of the provenance, changed so that it writes to `o.output`. Throws
-/// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder and
-/// is not.
+/// Error(kWrongUsage) if the command has no option for that, or if `o.output` must be a folder but
+/// is the name of a file.
 std::vector<std::string> with_output(const RerunOptions& o, const results::Provenance& provenance) {
   auto command = provenance.command;
   const auto put = [&](const ValuePlace& place) {
@@ -100,8 +101,9 @@ std::vector<std::string> with_output(const RerunOptions& o, const results::Prove
     }
     throw Error(
         ErrorKind::kWrongUsage,
-        fmt::format("the command that made {} ('{}') can write only to its own place; leave out -o",
-                    o.file, command[1]));
+        fmt::format(
+            "the command that made {} ('{}') has no option for another output; leave out -o",
+            o.file, command[1]));
   }
   const bool one_of_many = value_at(command, *output) != provenance.output;
   if (one_of_many && command[1] == "tabulate" && fs::path(provenance.output).extension() != ".csv")
@@ -206,10 +208,10 @@ void rerun(const RerunOptions& o) {
   }
   terminal::say("rerun: " + words);
   if (::chdir(folder.c_str()) != 0)
-    throw_bad_input({folder.string()}, fmt::format("the folder in which it was made cannot be "
-                                                   "entered ({})",
+    throw_bad_input({folder.string()}, fmt::format("the folder in which the file was made cannot "
+                                                   "be entered ({})",
                                                    std::strerror(errno)));
-  // The program that runs is started again, whatever name the recorded command has for it.
+  // This same program is started, not the one that the recorded command names.
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -228,10 +230,11 @@ void add_rerun(CLI::App& app) {
             "a file that Viscontact wrote: table, fit, trajectory, report, picture, ...")
       ->required();
   add_value(*command, "-o,--output", o->output, kFile,
-            "where to write everything anew; for one of the files of a run, a folder for all of "
-            "them; default: where the command wrote, and what is up to date there stays");
-  add_value(*command, "--folder", o->folder, kFolder,
-            "folder to run it in, for files that have moved; default: the folder it ran in");
+            "where to write all files again; for a file of a run, a folder for all files of the "
+            "run; default: where the command wrote, where files that are up to date are kept");
+  add_value(
+      *command, "--folder", o->folder, kFolder,
+      "folder to run the command in, if files have moved; default: the folder in which it ran");
   command->add_flag("--changed-inputs", o->changed_inputs,
                     "run the command although inputs have changed since");
   command->add_flag("--dry-run", o->dry_run, "print the command and do not run it");

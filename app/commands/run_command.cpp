@@ -1,13 +1,15 @@
-// Options of `run` (the main job) and of its last stages: `simulate`, `compare` and `report`.
+// The command lines of `run` (the main job) and of its last stages, `simulate`, `compare` and
+// `report` (docs/command-line.md). pipeline/ and report/ do the work. A command that writes into a
+// folder must keep the folder locked until it ends (LockedFolder).
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/compare_stage.hpp"
@@ -30,14 +32,14 @@ void add_run(CLI::App& app) {
   auto o = std::make_shared<Options>();
   add_value(*command, "CASE", o->case_file, kFile, "case file (TOML)")->required();
   add_value(*command, "-o,--output", o->folder, kFolder,
-            "folder for the results; what is up to date there is not made again")
+            "folder for the results; files in it that are up to date are not made again")
       ->required();
-  add_jobs(*command, o->jobs, "FreeFEM processes at once");
+  add_jobs(*command, o->jobs, "number of FreeFEM processes at once");
   add_json(*command, o->json);
   command->callback([o] {
     check_outputs({o->folder});
     const case_file::Case c = case_file::read_case(o->case_file);
-    const LockedFolder ours(o->folder, results::kFolderIsHeld);
+    const LockedFolder lock(o->folder, results::kFolderIsLocked);
     pipeline::run_stages(c, o->folder, o->jobs, o->json, interrupt_token());
   });
 }
@@ -66,27 +68,27 @@ void add_simulate(CLI::App& app) {
   auto* limit = add_value(*command, "--lubrication-limit", o->lubrication_limit, "fitted|theory",
                           "below the fit's smallest gap, let the drag grow as k/q instead "
                           "of ending with an error; k is the fitted value (default) or that "
-                          "of theory; default: what the key below in the case's [fit] says")
+                          "of theory; default: the key 'below' in the case's section [fit]")
                     ->check(one_of({"fitted", "theory"}))
                     ->expected(0, 1);
   command->add_flag(
       "--stokes-limit", o->stokes_limit,
       "above the fit's largest gap, let the drag fall to Stokes' drag instead of ending "
-      "with an error; default: what the key above in the case's [fit] says");
+      "with an error; default: the key 'above' in the case's section [fit]");
   command->callback([o, limit] {
     check_outputs({o->folder});
     check_models("--models", o->models);
     const case_file::Case c = case_file::read_case(o->case_file);
-    // Options that are not given are as in the case.
-    const case_file::FitRequest request = c.fit.value_or(case_file::FitRequest{});
-    pipeline::OutsideFit outside{request.below, request.above};
+    // For options that are not given, the case decides.
+    auto outside = c.fit.value_or(case_file::FitRequest{}).outside;
     if (limit->count() > 0)
       outside.below = o->lubrication_limit == "theory"
                           ? lubrication::BelowInterval::kTheoryLimit
                           : lubrication::BelowInterval::kLubricationLimit;
     if (o->stokes_limit) outside.above = lubrication::AboveInterval::kStokesLimit;
-    const LockedFolder ours(o->folder, results::kFolderIsHeld);
-    pipeline::simulate_stage(c, {o->fit, o->folder, o->models, outside, interrupt_token()});
+    const LockedFolder lock(o->folder, results::kFolderIsLocked);
+    pipeline::simulate_stage(
+        c, {o->fit, o->folder, o->models, outside, interrupt_token(), "give a fit with --fit"});
   });
 }
 
@@ -105,7 +107,7 @@ void add_compare(CLI::App& app) {
             "further trajectory files (CSV with columns time, gap, velocity)");
   add_value(*command, "--reference", o->reference, kModel,
             "model that the others are compared with")
-      ->default_str("inertial");
+      ->default_str(reduced_model::usual_reference());
   add_value(*command, "-o,--output", o->output, kFile,
             "comparison to write (JSON); default: DIR/comparison.json");
   add_json(*command, o->json);
@@ -114,11 +116,11 @@ void add_compare(CLI::App& app) {
                                              ? results::RunFolder{o->folder}.comparison()
                                              : std::filesystem::path(o->output);
     results::refuse_other_kind(output, "\"reference_model\"", "comparison");
-    std::optional<LockedFolder> ours;
+    std::optional<LockedFolder> lock;
     if (o->output.empty() && std::filesystem::is_directory(o->folder))
-      ours.emplace(o->folder, results::kFolderIsHeld);
+      lock.emplace(o->folder, results::kFolderIsLocked);
     pipeline::compare_stage(o->folder, {o->others.begin(), o->others.end()}, o->reference, output,
-                            {}, o->json);
+                            {}, o->json, interrupt_token());
   });
 }
 
@@ -128,8 +130,8 @@ void add_report(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   add_value(*command, "DIR", *folder, kFolder, "folder of a run")->required();
   command->callback([folder] {
-    std::optional<LockedFolder> ours;
-    if (std::filesystem::is_directory(*folder)) ours.emplace(*folder, results::kFolderIsHeld);
+    std::optional<LockedFolder> lock;
+    if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);
     report::write_report(*folder, {}, interrupt_token());
   });
 }

@@ -1,4 +1,5 @@
-// Options of `sweep`, the choice of what its picture shows, and the messages.
+// The command line of `sweep` (docs/command-line.md), the choice of what its picture shows, and the
+// messages. The rows are computed by sweep/.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,13 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/sweep_file.hpp"
@@ -31,8 +34,8 @@ struct SweepOptions {
   bool dry_run = false, json = false;
 };
 
-/// The plan of the sweep: options of the command line; where they are missing, the case's section
-/// [sweep].
+/// The plan of the sweep. Options of the command line decide; for those that are missing, the
+/// section [sweep] of the case decides.
 sweep::SweepPlan plan_of(const SweepOptions& o, const case_file::Case& c) {
   sweep::SweepPlan plan = sweep::planned(c);
   if (!o.fit.empty()) plan.fit = lubrication::read_fit(o.fit);
@@ -53,9 +56,10 @@ sweep::SweepPlan plan_of(const SweepOptions& o, const case_file::Case& c) {
   return plan;
 }
 
-/// What to draw, by the options of the command line. Where they are missing, the case's section
-/// [sweep] decides if the sweep has its keys and columns; otherwise the first varied keys are the
-/// axes and the smallest gaps are drawn. Throws Error(kWrongUsage) for a map of random samples.
+/// What to draw. Options of the command line decide. Where they are missing, the section [sweep] of
+/// the case decides, provided that the sweep has the keys and columns that it names; otherwise the
+/// first varied keys are the axes and the smallest gaps are drawn. Throws Error(kWrongUsage) if a
+/// map of random samples was asked for.
 report::SweepPlot picture_of(const SweepOptions& o, const case_file::Case& c,
                              const sweep::SweepPlan& plan) {
   const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
@@ -141,7 +145,7 @@ class Remaining {
   std::optional<std::uint64_t> first_;
 };
 
-/// Says which models failed, "; ... failed at 3 points"; empty if none failed at any point.
+/// Says at how many points models failed, "; ... failed at 3 points"; empty if no model failed.
 std::string failures_in_words(const sweep::SweepOutcome& outcome) {
   const auto points = [](std::uint64_t n) {
     return fmt::format("{} point{}", n, n == 1 ? "" : "s");
@@ -165,8 +169,8 @@ void run(const SweepOptions& o) {
     throw Error(ErrorKind::kWrongUsage, "there is nothing to vary; give --vary KEY=FROM:TO:COUNT");
   if (plan.fit.basis.empty())
     throw Error(ErrorKind::kWrongUsage,
-                "the case names no drag to run with (file or exact in its section [fit]); give a "
-                "fit with --fit");
+                "the drag is not given: the section [fit] of the case has neither 'file' nor "
+                "'exact'; give a fit with --fit");
   const sweep::Sweep sweep(std::move(plan));
   const report::SweepPlot picture =
       o.plot.empty() ? report::SweepPlot{} : picture_of(o, c, sweep.plan());
@@ -198,13 +202,13 @@ void run(const SweepOptions& o) {
   terminal::clear_progress();
   const auto size = sweep::sweep_size(sweep.plan());
   const auto outcome = sweep::read_outcome(sweep.plan(), o.output);
-  terminal::say(
-      (computed == 0
-           ? fmt::format("sweep: {} is up to date", o.output)
-           : fmt::format(
-                 "sweep: {} rows in {}{}", size, o.output,
-                 computed < size ? fmt::format(", {} of them from before", size - computed) : "")) +
-      failures_in_words(outcome));
+  terminal::say((computed == 0
+                     ? fmt::format("sweep: {} is up to date", o.output)
+                     : fmt::format("sweep: {} rows in {}{}", size, o.output,
+                                   computed < size ? fmt::format(", {} of them already computed",
+                                                                 size - computed)
+                                                   : "")) +
+                failures_in_words(outcome));
   if (outcome.without_result == outcome.points)
     throw Error(ErrorKind::kNotConverged,
                 fmt::format("{}: every model failed at every point; the column 'failure' says why, "
@@ -220,17 +224,18 @@ void run(const SweepOptions& o) {
 
 void add_sweep(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "sweep", "run a case with many values of its numbers, each of which gives a row of results");
+      "sweep",
+      "run a case many times with other values of its keys; each run gives a row of results");
   auto o = std::make_shared<SweepOptions>();
   add_value(*command, "CASE", o->case_file, kFile,
             "case file (TOML); its section [sweep] gives defaults for the options below")
       ->required();
   add_value(*command, "-o,--output", o->output, kFile,
-            "rows to write (CSV); an interrupted sweep goes on with the same command")
+            "rows to write (CSV); the same command continues an interrupted sweep")
       ->required();
   add_value(*command, "--vary", o->vary, "KEY=RANGE",
             "KEY=FROM:TO:log:COUNT, KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,...; KEY as in the case: "
-            "sphere.mass, motion.external_force[0].value; if repeated, the grid of all ranges")
+            "sphere.mass, motion.external_force[0].value; several --vary make a grid")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_value(*command, "--samples", o->samples, "N",
@@ -238,10 +243,11 @@ void add_sweep(CLI::App& app) {
       ->check(CLI::Range(1.0, 1e12));
   command->add_option("--seed", o->seed, "seed of the random points")->capture_default_str();
   add_value(*command, "--models", o->models, kModels,
-            "comma-separated; default: inertial,viscous_contact")
+            "comma-separated; default: " + names_of(reduced_model::sweep_models(), ","))
       ->delimiter(',');
   add_value(*command, "--reference", o->reference, kModel,
-            "model that the others are compared with; default: inertial, or the first");
+            fmt::format("model that the others are compared with; default: {}, or the first",
+                        reduced_model::usual_reference()));
   add_value(*command, "--fit", o->fit, kFile,
             "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
   add_value(*command, "--plot", o->plot, kFile,
@@ -253,7 +259,7 @@ void add_sweep(CLI::App& app) {
       *command, "--column", o->columns, "COLUMN,...",
       "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
       ->delimiter(',');
-  add_jobs(*command, o->jobs, "points at once");
+  add_jobs(*command, o->jobs, "number of points computed at once");
   auto* dry = command->add_flag("--dry-run", o->dry_run,
                                 "print how many rows there are and about how long they take");
   add_json(*command, o->json)->needs(dry);

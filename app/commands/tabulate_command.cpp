@@ -1,16 +1,21 @@
-// Options of `tabulate`, and the choice between tabulating here, in shares, by Slurm, and
-// gathering.
+// The command line of `tabulate` (docs/command-line.md), and the choice of what to do: compute all
+// rows here, compute the rows of one task, submit a job to Slurm, or gather the rows of such a job.
+// pipeline/tabulate/ does the work.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
-#include "viscontact/app/interrupt.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 #include "viscontact/pipeline/tabulate/slurm.hpp"
@@ -26,16 +31,59 @@ struct TabulateOptions {
   int jobs = default_jobs();
   std::size_t tasks = 0;
   bool gather = false, dry_run = false, json = false;
-  /// The options --jobs and --plot, which know whether they were given.
+  /// CLI11's objects of --jobs and --plot, which tell whether an option was given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
 };
+
+/// Reads the K/T of --task. Throws Error(kWrongUsage) unless these are integers with 0 <= K < T.
+pipeline::Share read_share(const std::string& text) {
+  pipeline::Share share;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, share.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto count = std::from_chars(number.ptr + 1, end, share.count);
+    if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
+  }
+  throw Error(ErrorKind::kWrongUsage,
+              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
+}
+
+/// Reads the gaps of --plot. Throws Error(kWrongUsage) for a word that is not a number.
+std::vector<double> read_gaps(const std::string& text) {
+  std::vector<double> gaps;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto gap = parse_number(word);
+    if (!gap)
+      throw Error(
+          ErrorKind::kWrongUsage,
+          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
+                      word));
+    gaps.push_back(*gap);
+  }
+  return gaps;
+}
+
+/// Calls `call`. The message of an Error for missing rows or of Slurm is followed by `remedy`,
+/// which names the options that help.
+template <class Call>
+void with_remedy(std::string_view remedy, const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNotConverged && error.kind() != ErrorKind::kExternalProgram)
+      throw;
+    throw Error(error.kind(), fmt::format("{}; {}", error.what(), remedy));
+  }
+}
 
 void tabulate_cases(const TabulateOptions& o) {
   const bool slurm = o.launcher == "slurm";
   if (!slurm && (o.tasks > 0 || !o.slurm_options.empty()))
     throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
   check_outputs({o.output});
-  const auto share = o.task.empty() ? pipeline::Share() : pipeline::parse_share(o.task);
+  const auto share = o.task.empty() ? pipeline::Share() : read_share(o.task);
+  const auto gaps = read_gaps(o.plot);
   const auto tables = pipeline::read_case_tables(o.case_files, o.output);
   for (const auto& one : tables)
     results::refuse_other_kind(one.table.string(), "# case: ", "table");
@@ -43,7 +91,8 @@ void tabulate_cases(const TabulateOptions& o) {
   std::vector<std::vector<double>> pictures;
   if (o.plot_option->count() > 0)
     for (const auto& one : tables) {
-      pictures.push_back(pipeline::gaps_to_picture(one.tabulation(), o.plot));
+      pictures.push_back(
+          with_place("--plot", [&] { return pipeline::gaps_to_picture(one.tabulation(), gaps); }));
       pipeline::check_pictures(pictures.back(), pipeline::picture_folder(one.table));
     }
   if (o.dry_run) {
@@ -53,12 +102,19 @@ void tabulate_cases(const TabulateOptions& o) {
     return;
   }
   if (slurm)
-    pipeline::submit_to_slurm(
-        tables, {o.output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
-                 o.jobs_option->count() > 0 ? std::optional(o.jobs) : std::nullopt, o.slurm_options,
-                 interrupt_token()});
+    with_remedy("see --slurm-options, --tasks, or leave out --launcher slurm", [&] {
+      pipeline::submit_to_slurm(tables,
+                                {o.output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
+                                 o.jobs_option->count() > 0 ? std::optional(o.jobs) : std::nullopt,
+                                 o.slurm_options, interrupt_token()});
+    });
   else if (o.gather)
-    pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
+    with_remedy(
+        "the same command without --gather computes the missing rows here, or with --launcher "
+        "slurm or --task elsewhere",
+        [&] {
+          pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
+        });
   else if (!o.task.empty())
     pipeline::share_stage(tables, share, o.jobs, interrupt_token());
   else
@@ -79,8 +135,8 @@ void add_tabulate(CLI::App& app) {
   add_value(*command, "-o,--output", o->output, kFile,
             "table to write (CSV); for several cases, a folder in which each gets CASE.csv")
       ->required();
-  o->jobs_option =
-      add_jobs(*command, o->jobs, "FreeFEM processes at once; in each Slurm task: 1 unless given");
+  o->jobs_option = add_jobs(*command, o->jobs,
+                            "number of FreeFEM processes at once; default in each Slurm task: 1");
   auto* launcher = add_value(*command, "--launcher", o->launcher, "local|slurm",
                              "local: compute here; slurm: submit an array job")
                        ->check(one_of({"local", "slurm"}))
@@ -94,8 +150,8 @@ void add_tabulate(CLI::App& app) {
   auto* gather = command->add_flag(
       "--gather", o->gather, "write the tables from the rows of an array job, and compute no row");
   auto* task = command->add_option("--task", o->task,
-                                   "K/T: compute rows K, K+T, ... only, and write no table (what "
-                                   "the array job's tasks do)");
+                                   "K/T: compute only the rows K, K+T, ..., and write no table (as "
+                                   "each task of the array job does)");
   auto* plot =
       add_value(
           *command, "--plot", o->plot, "[GAP,GAP,...]",

@@ -1,4 +1,5 @@
-// Writes the scripts; texts of options are quoted for the shell.
+// Writes the completion scripts for bash and zsh (completion.hpp). Texts of options must pass
+// through zsh_description() and quoted(), because they contain special characters.
 #include "viscontact/app/help/completion.hpp"
 
 #include <fmt/format.h>
@@ -6,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "viscontact/app/command_options.hpp"
+#include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -35,7 +36,7 @@ std::vector<std::string> words_for(const CLI::Option& option) {
   return CLI::detail::split(type, '|');
 }
 
-/// Bash code that offers the possible values of the option; empty if there are none to offer.
+/// Bash code that offers the possible values of the option; empty if they are not known.
 std::string bash_offer(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type == kFile) return "_viscontact_files";

@@ -1,5 +1,5 @@
-// Scripts for shells that complete the command line. They are made from the options as CLI11 has
-// them, so that they always agree with --help.
+// Scripts by which shells complete the command line. They are made from CLI11's list of options, so
+// that they always agree with --help.
 #pragma once
 
 #include <string>

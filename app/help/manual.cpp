@@ -1,5 +1,5 @@
-// Exit codes, environment variables and options in roff. help2man cannot make this page, because it
-// reads one --help, and each command has its own.
+// Writes the manual page, with options, exit codes and environment variables, in the language roff.
+// help2man cannot make this page, because it reads one --help, and each command has its own.
 #include "viscontact/app/help/manual.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
-// The manual page. It is made from the options as CLI11 has them, so that it always agrees with
-// --help.
+// The manual page. It is made from CLI11's list of options, so that it always agrees with --help.
 #pragma once
 
 #include <string>

@@ -1,10 +1,10 @@
 // Reads and writes files with POSIX calls (file.hpp). A change must keep the order write, fsync,
-// rename, fsync of the folder, on which safety at a power cut depends.
+// rename, fsync of the folder, because only in this order does a power cut leave either the old or
+// the new file.
 #include "viscontact/common/files/file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstring>
 #include <string_view>
 #include <system_error>
@@ -45,7 +46,8 @@ void remove_left_behind(const std::filesystem::path& place) {
     const auto number = std::from_chars(name.data() + front.size(), end, process);
     if (number.ec != std::errc() || number.ptr != end || process <= 0) continue;
     if (::kill(process, 0) == 0 || errno != ESRCH) continue;
-    // On a shared disk the file may belong to a process of another machine, which has locked it.
+    // On a shared disk the file may belong to a process on another machine. That process has locked
+    // it.
     const Descriptor file(::open(entry.path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
     if (file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       ::unlink(entry.path().c_str());
@@ -100,7 +102,7 @@ void sync_folder_of(const std::filesystem::path& path) {
 std::filesystem::path check_output_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
-  // A link remains a link: the file that it points to is replaced.
+  // A symbolic link is kept; the file that it points to is replaced.
   fs::path place = path;
   if (fs::is_symlink(fs::symlink_status(path, error))) {
     place = fs::weakly_canonical(path, error);
@@ -120,7 +122,7 @@ std::filesystem::path check_output_file(const std::filesystem::path& path) {
 void write_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path place = check_output_file(path);
   if (place.has_parent_path()) make_folder(place.parent_path());
-  // The process number in the name keeps apart two runs that write the same file.
+  // The process number in the name keeps the files of two processes that write to `path` apart.
   const std::filesystem::path beside =
       place.string() + fmt::format("{}{}{}", kUnfinishedOf, ::getpid(), kUnfinished);
   try {

@@ -1,5 +1,5 @@
-// Reads and writes whole files. A file is written under another name and renamed, so that a reader
-// never sees a part of it.
+// Reads and writes whole files. A file is written under another name and then renamed, so that a
+// reader never sees a file that is only partly written.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,13 @@ std::string read_file(const std::filesystem::path& path);
 /// Replaces the file at `path` by `content` in one step: writes a new file in the same folder,
 /// flushes it to disk and renames it. Makes missing parent folders. Removes files
 /// NAME.viscontact-PID.tmp that killed processes have left. Throws Error(kBadInput), which names
-/// the path; an old file is then unchanged.
+/// the path. An old file is then unchanged, unless the error came from flushing the folder, after
+/// the new file had taken its place.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The file that write_file would replace: `path`, or what it links to. Throws Error(kBadInput) if
-/// this exists and is no regular file. Called before a long computation, so that it is not lost.
+/// this exists and is not a regular file. Call it before a long computation, so that the result is
+/// not lost because it cannot be written.
 std::filesystem::path check_output_file(const std::filesystem::path& path);
 
 /// Makes a folder and its parents. Throws Error(kBadInput) if it cannot be made.

@@ -1,4 +1,5 @@
-// Opens, locks and appends with POSIX calls (locked_file.hpp).
+// Opens, locks (flock) and appends with system calls (locked_file.hpp). The lock must remain an
+// flock, because row_record.cpp locks the same files.
 #include "viscontact/common/files/locked_file.hpp"
 
 #include <fcntl.h>
@@ -15,20 +16,21 @@
 namespace viscontact {
 namespace {
 
-/// Throws Error(kBadInput): `path` cannot be opened for writing. Nothing has been written to it.
+/// Throws Error(kBadInput), which says that `path` cannot be written. Used if the file could not be
+/// opened; the message then says nothing of finished rows, because none have been written.
 [[noreturn]] void throw_not_opened(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()}, fmt::format("cannot be written ({})", std::strerror(code)));
 }
 
 [[noreturn]] void throw_not_written(const std::filesystem::path& path, int code) {
   throw_bad_input({path.string()},
-                  fmt::format("cannot be written ({}); finished rows are kept, the same command "
-                              "goes on from there",
+                  fmt::format("cannot be written ({}); finished rows are kept, and the same "
+                              "command continues from there",
                               std::strerror(code)));
 }
 
 /// True if `path` still names the file that is open as `file`. The process that had the lock may
-/// have removed its file while this process waited for the lock.
+/// have removed the file after this process opened it and before this process locked it.
 bool is_still_at(int file, const std::filesystem::path& path) {
   struct stat opened = {};
   struct stat there = {};

@@ -12,7 +12,7 @@ namespace viscontact {
 /// Opens a file for reading and appending, makes it if it does not exist, and locks it against
 /// other processes that lock it in the same way, until it is closed. Throws Error(kBadInput), which
 /// names the path, if the file cannot be opened, or if another process has locked it; then the
-/// error ends with `message`. A file system without locks is no error.
+/// error ends with `message`. It is not an error if the file system has no locks.
 Descriptor open_and_lock(const std::filesystem::path& path, const std::string& message);
 
 /// Writes the whole text at the end of the file. Throws Error(kBadInput), which names the path.

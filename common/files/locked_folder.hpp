@@ -10,8 +10,8 @@ namespace viscontact {
 
 /// Locks a folder against other processes that lock it in the same way, until this object is
 /// destroyed. A folder that does not exist is made, and removed at the end if it is still empty.
-/// The lock is on the folder itself, so that no lock file is left. A file system without locks is
-/// no error.
+/// The lock is on the folder itself, so that no lock file is left. It is not an error if the file
+/// system has no locks.
 class LockedFolder {
  public:
   /// Throws Error(kBadInput), which names the path, if the folder cannot be made, or if another

@@ -1,4 +1,4 @@
-// SHA-256 by OpenSSL.
+// Computes SHA-256 with OpenSSL.
 #include "viscontact/common/hash/sha256.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// SHA-256 (FIPS 180-4), by which files of Viscontact refer to the content of other files.
+// SHA-256 (FIPS 180-4), with which files of Viscontact identify the content of other files.
+// Published files contain these hashes.
 #pragma once
 
 #include <string>

@@ -97,7 +97,8 @@ struct ChildEnd {
 };
 
 /// Waits until the child has ended. Kills its process group first if a stop is requested or
-/// `deadline` passes. Both are checked here, too, because a child can close its output and go on.
+/// `deadline` passes. Both are checked here, too, because a child can close its output and continue
+/// to run.
 ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& stop) {
   constexpr int kFirstPause = 1, kLongestPause = 20;  // milliseconds between two checks
   ChildEnd end;
@@ -118,8 +119,8 @@ ChildEnd wait_for_end(pid_t child, Clock::time_point deadline, const StopToken& 
 /// the program, or writes the error number to `failure` and ends.
 [[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
                          int input, int output, int failure, pid_t parent) {
-  // In a process group of its own the child does not receive Ctrl-C. This process receives it and
-  // ends the child in order.
+  // In a process group of its own the child does not receive Ctrl-C. Only this process receives it;
+  // it then kills the child and throws Error(kInterrupted).
   ::setpgid(0, 0);
   // The kernel ends the child if this process is killed by SIGKILL.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -147,7 +148,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
   const auto argument_pointers = pointers(arguments);
   const auto variable_pointers = pointers(variables);
   const pid_t self = ::getpid();
-  // posix_spawn cannot request that the child end with this process, so fork is used.
+  // posix_spawn cannot make the child end when this process ends (PR_SET_PDEATHSIG), so fork is
+  // used.
   const pid_t child = ::fork();
   if (child == 0)
     become(argument_pointers.data(), variable_pointers.data(), folder.c_str(), in.read_end.get(),

@@ -1,4 +1,4 @@
-// Runs a child process to its end and collects its output (POSIX).
+// Runs a child process to its end and collects its output (Linux).
 #pragma once
 
 #include <chrono>
@@ -24,8 +24,8 @@ struct ProcessResult {
 /// Runs the program arguments[0], which is looked up on PATH, with the other arguments and with
 /// `environment` ("NAME=value" each) added to the environment of this process. `input` is its
 /// standard input. `folder`, if not empty, is its working folder. `time_limit` is the longest time
-/// that the child may take; then the child and all processes that it started are killed, and the
-/// result is `timed_out`.
+/// that the child may take. If it takes longer, its process group (the child and the processes that
+/// it started) is killed, and `timed_out` of the result is true.
 ///
 /// If `stop` requests a stop, the child is killed and Error(kInterrupted) is thrown. The child also
 /// ends when the thread or the process that started it ends, even by SIGKILL.

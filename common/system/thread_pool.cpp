@@ -1,4 +1,5 @@
-// The worker threads of a ThreadPool (thread_pool.hpp).
+// The worker threads of a ThreadPool (thread_pool.hpp). Which thread computes a block is left to
+// chance; the result must not depend on it.
 #include "viscontact/common/system/thread_pool.hpp"
 
 #include <atomic>
@@ -16,7 +17,7 @@ struct ThreadPool::Workers {
   std::atomic<std::size_t> next{0};  // next block to be computed
   std::atomic<unsigned> round{0};    // number of the loop; its change wakes the workers
   std::atomic<int> busy{0};          // number of workers that have not finished this loop
-  bool stop = false;                 // read after `round` has changed
+  bool stop = false;                 // true ends the workers; read after `round` has changed
   std::vector<std::thread> threads;
 
   std::mutex failing;
@@ -56,7 +57,8 @@ ThreadPool::ThreadPool(int threads) {
     for (int i = 1; i < threads; ++i)
       workers_->threads.emplace_back([workers = workers_.get()] { workers->serve(); });
   } catch (const std::system_error&) {
-    // The system starts no more threads. Those that exist do the work, with the same result.
+    // The system cannot start more threads. The threads that exist do the work, with the same
+    // result.
   }
 }
 

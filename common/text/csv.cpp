@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 // The library copies names by strncpy on purpose and terminates them in the next line; GCC 12 warns
-// all the same.
+// nevertheless.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wstringop-truncation"
 #include <libfccp/csv.h>
@@ -62,16 +62,17 @@ std::optional<double> number_of(const char* field, const std::string& column,
   return number;
 }
 
-/// Throws Error(kBadInput) if the header states another number of rows, or states one and the last
-/// line has no end: a cut within the last field can leave a number.
+/// Throws Error(kBadInput) if the header states a number of rows and the file has another one, or
+/// does not end with a line break. The second test is needed because a file that is cut off within
+/// its last field can still end with a number.
 void check_not_truncated(const CsvComments& comments, std::size_t rows, const std::string& text,
                          const std::string& file) {
   const auto stated = comments.find("rows");
   if (stated == comments.end() || (stated->second == std::to_string(rows) && text.back() == '\n'))
     return;
   throw_bad_input({file},
-                  fmt::format("has {} rows where its header says {}, or its last line has no "
-                              "end; is it truncated?",
+                  fmt::format("has {} rows where its header says {}, or its last line does not "
+                              "end with a line break; the file may be cut off",
                               rows, stated->second));
 }
 
@@ -83,7 +84,7 @@ CsvComments read_csv_comments(const std::string& text, std::set<std::string>* co
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (line.empty() || line[0] != '#') continue;
-    // The '#' at the begin of the line ends this loop at the latest.
+    // This loop ends at the '#' at the beginning of the line, at the latest.
     while (line.back() == '\r' || line.back() == ',') line.pop_back();
     const auto colon = line.find(": ");
     const auto start = line.find_first_not_of("# \t");
@@ -128,7 +129,7 @@ void read_csv_rows(
   std::string text = read_file(path);
   remove_trailing_blank_lines(text);
   comments = read_csv_comments(text, &contradictions);
-  // Columns that are not asked for have names that no header line can have.
+  // The names beyond those of the requested columns are such that no header line can contain them.
   std::array<std::string, kMostCsvColumns> all_names;
   all_names.fill("\n");
   std::ranges::copy(names, all_names.begin());
@@ -138,7 +139,8 @@ void read_csv_rows(
                                io::throw_on_overflow, io::single_line_comment<'#'>>;
   std::size_t count = 0;
   try {
-    // Without a file name, which it would cut if it is long: the errors below name the file.
+    // The reader gets no file name, because it would cut off a long one. The errors below name the
+    // file.
     Reader reader("", stream);
     std::apply(
         [&](const auto&... name) {

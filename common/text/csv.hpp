@@ -1,4 +1,5 @@
-// CSV files as Viscontact writes them: lines "# key: value", a header line, and rows of numbers.
+// CSV files as Viscontact writes them (docs/file-formats.md): lines "# key: value", a header line,
+// and rows of numbers. Published files must stay readable.
 #pragma once
 
 #include <algorithm>
@@ -44,18 +45,18 @@ CsvComments read_csv_comments(const std::string& text,
 std::string write_csv_comments(const CsvComments& comments);
 
 /// The value of a comment that must be a finite number. Throws Error(kBadInput), which names the
-/// file and the key, if it is missing or is no number.
+/// file and the key, if it is missing or is not a number.
 double csv_comment_number(const CsvComments& comments, const std::string& key,
                           const std::string& file);
 
-/// A text for a message: its first 60 characters and "..." if it is longer.
+/// The text for a message: if it has more than 60 characters, the first 60 of them and "...".
 std::string shortened(const std::string& text);
 
-/// Most columns that can be asked of a file.
+/// Largest number of columns that can be requested from a file.
 constexpr std::size_t kMostCsvColumns = 16;
 
-/// What read_csv does, for any number of columns: calls `add_row` with the fields of each row and
-/// its line in the file. The library is instantiated in csv.cpp alone, because each number of
+/// Does the work of read_csv for any number of columns: calls `add_row` with the fields of each row
+/// and its line in the file. The library is instantiated in csv.cpp alone, because each number of
 /// columns costs seconds to compile.
 void read_csv_rows(
     const std::filesystem::path& path, std::span<const std::string> names, std::size_t required,
@@ -63,8 +64,8 @@ void read_csv_rows(
     const std::function<void(std::span<const std::optional<double>> fields, int line)>& add_row);
 
 /// Reads the columns `names` of a CSV file, in this order. The file may have its columns in another
-/// order, and further columns. The first `required` columns must exist; the fields of others are
-/// empty if their column is missing. Blank lines after the last row are ignored.
+/// order, and further columns. The first `required` columns must exist; if another column is
+/// missing, its fields are empty. Blank lines after the last row are ignored.
 ///
 /// Throws Error(kBadInput) with file and line for a missing column, a row with more or fewer fields
 /// than the header line, a field that is neither empty nor a finite number, and a number of rows

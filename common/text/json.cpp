@@ -17,8 +17,8 @@ namespace viscontact {
 namespace {
 
 /// Follows the events of the parser and records the line of each value, the first key that stands
-/// twice in its object, and where and why the parser stopped. The exceptions of the parser do not
-/// say where a number is that is too large for a double.
+/// twice in its object, and where and why the parser stopped. The parser alone is not enough: if a
+/// number is too large for a double, its exception does not say where.
 class LineRecorder {
  public:
   LineRecorder(const std::string& text, std::map<std::string, int>& lines)
@@ -47,7 +47,7 @@ class LineRecorder {
                       repeated_key_ + " stands twice; a key must stand once in its object");
   }
 
-  // The events of Json::sax_parse. They return true to go on.
+  // The events of Json::sax_parse. They return true to continue.
   bool null() { return begin_value(); }
   bool boolean(bool) { return begin_value(); }
   bool number_integer(Json::number_integer_t) { return begin_value(); }
@@ -78,12 +78,12 @@ class LineRecorder {
   struct Level {
     bool is_object = false;
     std::string path;            // of the array or object
-    std::size_t index = 0;       // number of the present element, in an array
-    std::string key;             // of the present member, in an object
-    std::set<std::string> keys;  // of an object, so far
+    std::size_t index = 0;       // number of the current element, in an array
+    std::string key;             // of the current member, in an object
+    std::set<std::string> keys;  // of an object, found so far
   };
 
-  /// The path of the present member or element.
+  /// The path of the current member or element.
   std::string path_of_member() const {
     if (levels_.empty()) return {};
     const auto& level = levels_.back();
@@ -98,9 +98,9 @@ class LineRecorder {
     return levels_.size() > kDeepest ? std::string() : path_of_member();
   }
 
-  /// The line of the token that the parser has just read. After a number it has read one character
-  /// more, so that the last character does not count; the last character of other tokens is not a
-  /// line end.
+  /// The line of the token that the parser has just read. After a number the parser has read one
+  /// character more, so that the last character must not be counted. This is correct for other
+  /// tokens, too, because none of them ends with a line end.
   int line() {
     const std::streamoff read = stream_.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
     const auto end = static_cast<std::size_t>(read - 1);

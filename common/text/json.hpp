@@ -21,8 +21,8 @@ class JsonDocument {
   const std::string& file() const { return file_; }
 
   /// Line of the value at a path such as "terms[2].name"; the path of the whole text is "". If
-  /// there is no such value, or it lies deeper than eight levels, returns the line of what would
-  /// contain it.
+  /// there is no such value, or it lies deeper than eight levels, returns the line of the array or
+  /// object that would contain it.
   int line_of(std::string path) const;
 
  private:

@@ -1,4 +1,5 @@
-// Converts numbers to text and back without loss. The locale has no effect.
+// Converts numbers to text and back without loss. The locale has no effect. A change must keep the
+// texts, because hashes in files are computed from them.
 #pragma once
 
 #include <optional>

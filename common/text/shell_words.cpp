@@ -34,7 +34,8 @@ std::vector<std::string> split_words(const std::string& text) {
       words.back() += character;
   }
   if (quote != '\0')
-    throw Error(ErrorKind::kWrongUsage, fmt::format("the {} in '{}' is not closed", quote, text));
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("the quotation mark {} in {} is not closed", quote, text));
   return words;
 }
 

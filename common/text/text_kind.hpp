@@ -3,8 +3,8 @@
 
 namespace viscontact {
 
-/// A kind of text, by how it marks a comment line: "#" (CSV, Python), JSON, SVG, HTML, XML, C or
-/// Fortran.
+/// A kind of text, named by the form of its comment lines: "#" (CSV, Python), JSON, SVG, HTML, XML,
+/// C or Fortran.
 enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran };
 
 }  // namespace viscontact

@@ -1,16 +1,17 @@
-// Viscontact from C++: reads a table of forces, fits it, and lets two models move the sphere of the
-// lecture's case with that fit: `inertial`, which resolves the film between sphere and plane, and
-// `viscous_contact`, which does not.
+// Uses Viscontact from C++: reads a table of forces, fits a formula to it, and computes the motion
+// of the sphere of the lecture's case by two models (docs/physics.md (4.1), (4.4)): `inertial`
+// resolves the film between sphere and plane, `viscous_contact` does not. Units are those of the
+// table. tests/package/use_installed compares the output with the lines that end this comment.
 //
-// In the folder of Viscontact, after scripts/build (PREFIX: any folder, /usr/local without
-// --prefix):
+// Type in the source folder of Viscontact, after scripts/build (PREFIX is any folder; without
+// --prefix it is /usr/local):
 //
 //   cmake --install build/release --prefix PREFIX
 //   cmake -S examples/use_from_cpp -B out/use_from_cpp -D CMAKE_PREFIX_PATH=PREFIX -D CMAKE_BUILD_TYPE=Release
 //   cmake --build out/use_from_cpp
 //   out/use_from_cpp/smallest_gap PREFIX/share/viscontact/data/tables/lecture.csv
 //
-// It prints (q_min: the smallest gap; the last digits are the table's and the compiler's):
+// The program prints (q_min is the smallest gap; the last digits depend on table and compiler):
 //
 //   40 rows, fitted by 1/q, 1, q, q^2, q^3: largest residual 0.46 %
 //   R(q = 0.01) = 5761.06
@@ -34,7 +35,7 @@
 namespace {
 
 /// A sphere of mass 20, at rest at gap 1, is pushed towards the plane until t = 2, then pulled
-/// back. Viscontact has no units of its own: those of the table.
+/// back.
 viscontact::reduced_model::Motion lecture_motion() {
   const std::vector<viscontact::reduced_model::ExternalForce::Piece> pieces = {
       {.until = 2, .value = -200}, {.until = 4, .value = 200}};
@@ -45,19 +46,19 @@ viscontact::reduced_model::Motion lecture_motion() {
       .end_time = 4,
       .external_force = viscontact::reduced_model::ExternalForce(pieces)};
   motion.set(viscontact::reduced_model::kReferenceTimeStep,
-             1e-3);  // the rows of `inertial` are as far apart
+             1e-3);  // also the time between the rows of `inertial`
   motion.set(viscontact::reduced_model::kRelativeTolerance, 1e-9);
   motion.set(viscontact::reduced_model::kContactTimeStep, 1e-3);
   return motion;
 }
 
 void print_smallest_gaps(const std::string& table_file) {
-  // The table: one row for each gap and velocity. A user's own needs the columns gap,
-  // reference_velocity and force only.
+  // The table has one row for each gap and velocity. Your own table needs only the columns gap,
+  // reference_velocity and force, and the comments viscosity and radius.
   const viscontact::lubrication::ForceTable table =
       viscontact::lubrication::read_force_table(table_file);
 
-  // The fit: coefficients of a basis, and how far to trust them.
+  // The fit has the coefficients of a basis, and diagnostics that say how far to trust them.
   const viscontact::lubrication::Fit fit = viscontact::fitting::fit_force_table(
       table, "lecture", viscontact::lubrication::Weights::kRelative);
   std::printf("%zu rows, fitted by", table.rows.size());
@@ -65,12 +66,12 @@ void print_smallest_gaps(const std::string& table_file) {
     std::printf("%s %s", &term == &fit.terms.front() ? "" : ",", term.name.c_str());
   std::printf(": largest residual %.2g %%\n", 100 * fit.largest_relative_residual);
 
-  // The force as a function: F_lub(q, u) = -R(q) u in the interval of the gaps that were fitted;
-  // outside, asking is an error.
+  // The force as a function of gap and velocity is F_lub(q, u) = -R(q) u. At a gap outside the
+  // interval of the fit, LubricationForce throws.
   const viscontact::lubrication::LubricationForce force(fit);
   std::printf("R(q = 0.01) = %.6g\n\n", force.resistance(0.01));
 
-  // The models of motion. all_models() has every one.
+  // The models of motion. all_models() lists them all.
   const viscontact::reduced_model::Motion motion = lecture_motion();
   std::printf("%-16s %12s %10s\n", "model", "q_min", "at time");
   for (const char* name : {"inertial", "viscous_contact"}) {

@@ -1,4 +1,5 @@
-// The text of each target. All of them are made of the same sums R and Gamma.
+// The text of each target: the sums R and Gamma of physics.md (3.2) and (4.2) as code or numbers.
+// Units are those of the fit.
 #include "viscontact/fitting/export/export_fit.hpp"
 
 #include <fmt/format.h>
@@ -49,8 +50,8 @@ std::string fortran_literal(double number) {
   return text;
 }
 
-/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read an integer,
-/// and a long one would overflow.
+/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read it as an
+/// integer, which would overflow if it has many digits.
 std::string c_literal(double number) {
   const std::string text = format_number(number);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
@@ -73,13 +74,13 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
       fmt::format("Lubrication force of a sphere, written by 'viscontact export' (Viscontact {}).",
                   version == fit.versions.end() ? "of unknown version" : version->second),
       "F = -R(q) u: q the gap, u the normal velocity (positive away), F along the outward normal.",
-      "Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has "
-      "absorbed.",
+      ("Gamma(q) = integral of R from the sphere's radius to q: the impulse that the film has "
+       "absorbed."),
       fmt::format(
           "Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
           plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),
           plain(fit.viscosity)),
-      fmt::format("Approaching: {}.", fit.geometry.empty() ? "not said" : fit.geometry),
+      fmt::format("The sphere approaches: {}.", fit.geometry.empty() ? "not said" : fit.geometry),
       fmt::format("Basis {}; relative residuals: largest {:.3g}, root mean square {:.3g}.",
                   fit.basis, fit.largest_relative_residual, fit.rms_relative_residual)};
   if (fit.diagnostics && fit.diagnostics->largest_error_estimate > 0)

@@ -1,5 +1,6 @@
-// Writes a fit as code or data for other programs, which need no Viscontact. Units are those of the
-// fit. A change must keep the order of the sums, so that the values agree with LubricationForce.
+// Writes a fit as code or data for other programs, which can use it without Viscontact. Units are
+// those of the fit. A change must keep the order of the sums, so that the values agree with
+// LubricationForce.
 #pragma once
 
 #include <span>

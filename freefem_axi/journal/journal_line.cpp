@@ -1,4 +1,5 @@
-// The line is "HASH row NUMBERS VERSION CHECKSUM" or "HASH failed GAP VELOCITY REASON CHECKSUM".
+// Writes and reads the lines of a journal. A line is "HASH row NUMBERS VERSION CHECKSUM" or "HASH
+// failed GAP VELOCITY REASON CHECKSUM".
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,14 @@
-// Opens, locks and appends to a journal.
+// Opens, locks and appends to a journal (row_journal.hpp).
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -28,6 +30,16 @@ bool ends_with_line_end(int file) {
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer) {
   return table_path.string() + (writer.empty() ? ".rows" : ".rows." + writer);
+}
+
+std::string writer_name(std::size_t number, std::size_t count) {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return fmt::format("{}-of-{}.{}.{}", number, count, host.data(), ::getpid());
+}
+
+bool is_writer_name(const std::string& name) {
+  return ::fnmatch("+([0-9])-of-+([0-9]).?*.+([0-9])", name.c_str(), FNM_EXTMATCH) == 0;
 }
 
 RowJournal::RowJournal(std::filesystem::path path, std::string tabulation_hash)

@@ -1,10 +1,11 @@
 // A journal stores the finished rows of a running tabulation on disk, so that no row is lost or
 // computed twice. Beside TABLE.csv there is TABLE.csv.rows for the tabulation on this machine, and
 // a TABLE.csv.rows.WRITER for each process of a cluster. Each file has one writer, because some
-// file systems do not support locks. A change must keep that journals are only appended to;
-// row_record.hpp reads all of them together.
+// file systems do not support locks. This class must only append to a journal, so that earlier rows
+// are safe; row_record.hpp reads all journals together.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -16,6 +17,14 @@ namespace viscontact::freefem_axi {
 /// The path TABLE.csv.rows, or TABLE.csv.rows.WRITER if there is a writer.
 std::filesystem::path journal_path(const std::filesystem::path& table_path,
                                    const std::string& writer = {});
+
+/// The name "NUMBER-of-COUNT.HOST.PROCESS" of this process as the writer of a journal, for the task
+/// `number` among `count` tasks. No two processes that run at the same time have the same name.
+std::string writer_name(std::size_t number, std::size_t count);
+
+/// True for the names that writer_name() makes. Other files whose names begin like that of a
+/// journal belong to the user, and are left alone.
+bool is_writer_name(const std::string& name);
 
 /// A journal that is open for appending. One process at a time has it.
 class RowJournal {

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fnmatch.h>
 #include <sys/file.h>
 
 #include <algorithm>
@@ -22,12 +21,6 @@ namespace viscontact::freefem_axi {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// True for "K-of-T.HOST.PROCESS", the writers of pipeline/tabulate_stage.cpp. Other files whose
-/// names begin like that of a journal belong to the user.
-bool is_writer_name(const std::string& name) {
-  return ::fnmatch("+([0-9])-of-+([0-9]).?*.+([0-9])", name.c_str(), FNM_EXTMATCH) == 0;
-}
 
 /// The paths of a table's journals, sorted.
 std::vector<fs::path> journals_of(const fs::path& table_path) {

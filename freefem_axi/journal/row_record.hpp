@@ -1,5 +1,6 @@
 // The finished and failed rows of a tabulation, collected from the table and from the journals of
-// all processes that work on it. Numbers are in the units of the case.
+// all processes that work on it. Numbers are in the units of the case. The journals must be read
+// before the table, or rows may be missed.
 #pragma once
 
 #include <filesystem>

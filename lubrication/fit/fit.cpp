@@ -1,5 +1,6 @@
-// The words for weights, losses and misfits, the fit that stands for the exact drag of a plane, and
-// the change of viscosity.
+// The names of weights, losses and misfits in fit files, the fit object that stands for the exact
+// drag of a plane, and the fit for another viscosity. Units are those of fit.hpp. A change must
+// keep the names, because fit files contain them.
 #include "viscontact/lubrication/fit/fit.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@ struct Named {
   std::string_view name;
   Value value;
 };
+template <class Value>
+Named(std::string_view, Value) -> Named<Value>;
 
 constexpr std::array kLosses = {Named{"none", Loss::kSquared}, Named{"huber", Loss::kHuber},
                                 Named{"cauchy", Loss::kCauchy}};
@@ -56,7 +59,8 @@ Fit exact_plane_fit(double viscosity, double radius) {
   fit.reference_velocity = -1;
   fit.viscosity = viscosity;
   fit.radius = radius;
-  // Nearly all normal doubles; LubricationForce::interval() is the exact range.
+  // These numbers only have to be valid in a fit file. The gaps at which the drag can be computed
+  // are LubricationForce::interval(), which depends on the radius.
   fit.gap_interval = {1e-300, 1e300};
   fit.geometry = "plane, unbounded";
   fit.leading_coefficient = stokes_resistance(viscosity, radius) * radius;

@@ -23,7 +23,8 @@ std::string_view to_string(Weights weights);
 /// Translates "relative" or "absolute". Throws Error(kBadInput) for another word.
 Weights parse_weights(std::string_view word);
 
-/// How a residual z counts, where z is in units of the residuals' own scale:
+/// What a row adds to the sum that the fit minimises. z is the residual of the row, divided by the
+/// scale of all residuals:
 ///   kSquared  z^2/2
 ///   kHuber    z^2/2, and linear in |z| for |z| > 1.345 (Huber 1964)
 ///   kCauchy   (c^2/2) ln(1 + (z/c)^2), c = 2.385
@@ -67,9 +68,9 @@ struct Fit {
   double condition_number = 1;
   /// Covariance matrix of the coefficients, in the order of `terms`.
   std::vector<std::vector<double>> covariance;
-  /// What the sphere approaches, in the words of the table; may be empty.
+  /// What the sphere approaches, as the table says it; may be empty.
   std::string geometry;
-  /// Coefficient k of R ~ k/q in theory [M L/T], if the table states it.
+  /// Coefficient k of 1/q in R by lubrication theory [M L/T], if the table states it.
   std::optional<double> leading_coefficient{};
   std::optional<FitDiagnostics> diagnostics{};  ///< nothing in a fit that was written by hand
   std::string table_sha256;                     ///< checksum of the table file; may be empty

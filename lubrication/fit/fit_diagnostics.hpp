@@ -11,14 +11,14 @@
 
 namespace viscontact::lubrication {
 
-/// What the residuals are due to.
+/// The cause of the residuals.
 enum class Misfit {
-  /// The basis: chi-squared and at least one row show residuals larger than the error estimates
-  /// explain, so another basis can do better.
+  /// The basis: the residuals are larger than the error estimates explain, by chi-squared and in at
+  /// least one row, so that another basis can fit better.
   kBasis,
   /// The data: the error estimates explain the residuals, so only a better table can reduce them.
   kData,
-  /// Not known: the table has no error estimates, or there are no degrees of freedom left.
+  /// Not known: a row of the table has no error estimate, or no degrees of freedom are left.
   kUnknown
 };
 
@@ -48,9 +48,10 @@ struct WorstToEstimate {
   double ratio = 0;              ///< |relative_residual| / error estimate of this row, >= 0
 };
 
-/// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as a measurement of
-/// its own. Rows of one gap at several velocities are therefore counted several times, although a
-/// linear solver makes them equal; standard errors and leave-one-out residuals then are too small.
+/// Diagnostics of a fit. Relative residuals are fit/table - 1. Every row counts as a separate
+/// measurement. Rows of one gap at several velocities are therefore counted several times, although
+/// a linear solver makes them equal; standard errors and leave-one-out residuals are then too
+/// small.
 struct FitDiagnostics {
   std::size_t rows = 0;
   /// Coefficients that were fitted, not fixed.
@@ -71,8 +72,8 @@ struct FitDiagnostics {
   std::optional<double> leave_one_out_gap{};
   /// The inner row and the end row with the largest of these residuals. The fit of the other rows
   /// interpolates to an inner row and extrapolates to an end row, which is alone at the smallest or
-  /// largest gap. Only the inner row tells how far off the formula may be between the rows. Nothing
-  /// if leave_one_out_rms is nothing, or if the table has no such row.
+  /// largest gap. Only the inner row shows how large the error of the formula may be between the
+  /// rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
   std::optional<LeftOutRow> left_out_inner{}, left_out_end{};
   /// Number of rows, without outliers, whose |residual| is larger than their own error estimate.
   std::size_t rows_beyond_estimate = 0;
@@ -87,9 +88,9 @@ struct FitDiagnostics {
   Misfit misfit = Misfit::kUnknown;
   /// Akaike's information criterion with the correction for small samples (Hurvich & Tsai 1989),
   ///     n ln(sum of squares/n) + 2 K + 2 K (K + 1)/(n - K - 1),   K = free coefficients + 1.
-  /// Less is better. Only fits of the same rows with the same weights can be compared. Nothing if
-  /// n <= K + 1, if all residuals are 0, or for a robust loss, because it weighs the rows by the
-  /// fit.
+  /// A smaller value is better. Only fits of the same rows with the same weights can be compared.
+  /// Nothing if n <= K + 1, if all residuals are 0, or for a robust loss, because then the weights
+  /// of the rows depend on the fit.
   std::optional<double> information_criterion{};
   /// Rows with residuals beyond 5 times the scale of the others; only a robust loss has outliers.
   std::vector<Outlier> outliers;

@@ -1,4 +1,5 @@
-// Reads and writes the object "diagnostics" of a fit file (docs/fit.schema.json).
+// Reads and writes the object "diagnostics" of a fit file (docs/fit.schema.json). Units are those
+// of fit_diagnostics.hpp.
 #pragma once
 
 #include "viscontact/lubrication/fit/fit_diagnostics.hpp"

@@ -31,7 +31,7 @@ std::vector<FitTerm> read_terms(const JsonObject& root) {
                                       names_of(all_terms())));
     for (const auto& other : terms)
       if (other.name == term.name)
-        object.fail("name", fmt::format("is '{}' for the second time; a term must be there once",
+        object.fail("name", fmt::format("is '{}' for the second time; each term may be named once",
                                         term.name));
     terms.push_back(term);
   }

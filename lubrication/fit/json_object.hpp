@@ -16,8 +16,8 @@
 
 namespace viscontact::lubrication {
 
-/// A value as text for a message. An array or object is only called that, because a file may nest
-/// it deeper than the stack allows dump() to go.
+/// A value as text for a message. For an array or object it says only which of the two it is,
+/// because dump() is recursive and a file may nest values so deeply that the stack overflows.
 inline std::string shown(const Json& value) {
   return value.is_structured() ? value.is_array() ? "an array" : "an object" : value.dump();
 }
@@ -83,7 +83,7 @@ class JsonObject {
   }
 
   /// A text that `parse` translates. `parse` throws Error("...; what is allowed") for other texts;
-  /// the part from the semicolon on becomes that of the message about this key.
+  /// the part of that text from the semicolon on is added to the message about this key.
   template <class Parse>
   auto word(const std::string& key, const Parse& parse) const {
     try {
@@ -115,8 +115,8 @@ class JsonObject {
     return {document_, at(key), fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key)};
   }
 
-  /// Throws Error(kBadInput) if the object has a key that is not among `keys`, which blanks
-  /// separate.
+  /// Throws Error(kBadInput) if the object has a key that is not among `keys`, a list separated by
+  /// blanks.
   void allow_only(const std::string& keys) const {
     std::istringstream words(keys);
     const std::set<std::string> allowed{std::istream_iterator<std::string>(words), {}};

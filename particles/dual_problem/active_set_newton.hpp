@@ -16,7 +16,7 @@ namespace viscontact::particles {
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` factorisations. If it has not converged then, or if W is singular or has no
-/// cheap factor, graph.z is what it was before the call, and the residual returned is infinite.
+/// cheap factor, graph.z is what it was before the call, and the returned residual is infinite.
 template <int D>
 SolverResult active_set_newton(ContactGraph<D>& graph, int max_iterations);
 

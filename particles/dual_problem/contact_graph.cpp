@@ -1,4 +1,5 @@
-// Builds the arrays of a ContactGraph and combines displacements (contact_graph.hpp).
+// Builds the arrays of a ContactGraph and combines displacements. Equations and units are those of
+// contact_graph.hpp.
 #include "viscontact/particles/dual_problem/contact_graph.hpp"
 
 #include <Eigen/Core>
@@ -49,7 +50,8 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
   number_bodies_of_blocks();
 }
 
-/// Lists the shares of each body. At the call offsets_[b + 1] is the number of contacts of body b.
+/// Lists the shares of each body. Before the call, offsets_[b + 1] is the number of contacts of
+/// body b; after it, offsets_[b] is where the shares of body b begin.
 template <int D>
 void ContactGraph<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
@@ -98,7 +100,7 @@ double ContactGraph<D>::combine(std::span<const double> y, double factor,
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);
     // Eigen adds to several partial sums at once. In a single sum each addition would wait for the
-    // last.
+    // one before it.
     const auto from = Eigen::Map<const Eigen::ArrayXd>(y.data() + first, size);
     const auto per_mobility =
         Eigen::Map<const Eigen::ArrayXd>(inverse_mobilities_.data() + first, size);

@@ -88,7 +88,7 @@ class ContactGraph {
   }
 
   // Within one block of the thread pool, on the bodies of this block only, the same product and the
-  // addition of B (change of z_c) to y. They do not see the contacts of other blocks.
+  // addition of B (change of z_c) to y. They leave out the contacts of other blocks.
 
   /// Returns zeros, D numbers for each body of the block that begins at contact `begin`.
   std::vector<double> block_bodies(std::size_t begin) const {
@@ -124,7 +124,7 @@ class ContactGraph {
   }
 
   /// Residual |min(D + h G v, w (p - gamma^n))| of contact c, divided by the residual that is
-  /// allowed of it, for impulse z_c and gradient g_c. The contact has converged if this is at most
+  /// allowed for it, for impulse z_c and gradient g_c. The contact has converged if this is at most
   /// 1.
   double residual(std::size_t c, double z_c, double gradient) const {
     return per_allowed[c] * std::abs(std::min(gradient, z_c - bound[c]));
@@ -179,7 +179,7 @@ class ContactGraph {
   // Numbers of first and second among the bodies of the contact's block.
   std::vector<std::array<std::int32_t, 2>> in_block_;
   std::vector<std::size_t> block_bodies_;  // number of bodies of each block
-  std::vector<std::int32_t> offsets_;      // begin of the shares of each body
+  std::vector<std::int32_t> offsets_;      // index of the first share of each body
   std::vector<Share> shares_;              // for each body, in the order of its contacts
   // m/h of each displacement [M/T], D equal numbers for each body; 0 for the body of the planes.
   std::vector<double> inverse_mobilities_;

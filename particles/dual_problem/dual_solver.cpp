@@ -1,5 +1,6 @@
 // Chooses between conjugate gradients, a sparse factor and Newton's method for the dual problem
-// (dual_solver.hpp). The constants decide only how long a solution takes.
+// (dual_solver.hpp). The constants change how long a solution takes, and the results within the
+// tolerances.
 #include "viscontact/particles/dual_problem/dual_solver.hpp"
 
 #include <algorithm>
@@ -15,15 +16,15 @@ SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
                                 FreeSetFactor<D>& factor) {
   Mprgp<D> mprgp(graph, factor);
   SolverResult solved;
-  // A factor pays if many iterations with the same free contacts have not converged. A rough
-  // solution, the first part of a step, changes the set often and seldom needs one. If a factor
-  // exists, a few iterations without convergence show that the set has changed. On box2d, 10
-  // instead of 30 for the accurate solution saves 7 %.
+  // Numbers of iterations with the same free contacts after which a (new) factor is worth its cost.
+  // If a factor exists, a few iterations without convergence show that the free contacts have
+  // changed. The rough solution of a step changes them often and seldom needs a factor. For the
+  // accurate solution, 10 instead of 30 saves 7 % of the time on bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
   const int patience_without = graph.is_rough ? 40 : 10;
   // Newton's method comes first where contacts form almost no cycles (chains, columns), unless the
-  // guess is already exact, because small residuals leave large errors in a long chain. In packings
-  // it may cycle, so that it is tried only after many iterations.
+  // guess is already exact, because in a long chain even small residuals mean large errors of the
+  // impulses. In packings it may cycle, so that it is tried only after many iterations.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
   constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
   const bool has_chains =

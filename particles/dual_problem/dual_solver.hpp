@@ -15,13 +15,13 @@ struct SolverResult {
 
 /// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
 /// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a sparse factor of W
-/// (free_set_factor.hpp). Newton's method (active_set_newton.hpp) solves chains of contacts and
-/// helps if all else takes long.
+/// (free_set_factor.hpp). Newton's method (active_set_newton.hpp) solves chains of contacts, and is
+/// tried if the other methods take many iterations.
 ///
 /// Improves graph.z, which begins as a guess, until all residuals are at most 1 or `max_iterations`
 /// are done. Redundant contacts have impulses of which the velocities determine only sums; their
 /// values depend on the guess. `factor` belongs to earlier solves of the same step, whose graph may
-/// have had fewer contacts. It is used and replaced.
+/// have had fewer contacts. This function uses the factor and may replace it.
 template <int D>
 SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
                                 FreeSetFactor<D>& factor);

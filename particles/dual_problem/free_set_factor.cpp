@@ -1,4 +1,5 @@
-// Builds and applies the sparse Cholesky factor of W (free_set_factor.hpp), with Eigen.
+// Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
+// contact_graph.hpp.
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -75,8 +76,9 @@ bool FreeSetFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector
   if (factor_ == nullptr || factor_->free.size() != graph.count()) {
     factor_ = std::make_unique<Factor>();
     factor_->cholesky.analyzePattern(w);
-    // Chains have 2 entries a contact, packings of discs about 20 (at 20 000 contacts). For 1000
-    // spheres that come to rest, a run with the factor took 1.2 times as long as with sweeps.
+    // Chains have 2 entries a contact, packings of discs about 20 (at 20 000 contacts). Packings of
+    // spheres have more: for 1000 spheres that come to rest, a run with the factor took 1.2 times
+    // as long as with sweeps.
     constexpr Eigen::Index kMostEntries = 40;
     factor_->pays = factor_->cholesky.symbolic_entries() <= kMostEntries * (w.cols() + 1);
   }

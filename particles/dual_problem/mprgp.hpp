@@ -184,7 +184,8 @@ class Mprgp {
   PassStatistics pass(double length) {
     return graph_.pool().template sum_of_blocks<PassStatistics>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
-          // Local copies, because a compiler cannot know that the loop changes no pointer.
+          // Local copies make the loop faster, because a compiler cannot know that the loop leaves
+          // the pointers of the members unchanged.
           const double* direction = direction_.data();
           const double* y_direction = y_direction_.data();
           const double* bound = graph_.bound.data();
@@ -210,11 +211,11 @@ class Mprgp {
         });
   }
 
-  /// Expansion, after a step of this length that left the bounds. Keeps all of it, projected on the
-  /// bounds, if the objective falls; otherwise goes to the first bound.
+  /// Expansion, after a step of this length that left the bounds. If the objective falls, keeps the
+  /// whole step, projected on the bounds. Otherwise goes to the first bound.
   int expand(double length) {
-    // Objective before the step, from the present value: the objective is quadratic along the
-    // direction.
+    // The objective before the step follows from its present value, because it is quadratic along
+    // the direction.
     const double before = objective() + length * (slope_ - length * curvature_ / 2);
     refresh();
     return objective() < before ? 1 : 2 + go_to_bound();

@@ -1,4 +1,5 @@
-// Reads and writes particles and contacts as CSV (particle_file.hpp).
+// Reads and writes particles and contacts as CSV (docs/file-formats.md). Units are those of
+// particle_file.hpp.
 #include "viscontact/particles/io/particle_file.hpp"
 
 #include <fmt/format.h>
@@ -78,8 +79,9 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
   for (const auto& row : rows) {
     const double id = required_field(row, kDiscs, kId, file);
     if (!(id >= 0 && id <= kLargest && id == std::floor(id)))
-      throw_bad_input({file, row.line},
-                      fmt::format("id is {}; must be a whole number from 0 to {}", id, kLargest));
+      throw_bad_input(
+          {file, row.line},
+          fmt::format("id is {}; it must be a whole number from 0 to {}", id, kLargest));
     ids.push_back(static_cast<std::int32_t>(id));
     const auto [other, is_new] = line_of.emplace(ids.back(), row.line);
     if (!is_new)

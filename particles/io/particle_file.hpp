@@ -1,4 +1,5 @@
-// Particles and contacts as CSV files. Lengths, masses and times are in the units of the case.
+// Particles and contacts as CSV files. Lengths, masses and times are in the units of the case. A
+// change must keep the names of the columns, which users' files contain.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +24,8 @@ struct ParticleFile {
 /// Throws Error(kBadInput) with file and line for what read_csv refuses; for a value in a column of
 /// the third dimension if dimension is 2; for any other column; if some but not all velocities are
 /// given; for a radius or mass below 1e-100 and any number above 1e100 in magnitude; for more than
-/// 2^31 - 1 particles; and for an id that is missing, occurs twice or is no whole number from 0 to
-/// 2^31 - 1.
+/// 2^31 - 1 particles; and for an id that is missing, occurs twice or is not a whole number from 0
+/// to 2^31 - 1.
 ParticleFile read_particles(const std::filesystem::path& path, int dimension);
 
 /// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass. The numbers read back to the same

@@ -1,5 +1,5 @@
-// The binary restart file (restart.hpp). Files of version 1 must stay readable; a change of the
-// fields of State or Pair needs a new version.
+// Writes and reads the binary restart file (restart.hpp). Files of version 1 must stay readable; a
+// change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -58,8 +58,8 @@ class Writer {
 
 class Reader {
  public:
-  Reader(std::string_view bytes, const std::string& file, bool version_1)
-      : bytes_(bytes), file_(file), version_1_(version_1) {}
+  Reader(std::string_view bytes, std::string file, bool version_1)
+      : bytes_(bytes), file_(std::move(file)), version_1_(version_1) {}
 
   template <class T>
   void operator()(T& value) {

@@ -1,5 +1,5 @@
-// Writes and reads the state of a simulation, bit for bit, so that a run can go on. Numbers are
-// stored without conversion, in the units of the case.
+// Writes and reads the state of a simulation, bit for bit, so that a run can be continued. Numbers
+// are stored without conversion, in the units of the case.
 #pragma once
 
 #include <filesystem>

@@ -19,7 +19,7 @@ class AppendedData {
   template <class Number>
   std::string array(const char* type, const char* name, int components,
                     const std::vector<Number>& values) {
-    const auto element = fmt::format(
+    auto element = fmt::format(
         R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
         "\n",
         type, name, components, bytes_.size());

@@ -1,5 +1,5 @@
-// Reads the files that vtk.cpp writes, so that an interrupted run can go on. It understands only
-// that layout, not VTK's formats in general.
+// Reads the files that vtk.cpp writes, so that an interrupted run can be continued. Units are those
+// of vtk.hpp. It understands only that layout, not VTK's formats in general.
 #include <fmt/format.h>
 
 #include <charconv>

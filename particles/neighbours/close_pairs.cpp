@@ -47,7 +47,7 @@ class Grid {
         high = std::max(high, positions[k * D + d]);
       }
       // Particles further than half a million cells from the middle share the cells at the border.
-      // Cells that are next to each other stay so, hence no pair is missed.
+      // Cells that are next to each other remain neighbours, so that no pair is missed.
       middle_[d] = middle(positions, d);
       half_[d] = std::min(std::ceil(std::max(high - middle_[d], middle_[d] - low) * per_cell_) + 1,
                           kMostCells / 2);

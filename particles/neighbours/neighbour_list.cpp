@@ -1,4 +1,5 @@
-// When the list of close pairs is valid, and how it is made again (neighbour_list.hpp).
+// Checks whether the list of close pairs is still valid, and makes it again (docs/particles.md).
+// Units are those of neighbour_list.hpp.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 #include <algorithm>
@@ -58,8 +59,9 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool) {
   const auto& p = state.particles;
-  // Skin in radii and in displacements of a step. Measured on box2d: with shorter skins the list is
-  // made too often, with longer skins it is too long.
+  // A skin is at least these multiples of the particle's radius and of its displacement in a step.
+  // On bench/box2d.cpp shorter skins cost time because the list is made more often, longer ones
+  // because it has more pairs.
   constexpr double kOfRadius = 0.25, kSteps = 3;
   const auto displacement = [&](std::size_t k) {
     return point_of(displacements.data(), k, p.dimension);

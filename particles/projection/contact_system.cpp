@@ -1,4 +1,5 @@
-// Numbers the bodies, joins islands, and hands both to the solver (contact_system.hpp).
+// Numbers the bodies, joins islands, and passes both to the solver. Equations and units are those
+// of contact_system.hpp.
 #include "viscontact/particles/projection/contact_system.hpp"
 
 #include <algorithm>

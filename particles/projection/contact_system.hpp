@@ -29,7 +29,8 @@ class ContactSystem {
   /// h v of the bodies.
   SolverResult solve(bool is_rough, int max_iterations, ThreadPool& pool);
 
-  /// The contacts between particles; `impulse` and `allowed` may be changed.
+  /// The contacts, with the numbers of particles, not of bodies. `impulse` and `allowed` may be
+  /// changed.
   std::vector<Contact<D>> contacts;
 
   const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< particle of each body
@@ -48,7 +49,8 @@ class ContactSystem {
   std::span<const double> mobilities_;
   std::vector<std::int32_t> bodies_, body_of_;
   std::vector<double> free_, body_mobilities_;
-  // Islands as a forest: of each body, another body of its island, or itself at the root.
+  // Islands as a forest of union-find: the parent of each body, which is another body of its
+  // island, or the body itself if it is the root.
   std::vector<std::int32_t> island_of_;
   std::vector<std::size_t> island_sizes_;  // number of bodies of each island, at its root
   std::size_t largest_island_ = 1;

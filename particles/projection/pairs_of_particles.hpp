@@ -1,5 +1,5 @@
-// The pairs of a state as a graph of particles, to find which gaps the closing of other gaps may
-// close in turn.
+// The pairs of a state as a graph of particles. When some gaps close, it serves to find which
+// further gaps may close in turn.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 namespace viscontact::particles {
 
 /// Graph of the pairs of particles. A blow on one end of a chain closes its gaps one after the
-/// other. This class finds all of them at once, so that the solver need not find them one by one.
+/// other. With this class all these gaps are found at once; otherwise each solution of the
+/// projection would find only the next one.
 class PairsOfParticles {
  public:
   explicit PairsOfParticles(const State& state)
@@ -32,8 +33,8 @@ class PairsOfParticles {
   /// Returns `start` and all pairs that are connected with it through at most `depth` pairs for
   /// which `may_close(number of the pair)` is true. may_close is called at most once for each pair.
   /// `start` may contain particles at planes, but the search follows pairs of particles only,
-  /// because a plane passes on no blow. Pairs have their numbers in state.pairs; walls follow after
-  /// them.
+  /// because a plane does not pass a blow on. Pairs have their numbers in state.pairs; walls follow
+  /// after them.
   template <class Predicate>
   std::vector<std::size_t> connected(std::span<const std::size_t> start, int depth,
                                      const Predicate& may_close) const {

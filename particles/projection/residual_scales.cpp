@@ -1,4 +1,5 @@
-// Impulses at work and rounding errors of contacts (residual_scales.hpp), docs/particles.md.
+// Computes the impulses at work and the rounding errors of contacts (docs/particles.md). Units are
+// those of residual_scales.hpp.
 #include "viscontact/particles/projection/residual_scales.hpp"
 
 #include <cmath>

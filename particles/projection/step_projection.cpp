@@ -11,8 +11,8 @@ namespace {
 
 /// Puts pairs in an order in which a sweep is fast. Neighbours in the list share particles, so that
 /// in a sweep each contact would wait for the result of the contact before it. This order takes
-/// contacts from three distant parts of the list in turn, within each block of the thread pool. On
-/// box2d, 1, 2, 3, 4 and 6 parts take 8.4, 6.8, 6.4, 7.0 and 7.2 ms a step.
+/// contacts from three distant parts of the list in turn, within each block of the thread pool. A
+/// step of bench/box2d.cpp takes 8.4, 6.8, 6.4, 7.0 and 7.2 ms with 1, 2, 3, 4 and 6 parts.
 std::vector<std::size_t> interleaved(const std::vector<std::size_t>& pairs) {
   constexpr std::size_t kInterleaved = 3;
   std::vector<std::size_t> order;
@@ -139,9 +139,10 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   return closed;
 }
 
-/// Returns `pairs` and, from the third round on, also the pairs that they may close in turn. A blow
-/// goes through a chain of particles; without this function each round would find only the next
-/// one. The depth of the search is 1 in the third round and doubles in each further round.
+/// Returns `pairs` and, from the third round on, also the pairs whose gaps they may close in turn.
+/// A blow goes through a chain of particles; without this function each round would find only the
+/// next pair of the chain. The depth of the search is 1 in the third round and doubles in each
+/// further round.
 template <int D>
 std::vector<std::size_t> StepProjection<D>::with_connected_pairs(
     const std::vector<std::size_t>& pairs, int round) {
@@ -172,10 +173,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   // Tolerate half of the allowed overlap. The other half is for the overlap that this step may add.
   tolerated_ = settings.tolerance * mean_radius / 2;
   choose(closed_by_free_motion());
-  // Length of the rough solution, in mean radii: box2d with 1000 discs takes as long with 5e-4 to
-  // 2e-3, and a tenth longer with 3e-3. The fraction of the impulses at work is 1, because rounding
-  // errors, which limit the accuracy of a solution, are known only when the impulses are roughly
-  // known.
+  // Tolerances of the rough solution: of the gaps in mean radii, and of the impulses as a fraction
+  // of the impulses at work. For bench/box2d.cpp with 1000 discs, gaps of 5e-4 to 2e-3 take equally
+  // long, 3e-3 a tenth longer. The fraction is 1, because the rounding errors that limit it are
+  // known only when the impulses are roughly known.
   constexpr double kRoughLength = 1e-3, kRoughImpulse = 1;
   bool is_rough = settings.tolerance < kRoughLength && settings.impulse_tolerance < kRoughImpulse;
   int rounds = 0;

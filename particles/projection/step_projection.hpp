@@ -1,5 +1,6 @@
 // Solves the projection (5.3) of one step on the contacts and particles that take part in it:
-// chooses them, sets their tolerances, and checks the solution. Units are those of the case.
+// chooses them, sets their tolerances, and checks the solution. Units are those of the case. The
+// results must not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -82,7 +83,7 @@ class StepProjection {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
-  double tolerated_ = 0;             // overlap that is not pushed out [L]
+  double tolerated_ = 0;             // overlap that is left as it is [L]
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;

@@ -1,11 +1,10 @@
-// Compares the provenance of restart.bin with that of this call, and reads state, record and
-// frames.
+// Finds out by the provenance of restart.bin whether an earlier run has the inputs and the version
+// of this call, and reads its state, record and frames. Times [T] are in the unit of the case.
 #include "viscontact/pipeline/particles/particles_earlier_run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/pipeline/particles/particles_folder.hpp"
+#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {
@@ -22,19 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The provenance of a restart file. Only its first 64 kB are read: they contain the provenance,
-/// and the file can be a gigabyte long.
-std::optional<results::Provenance> provenance_at_head(const fs::path& path) {
-  constexpr std::size_t kHead = 65536;
-  std::string head(kHead, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  return results::provenance_in(head, path.string());
-}
-
-/// Says in words how the inputs or the version of the run `before` differ from `now`; empty if they
-/// are the same.
+/// Says in words how the inputs or the version of the run `before` differ from those of `now`;
+/// empty if they are the same.
 std::string difference(const results::Provenance& before, const results::Provenance& now) {
   const auto version = [](const results::Provenance& provenance) {
     const auto found = provenance.versions.find("Viscontact");
@@ -83,7 +72,7 @@ std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
   const auto restart = folder / "restart.bin";
   if (!fs::is_regular_file(restart)) return {};
   try {
-    const auto before = provenance_at_head(restart);
+    const auto before = results::provenance_in(results::read_head(restart), restart.string());
     const std::string other =
         before ? difference(*before, provenance) : "does not say what it was made from";
     if (!other.empty()) {

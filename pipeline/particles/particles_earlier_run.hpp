@@ -12,14 +12,14 @@
 
 namespace viscontact::pipeline {
 
-/// The state of an interrupted run, from which it continues.
+/// An interrupted or finished run: its last state, from which it can continue, and its files.
 struct EarlierRun {
   particles::State state;
   StepRecord record;
-  ParticleFrames frames;  ///< refers to the provenance that find_earlier_run was given
+  ParticleFrames frames;  ///< keeps a reference to the provenance given to find_earlier_run
 };
 
-/// The times of the frames of a case, in a run that began at `first_time` [T].
+/// The times at which frames are written, in a run of the case that began at `first_time` [T].
 FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time);
 
 /// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or

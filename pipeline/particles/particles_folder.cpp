@@ -1,4 +1,5 @@
-// Recognises frames by their name, particles_NNNNN.vtp, and results by their provenance.
+// Recognises frames by their name, particles_NNNNN.vtp, and files that Viscontact wrote by their
+// provenance. The form of the name must agree with ParticleFrames::add.
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ void check_inputs_stay(const case_file::ParticlesCase& c, const fs::path& restar
     throw_bad_input(
         {restart.string()},
         "belongs to the run in the output folder, whose frames and record would be lost; choose "
-        "another folder, or leave out --restart: the same command continues an interrupted run in "
+        "another folder, or give no restart file: the same command continues an interrupted run in "
         "its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;

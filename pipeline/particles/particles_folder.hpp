@@ -2,6 +2,7 @@
 // and removing those of an earlier run.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -11,9 +12,9 @@
 namespace viscontact::pipeline {
 
 /// The names of all files of a run, except its frames.
-inline constexpr const char* kParticleResults[] = {
-    "particles.pvd",      "particles.html", "particles.svg", "final_particles.csv",
-    "final_contacts.csv", "steps.csv",      "restart.bin",   "run.json"};
+inline constexpr auto kParticleResults = std::to_array<const char*>(
+    {"particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
+     "final_contacts.csv", "steps.csv", "restart.bin", "run.json"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.

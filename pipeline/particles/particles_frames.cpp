@@ -1,4 +1,5 @@
-// Writing frames (VTK), keeping some of them for the page, and reading them again.
+// Writes frames (VTK), keeps some of them for the page and the picture, and reads frames again. A
+// run that continues must keep the same frames as one that was not interrupted (every_).
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
                             const particles::Setting& setting) {
   for (const auto& file : files) {
     files_.push_back(file);
-    // A frame that is not kept is read as well, because its file must exist.
+    // Frames that are not kept are read, too, to check that their files exist and are complete.
     auto [positions, contacts] = particles::read_vtp(folder_ / file.second, playback_.dimension);
     if (positions.size() != playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
@@ -81,7 +82,7 @@ void ParticleFrames::keep(Frame frame) {
   kept_bytes_ += frame.positions.size() * sizeof(float) +
                  frame.contacts.size() * sizeof(particles::CurrentContact);
   playback_.frames.push_back(std::move(frame));
-  // 256 MiB are more than a page can show, so from there on every second frame is enough.
+  // A page cannot show 256 MiB, so beyond this size every second frame is dropped.
   constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
   if (kept_bytes_ > kMostBytes && playback_.frames.size() > 4) {
     std::vector<Frame> half;

@@ -36,14 +36,15 @@ class ParticleFrames {
   ParticleFrames(std::filesystem::path folder, const results::Provenance& provenance,
                  const particles::Particles& particles);
 
-  /// Writes a frame of the present state.
+  /// Writes a frame of the simulation's current state.
   void add(const particles::Simulation& simulation);
 
-  /// Reads the frames that an interrupted run has written, in place of writing them. Throws
-  /// Error(kBadInput) that names the file if a frame cannot be read or has other particles.
+  /// Reads the frames that an interrupted run has written, so that they are not written again.
+  /// Throws Error(kBadInput), which names the file, if a frame cannot be read or has other
+  /// particles.
   void resume(const std::vector<FrameFile>& files, const particles::Setting& setting);
 
-  /// Adds the last state to the frames, unless it is among them. Does nothing if no frame was
+  /// Adds a frame of the last state, unless the last frame shows it. Does nothing if no frame was
   /// written.
   void end(const particles::Simulation& simulation);
 
@@ -60,9 +61,9 @@ class ParticleFrames {
   std::size_t every_ = 1, kept_bytes_ = 0;
 };
 
-/// The frames in particles.pvd (as write_pvd writes it) that belong to a run up to `time` [T].
-/// Later frames are left out, and so is a frame that was written only because the run was
-/// interrupted. Throws Error(kBadInput) that names the file if it cannot be read or has no frame.
+/// The frames that particles.pvd (written by write_pvd) lists up to `time` [T]. Later frames are
+/// left out, and so is a frame that was written only because the run was interrupted. Throws
+/// Error(kBadInput), which names the file, if it cannot be read or lists no frame.
 std::vector<FrameFile> frames_until(const std::filesystem::path& pvd, double time,
                                     const FrameTimes& times);
 

@@ -1,5 +1,5 @@
-// Writing and reading steps.csv (comment lines with the sums as JSON, then the rows of steps), and
-// writing run.json.
+// Writes and reads steps.csv (comment lines with the sums as JSON, then a row for each step), and
+// writes run.json. A change must keep the keys of for_each_sum, because earlier files have them.
 #include "viscontact/pipeline/particles/particles_record.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,8 @@ std::string comment_begin(std::int64_t last_step) {
   return fmt::format("# record after step {}: ", last_step);
 }
 
-/// Calls `visit` with the key and the value of each sum in a comment of steps.csv, in its order.
+/// Calls `visit` with the key and the value of each sum, in the order in which a comment of
+/// steps.csv has them.
 template <class Totals, class Visit>
 void for_each_sum(Totals& sums, const Visit& visit) {
   visit("steps", sums.steps);

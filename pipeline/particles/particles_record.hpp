@@ -14,9 +14,9 @@ namespace viscontact::pipeline {
 /// Sums and largest values over the steps of a run: those of this call and those of the interrupted
 /// calls before it in the same folder.
 struct StepTotals {
-  /// Number of the last step, counted from the first start, also through restarts by --restart.
+  /// Number of the last step. A run that continues another by --restart counts on from its steps.
   std::int64_t last_step = 0;
-  /// Steps of the run, steps among them that did not converge, and iterations of all steps.
+  /// Number of steps, of steps that did not converge, and of the iterations of all steps.
   std::int64_t steps = 0, unconverged = 0, iterations = 0;
   int most_iterations = 0;                           ///< of one step
   double first_time = 0, last_time = 0;              ///< [T]

@@ -1,6 +1,6 @@
-// The course of a run of many particles: checks, continuing an earlier run, time steps, saving and
-// results. restart.bin must be written after steps.csv and particles.pvd (Run::save), so that a run
-// that is killed at any time can be continued.
+// A run of many particles: checks, continues an earlier run, computes time steps, saves and writes
+// the results. restart.bin must be written after steps.csv and particles.pvd (Run::save), so that a
+// run that is killed at any time can be continued.
 #include "viscontact/pipeline/particles/particles_stage.hpp"
 
 #include <fmt/format.h>
@@ -50,9 +50,10 @@ particles::State first_state(const case_file::ParticlesCase& c, const std::strin
   check_same_particles(state, c, restart);
   state.particles.ids = c.particles.ids;
   if (state.time > c.end_time * (1 - 1e-9))
-    throw_bad_input({restart},
-                    fmt::format("is at time {} and {} ends at {}, so that nothing is left to do",
-                                state.time, c.path.string(), c.end_time));
+    throw_bad_input(
+        {restart},
+        fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
+                    state.time, c.path.string(), c.end_time));
   // If the time step differs from that of the earlier run, the times of the steps are counted from
   // this state on.
   const double on_grid =
@@ -67,7 +68,7 @@ particles::State first_state(const case_file::ParticlesCase& c, const std::strin
 /// A run with its state, frames and record, which can be written at any time.
 class Run {
  public:
-  /// `record` and `frames` are those of the interrupted run that continues, or new ones.
+  /// `record` and `frames` are new ones, or those of the interrupted run that this one continues.
   Run(const case_file::ParticlesCase& c, Simulation& simulation, fs::path folder,
       const results::Provenance& provenance, StepRecord record, ParticleFrames frames,
       const StopToken& stop)
@@ -114,7 +115,7 @@ class Run {
           report::particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           report::particles_picture(frames_.playback(), case_.title, kPanels));
-    const auto json = run_json(case_, with_costs(), simulation_);
+    auto json = run_json(case_, with_costs(), simulation_);
     write("run.json", TextKind::kJson, json);
     return json;
   }
@@ -198,7 +199,7 @@ void warn_or_fail_if_not_converged(const case_file::ParticlesCase& c, const Step
         record.unresolved, 1 << Simulation::kMostHalvings));
   if (stop.stop_requested())
     terminal::say(
-        fmt::format("particles: interrupted at t = {:.6g}; the same command goes on from there",
+        fmt::format("particles: interrupted at t = {:.6g}; the same command continues from there",
                     record.last_time));
   stop.throw_if_stop_requested();
   if (record.unconverged > 0)
@@ -214,7 +215,8 @@ void warn_or_fail_if_not_converged(const case_file::ParticlesCase& c, const Step
                     c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
 }
 
-/// Says of a finished run what the call that finished it said, and throws the same error.
+/// For a run that was finished before this call: prints the messages of the call that finished it,
+/// and throws the same error.
 void tell_finished(const case_file::ParticlesCase& c, const EarlierRun& run, const fs::path& folder,
                    bool json, const StopToken& stop) {
   if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
@@ -233,7 +235,7 @@ void run_particles(const ParticlesRequest& request) {
   const fs::path folder = request.folder;
   check_inputs_stay(c, request.restart, folder);
   auto state = first_state(c, request.restart);
-  const LockedFolder ours(folder, results::kFolderIsHeld);
+  const LockedFolder lock(folder, results::kFolderIsLocked);
   check_results(folder);
   auto earlier = find_earlier_run(c, folder, provenance);
   if (earlier && is_finished(*earlier, c, folder)) {
@@ -243,10 +245,10 @@ void run_particles(const ParticlesRequest& request) {
   StepRecord record;
   ParticleFrames frames(folder, provenance, c.particles);
   if (earlier) {
-    // These are the frames that were written after the last restart.bin, and the frame that was
+    // This removes frames that were written after the last restart.bin, and the frame that was
     // written because of the interrupt.
     remove_other_frames(earlier->frames.files(), folder);
-    terminal::say(fmt::format("particles: the run in {} goes on from t = {:.6g}, after step {}",
+    terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
                               folder.string(), earlier->state.time, earlier->state.steps));
     state = std::move(earlier->state);
     record = std::move(earlier->record);
@@ -261,8 +263,8 @@ void run_particles(const ParticlesRequest& request) {
   try {
     run.simulate();
   } catch (const Error&) {
-    // If a step cannot be computed, the state before it is written. If writing itself was the
-    // error, a second error of writing is ignored and the first is thrown.
+    // If a step cannot be computed, the state before this step is written. If the error came from
+    // writing, a second error of writing is ignored and the first is thrown.
     try {
       run.write_results();
     } catch (const Error&) {

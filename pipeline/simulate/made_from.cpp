@@ -1,4 +1,5 @@
-// Writing and comparing the comment lines of trajectories that identify their inputs.
+// Writes and compares the comment lines of trajectories that identify their inputs. A change of a
+// key makes `run` simulate again, because trajectories of earlier versions lack the key.
 #include "viscontact/pipeline/simulate/made_from.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr const char* kAboveKey = "drag above the fit";
 }  // namespace
 
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
-                                   const OutsideFit& outside) {
+                                   const lubrication::OutsideInterval& outside) {
   CsvComments comments = {
       {"case", sha256(c.text)},
       {"fit", results::content_sha256(fit_text)},

@@ -1,5 +1,5 @@
-// What a trajectory was made from. `run` decides by this record whether a trajectory is up to date,
-// so the record must name everything that changes a trajectory.
+// The inputs from which a trajectory was made. `run` decides by this record whether a trajectory is
+// up to date, so the record must name everything that changes a trajectory.
 #pragma once
 
 #include <string>
@@ -11,18 +11,12 @@
 
 namespace viscontact::pipeline {
 
-/// What the drag is outside the interval of the fit: an error, or a limit.
-struct OutsideFit {
-  lubrication::BelowInterval below = lubrication::BelowInterval::kError;
-  lubrication::AboveInterval above = lubrication::AboveInterval::kError;
-};
-
 /// The lines "# key: value" that identify the inputs of a trajectory: hashes of case, fit (the text
 /// `fit_text`) and forces, limits of the drag, revision of the models and version.
 CsvComments identity_of_trajectory(const case_file::Case& c, const std::string& fit_text,
-                                   const OutsideFit& outside);
+                                   const lubrication::OutsideInterval& outside);
 
-/// True if the folder has the model's trajectory and this was made from the inputs `identity`.
+/// True if the folder has a trajectory of the model that was made from the inputs `identity`.
 bool is_simulated(const results::RunFolder& run, const std::string& model,
                   const CsvComments& identity);
 

@@ -1,4 +1,6 @@
-// Checks that need no table: number of gaps, parameters of models, interval of the motion.
+// Checks a case without a table: number of gaps, parameters of models, gaps of the motion. Gaps [L]
+// are in the unit of the case. The checks must be quick, because `run` makes them before each
+// tabulation.
 #include "viscontact/pipeline/simulate/run_checks.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +10,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/reached_gaps.hpp"
+#include "viscontact/reduced_model/models/reached_gaps.hpp"
 #include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::pipeline {
@@ -45,9 +47,10 @@ void check_run(const case_file::Case& c, const std::vector<std::string>& models)
   for (const auto& name : models) {
     const auto choice = reduced_model::find_model(name);
     if (choice.exact_drag || choice.model->contact != nullptr) continue;
-    if (motion.initial_gap < smallest && request.below == lubrication::BelowInterval::kError)
+    if (motion.initial_gap < smallest &&
+        request.outside.below == lubrication::BelowInterval::kError)
       refuse(name, "below the smallest", smallest, "below = \"lubrication_limit\"");
-    if (motion.initial_gap > largest && request.above == lubrication::AboveInterval::kError)
+    if (motion.initial_gap > largest && request.outside.above == lubrication::AboveInterval::kError)
       refuse(name, "above the largest", largest, "above = \"stokes_limit\"");
   }
   check_parameters(c, models);
@@ -60,7 +63,7 @@ void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::strin
   const auto& request = case_file::required_fit(c);
   reduced_model::Motion motion = case_file::required_motion(c);
   motion.stop = stop;
-  if (tabulation.geometry != freefem_axi::Tabulation().geometry) return;
+  if (!freefem_axi::find_geometry(tabulation.geometry).has_exact_drag) return;
   for (const auto& parameter : reduced_model::model_parameters())
     if (parameter.is_time_step && motion.end_time > kMostSteps * motion.parameter(parameter))
       return;
@@ -85,10 +88,10 @@ void warn_of_gaps_outside(const case_file::Case& c, const std::vector<std::strin
       "simulate: warning: the motion will leave tabulation.gaps, and these models will fail: {}. "
       "With the exact drag of a plane the gap {} to {:.3g}, the {} of tabulation.gaps is {:.3g}. "
       "Tabulate further, or write {} into the section [fit]";
-  if (!below.empty() && request.below == lubrication::BelowInterval::kError)
+  if (!below.empty() && request.outside.below == lubrication::BelowInterval::kError)
     terminal::warn(fmt::format(kWarning, below, "falls", lowest, "smallest", smallest,
                                "below = \"lubrication_limit\""));
-  if (!above.empty() && request.above == lubrication::AboveInterval::kError)
+  if (!above.empty() && request.outside.above == lubrication::AboveInterval::kError)
     terminal::warn(fmt::format(kWarning, above, "rises", highest, "largest", largest,
                                "above = \"stokes_limit\""));
 }

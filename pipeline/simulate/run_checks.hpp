@@ -9,8 +9,8 @@
 
 namespace viscontact::pipeline {
 
-/// Throws Error(kBadInput) that names the case if a parameter of a model is wrong. The check uses
-/// the exact drag, because its interval has no ends that a model could leave.
+/// Throws Error(kBadInput), which names the case, if a parameter of a model is wrong. The check
+/// uses the exact drag near a plane, because it is known at every gap.
 void check_parameters(const case_file::Case& c, const std::vector<std::string>& models);
 
 /// Throws Error(kBadInput) that names the case if it has fewer gaps than terms to be fitted, if a

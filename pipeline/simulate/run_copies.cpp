@@ -1,4 +1,5 @@
-// Checking and writing the copies of a run's inputs.
+// Checks and writes the copies of a run's inputs in its folder. A change must keep the order of
+// writing (write_copies), by which files of the user are told from copies.
 #include "viscontact/pipeline/simulate/run_copies.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ void check_copy(const results::RunFolder& run, const fs::path& copy, const std::
   if (results::without_provenance(read_file(copy)) != results::without_provenance(text))
     throw_bad_input(
         {copy.string()},
-        fmt::format("is another {} and is not replaced; remove it first, or write elsewhere",
+        fmt::format("is another {}, so it is not replaced; remove it first, or write elsewhere",
                     kind));
 }
 

@@ -6,8 +6,8 @@
 
 namespace viscontact::pipeline {
 
-/// True if Viscontact has simulated into this folder before. Then the folder has a sub-folder of
-/// trajectories that contains a file that Viscontact wrote, or that is empty because the run was
+/// True if Viscontact has simulated into this folder before. The sign of it is a sub-folder
+/// trajectories/ that contains a file that Viscontact wrote, or that is empty because the run was
 /// interrupted.
 bool holds_a_run(const results::RunFolder& run);
 
@@ -19,9 +19,9 @@ void check_case_copies(const results::RunFolder& run, const case_file::Case& c);
 /// The same check for the copy of the fit.
 void check_fit_copy(const results::RunFolder& run, const std::string& fit_text);
 
-/// Makes the folder of trajectories, then writes the copies. The order matters: holds_a_run knows
-/// by the folder of trajectories that the copies may be replaced, even if the run is interrupted
-/// here.
+/// Makes the folder of trajectories, then writes the copies. This order is needed, because
+/// holds_a_run decides by the folder of trajectories whether the copies may be replaced, and the
+/// run can be interrupted in this function.
 void write_copies(const results::RunFolder& run, const case_file::Case& c,
                   const std::string& fit_text);
 

@@ -1,4 +1,5 @@
-// Choosing the fit, running the models of a case and writing their results.
+// Chooses the fit, runs the models of a case and writes their results. A change must keep the order
+// of writing (write_simulated), because `run` takes a trajectory as the sign that all is written.
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include "viscontact/reduced_model/fewer_rows.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/reduced_model/reached_gaps.hpp"
+#include "viscontact/reduced_model/models/reached_gaps.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -27,12 +28,12 @@ namespace fs = std::filesystem;
 /// The effect of the fit's errors on the motion without inertia (JSON). Empty if the fit is exact,
 /// or if this motion cannot be computed; then a warning says why.
 std::string uncertainty_of(const reduced_model::Motion& motion, const lubrication::Fit& fit,
-                           const OutsideFit& outside) {
+                           const lubrication::OutsideInterval& outside) {
   constexpr std::size_t kTimes = 81;
   if (lubrication::is_exact_plane(fit)) return "";
   try {
     return reduced_model::write_uncertainty(
-        reduced_model::propagate_fit(motion, fit, kTimes, outside.below, outside.above));
+        reduced_model::propagate_fit(motion, fit, kTimes, outside));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInterrupted) throw;
     terminal::warn(fmt::format("simulate: warning: the fit's uncertainty is not propagated: {}",
@@ -41,21 +42,16 @@ std::string uncertainty_of(const reduced_model::Motion& motion, const lubricatio
   }
 }
 
-/// Says, as the end of a message, how far a model goes beyond the fit's interval; empty if it stays
-/// inside or if no estimate is possible. For the estimate, the drag outside the interval is given
-/// by its limits.
+/// The end of a message, which says how far a model leaves the fit's interval; empty if it stays
+/// inside or if no estimate is possible. The estimate uses the limits of the drag (glossary)
+/// outside the interval.
 std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
                              const reduced_model::Motion& motion, const lubrication::Fit& fit,
-                             OutsideFit outside) {
+                             const lubrication::OutsideInterval& outside) {
   if (choice.exact_drag || lubrication::is_exact_plane(fit)) return "";
-  const auto [low, high] =
-      lubrication::LubricationForce(fit, outside.below, outside.above).interval();
-  if (outside.below == lubrication::BelowInterval::kError)
-    outside.below = lubrication::BelowInterval::kLubricationLimit;
-  if (outside.above == lubrication::AboveInterval::kError)
-    outside.above = lubrication::AboveInterval::kStokesLimit;
+  const auto [low, high] = lubrication::LubricationForce(fit, outside).interval();
   const auto reached = reduced_model::reached_gaps(
-      choice, motion, lubrication::LubricationForce(fit, outside.below, outside.above));
+      choice, motion, lubrication::LubricationForce(fit, outside.with_limits()));
   if (!reached) return "";
   std::string text;
   if (reached->smallest && *reached->smallest < low)
@@ -74,7 +70,7 @@ std::string estimate_of_gaps(const reduced_model::ModelChoice& choice,
 /// The record of a model for which simulate() threw this error.
 results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const Error& error,
                                 const reduced_model::Motion& motion, const lubrication::Fit& fit,
-                                const OutsideFit& outside) {
+                                const lubrication::OutsideInterval& outside) {
   std::string reason = error.what();
   const std::string prefix = fmt::format("model {}: ", choice.name);
   if (reason.starts_with(prefix)) reason.erase(0, prefix.size());
@@ -85,21 +81,20 @@ results::FailedModel failure_of(const reduced_model::ModelChoice& choice, const 
 
 /// The force of the fit, after a check that the fit was made for the case.
 lubrication::LubricationForce force_for(const case_file::Case& c, const lubrication::Fit& fit,
-                                        const fs::path& fit_path, const OutsideFit& outside) {
-  // A fit for another viscosity could be scaled, but a fit for another radius could not. Neither is
-  // done without the user's knowledge.
+                                        const fs::path& fit_path,
+                                        const lubrication::OutsideInterval& outside) {
+  // A fit for another radius cannot be used. A fit for another viscosity could be scaled, but not
+  // without the user's knowledge, because the case and the fit contradict each other.
   if (fit.viscosity != c.viscosity || fit.radius != c.radius)
     throw_bad_input({fit_path.string()},
                     fmt::format("was made for viscosity {} and radius {}, but the case has "
                                 "viscosity {} and radius {}; tabulate and fit for the case",
                                 fit.viscosity, fit.radius, c.viscosity, c.radius));
-  return with_place(fit_path.string(), [&] {
-    return lubrication::LubricationForce(fit, outside.below, outside.above);
-  });
+  return with_place(fit_path.string(), [&] { return lubrication::LubricationForce(fit, outside); });
 }
 
-/// Adds to the comments of the trajectory how it was computed, and drops rows if the case asks for
-/// fewer.
+/// Adds comments to the trajectory that say how it was computed, and drops rows if the case asks
+/// for fewer rows.
 void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelChoice& choice,
             const reduced_model::Motion& motion, const lubrication::LubricationForce& force) {
   auto& comments = trajectory.provenance;
@@ -112,7 +107,7 @@ void finish(reduced_model::Trajectory& trajectory, const reduced_model::ModelCho
   }
   if (choice.model->contact == nullptr) return;
   const auto drag = reduced_model::drag_of(choice, force);
-  const auto law = choice.model->contact(reduced_model::motion_of(choice, motion), drag).film_law;
+  const auto law = reduced_model::contact_model_of(choice, motion, drag).film_law;
   if (!law.empty()) comments["recovered_film"] = law;
 }
 
@@ -132,8 +127,8 @@ std::vector<std::string> models_to_run(const case_file::Case& c, std::vector<std
 }
 
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
-                        const std::vector<std::string>& models, const OutsideFit& outside,
-                        const StopToken& stop) {
+                        const std::vector<std::string>& models,
+                        const lubrication::OutsideInterval& outside, const StopToken& stop) {
   reduced_model::Motion motion = case_file::required_motion(c);
   motion.stop = stop;
   Simulated simulated;
@@ -177,13 +172,13 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
     remove_file(run.uncertainty());
   else
     results::write_output(run.uncertainty(), TextKind::kJson, simulated.uncertainty, provenance);
-  // The trajectories come after the other files, because `run` takes their presence as the sign
+  // The trajectories are written after these files, because `run` takes a trajectory as the sign
   // that these files are written.
   for (const auto& trajectory : simulated.trajectories)
     results::write_output(run.trajectory(trajectory.model), TextKind::kHashComment,
                           reduced_model::write_trajectory(trajectory), provenance);
   auto failed = results::recorded_failures(run, simulated.made_from);
-  // The record keeps the failures of models that were not run now, if their inputs were the same.
+  // The record keeps failures of models that this call did not run, if their inputs were the same.
   std::erase_if(failed, [&](const results::FailedModel& other) {
     const auto is_it = [&](const auto& model) { return model.model == other.model; };
     return std::ranges::any_of(simulated.trajectories, is_it) ||
@@ -197,17 +192,13 @@ void write_simulated(const results::RunFolder& run, const case_file::Case& c,
                           results::write_failed_models(failed), provenance);
   for (const auto& model : simulated.failed) {
     remove_file(run.trajectory(model.model));
-    // The error that ends the command gives the reason of the first model.
+    // The reason of the first model is in the error with which the command ends.
     if (&model != &simulated.failed.front())
       terminal::say(fmt::format("simulate: model {} failed: {}", model.model, model.reason));
   }
   terminal::say(fmt::format("simulate: {} models", simulated.trajectories.size()));
 }
 
-namespace {
-
-/// The fit file for the exact drag of the case in the run's folder. If the file there differs in
-/// its provenance only, its text is returned unchanged, so that it is not written with a new time.
 FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
                        const results::Provenance& provenance) {
   const std::string text =
@@ -215,8 +206,6 @@ FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
   if (results::has_content(run.fit(), text)) return {run.fit(), read_file(run.fit())};
   return {run.fit(), results::output_text(run.fit(), TextKind::kJson, text, provenance)};
 }
-
-}  // namespace
 
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   const results::RunFolder run{request.folder};
@@ -228,14 +217,14 @@ void simulate_stage(const case_file::Case& c, const SimulateRequest& request) {
   if (of_folder) path = run.fit();
   if (path.empty() && !exact)
     throw Error(ErrorKind::kWrongUsage,
-                fmt::format("the case names no drag to run with (file or exact in its section "
-                            "[fit]) and there is no {}; give a fit with --fit",
-                            run.fit().string()));
+                fmt::format("the drag is not given: the section [fit] of the case has neither "
+                            "'file' nor 'exact', and there is no {}; {}",
+                            run.fit().string(), request.remedy));
   auto inputs = files_of_motion(c);
   if (!exact) inputs.push_back(path);
   auto provenance = results::provenance_of({inputs, {}});
-  // If `rerun` repeats the command for another folder, that folder has no fit; so the recorded
-  // command names this fit.
+  // The recorded command names this fit, because `rerun` may repeat the command with another folder
+  // as output, which has no fit.
   if (of_folder) provenance.command.insert(provenance.command.end(), {"--fit", path.string()});
   if (request.fit.empty())
     terminal::say(fmt::format("simulate: the drag is {}",

@@ -33,7 +33,7 @@ std::vector<std::string> models_to_run(const case_file::Case& c,
 /// The results of a simulation, before they are written.
 struct Simulated {
   std::string fit_text;   ///< text of the fit file
-  CsvComments made_from;  ///< what identifies case, fit and version in the files that are written
+  CsvComments made_from;  ///< comments that identify case, fit and version (made_from.hpp)
   std::vector<reduced_model::Trajectory> trajectories;
   std::vector<results::FailedModel> failed;  ///< models without a trajectory
   /// Effect of the fit's errors on the motion without inertia (JSON); empty if the fit is exact or
@@ -42,13 +42,13 @@ struct Simulated {
 };
 
 /// Runs the models and writes no file. A model that fails, because it leaves the fit's interval or
-/// does not converge, does not stop the others. Throws Error(kBadInput) that names the case or the
-/// fit if the fit has another viscosity or radius than the case, or if a parameter of a model is
-/// wrong. Throws the error of the first model if all models fail, and Error(kInterrupted) if `stop`
-/// requests a stop.
+/// does not converge, does not stop the others. Throws Error(kBadInput), which names the case or
+/// the fit, if the fit has another viscosity or radius than the case, or if a parameter of a model
+/// is wrong. Throws the error of the first model if all models fail, and Error(kInterrupted) if
+/// `stop` requests a stop.
 Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
-                        const std::vector<std::string>& models, const OutsideFit& outside,
-                        const StopToken& stop);
+                        const std::vector<std::string>& models,
+                        const lubrication::OutsideInterval& outside, const StopToken& stop);
 
 /// Writes the trajectories, the record of failed models, uncertainty.json and the copies of case
 /// and fit. An earlier trajectory of a model that failed is removed, because it was made from other
@@ -56,21 +56,27 @@ Simulated simulate_case(const case_file::Case& c, const FitFile& fit_file,
 void write_simulated(const results::RunFolder& run, const case_file::Case& c,
                      const Simulated& simulated, const results::Provenance& provenance);
 
+/// The fit file for the exact drag of the case in the run's folder. If the file there differs in
+/// its provenance only, its text is returned unchanged, so that it is not written with a new time.
+FitFile exact_fit_file(const case_file::Case& c, const results::RunFolder& run,
+                       const results::Provenance& provenance);
+
 /// The inputs of a simulation besides the case.
 struct SimulateRequest {
-  /// Path of the fit. If it is empty, the fit is that which the case names, or the exact drag if
+  /// Path of the fit. If it is empty, the fit is the one that the case names, or the exact drag if
   /// the case asks for it, or fit.json in `folder`.
   std::string fit;
   std::filesystem::path folder;     ///< the run's folder
   std::vector<std::string> models;  ///< names of models; empty: see models_to_run
-  OutsideFit outside;
+  lubrication::OutsideInterval outside;
   StopToken stop{};
+  std::string remedy{};  ///< what the error says that the user can do if there is no fit
 };
 
 /// Runs the models and writes their trajectories and the copies of case and fit into the run's
 /// folder. Before anything is written, throws as simulate_case does, Error(kWrongUsage) if there is
-/// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, throws
-/// error_of() them after the results of the others are written.
+/// no fit, and Error(kBadInput) if a file must not be replaced. If some models failed, the results
+/// of the others are written; then the error that results::error_of() makes is thrown.
 void simulate_stage(const case_file::Case& c, const SimulateRequest& request);
 
 }  // namespace viscontact::pipeline

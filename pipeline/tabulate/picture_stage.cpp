@@ -1,11 +1,11 @@
-// Choice of gaps, names of files and order of writing for the pictures of a tabulation.
+// Chooses the gaps, names the files and writes the pictures of a tabulation. Gaps [L] are in the
+// unit of the case. The markers of kMesh to kVtu must occur in the files that are written.
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
@@ -45,7 +45,7 @@ void check_pictures(const std::vector<double>& gaps, const std::filesystem::path
 }
 
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
-                                    const std::string& asked) {
+                                    const std::vector<double>& asked) {
   constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
@@ -55,20 +55,13 @@ std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
     gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
     return gaps;
   }
-  std::istringstream words(asked);
-  for (std::string word; std::getline(words, word, ',');) {
-    const auto gap = parse_number(word);
-    if (!gap)
-      throw Error(
-          ErrorKind::kWrongUsage,
-          fmt::format("--plot: '{}' is not a number; give gaps of the case, separated by commas",
-                      word));
+  for (const double gap : asked) {
     const double nearest =
-        *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - *gap); });
-    if (!(std::abs(nearest - *gap) <= kTolerance * nearest))
+        *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - gap); });
+    if (!(std::abs(nearest - gap) <= kTolerance * nearest))
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("--plot: {} is not one of the case's gaps; the nearest of them is {}",
-                              word, format_number(nearest)));
+                  fmt::format("{} is not one of the case's gaps; the nearest of them is {}",
+                              format_number(gap), format_number(nearest)));
     gaps.push_back(nearest);
   }
   return gaps;

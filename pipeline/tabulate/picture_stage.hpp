@@ -11,13 +11,12 @@
 
 namespace viscontact::pipeline {
 
-/// The gaps of the case that `asked` names, in the order of `asked`: numbers separated by commas,
-/// each with a relative difference of at most 1e-6 to a gap of the case. If `asked` is empty, these
-/// are the smallest, the middle and the largest gap. Throws Error(kWrongUsage) for a word that is
-/// not a number, and Error(kBadInput) that names the nearest gap for a number that is not a gap of
-/// the case.
+/// The gaps of the case that are meant by `asked`, in the same order: each of these has a relative
+/// difference of at most 1e-6 to a gap of the case. If `asked` is empty, the result is the
+/// smallest, the middle and the largest gap. Throws Error(kBadInput) that names the nearest gap for
+/// a number that is not a gap of the case.
 std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
-                                    const std::string& asked);
+                                    const std::vector<double>& asked);
 
 /// The folder for the pictures of a table, beside the table: table.plots/ for table.csv.
 std::filesystem::path picture_folder(const std::filesystem::path& table_path);

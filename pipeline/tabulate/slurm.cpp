@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The default of Slurm's MaxArraySize is 1001, and the numbers of tasks must be smaller.
+// Slurm's MaxArraySize is 1001 by default, and the number of each task must be smaller than it.
 constexpr std::size_t kMostTasks = 1000;
 
 fs::path absolute_output(const fs::path& output) {
@@ -44,12 +44,11 @@ std::string ask_slurm(const std::vector<std::string>& command, const StopToken& 
   if (!result.started)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
-                            "install slurm-client), or tabulate here without --launcher slurm",
+                            "install slurm-client), or tabulate here",
                             command.front(), said));
   if (result.exit_status != 0)
     throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} failed (exit status {}): {}; nothing was submitted; see "
-                            "--slurm-options, --tasks",
+                fmt::format("{} failed (exit status {}): {}; nothing was submitted",
                             command.front(), result.exit_status, said));
   return result.output;
 }
@@ -97,7 +96,8 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
-/// The script of a task, which runs this program with the cases as submitted.
+/// The script of a task. It runs this program with the copies of the cases that were made when the
+/// job was submitted.
 std::string task_script(const std::vector<CaseTable>& tables, const SlurmRequest& request,
                         std::size_t count) {
   std::string command = shell_word(fs::read_symlink("/proc/self/exe").string()) + " tabulate";

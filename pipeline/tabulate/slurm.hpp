@@ -16,15 +16,15 @@ struct SlurmRequest {
   std::optional<std::size_t> tasks;  ///< size of the array; default: one task a row, at most 1000
   std::optional<int> jobs;           ///< FreeFEM processes at once in a task; default: 1
   std::string options;               ///< further words for sbatch, quoted as in a shell
-  StopToken stop{};                  ///< ends waiting for Slurm with Error(kInterrupted)
+  StopToken stop{};                  ///< a stop ends the wait for Slurm (kInterrupted)
 };
 
-/// The folder OUTPUT.slurm with the cases as submitted, the script of a task and the logs of the
-/// tasks.
+/// The folder OUTPUT.slurm, which has copies of the submitted cases, the script of a task and the
+/// logs of the tasks.
 std::filesystem::path slurm_folder(const std::filesystem::path& output);
 
 /// Submits the tasks that have rows to compute and prints the number of the job to standard output.
-/// If no row is missing, nothing is submitted and nothing is printed there. Throws Error(kBadInput)
+/// If no row is missing, no job is submitted and no number is printed. Throws Error(kBadInput)
 /// if an earlier job for the same output is still pending or running, and Error(kExternalProgram)
 /// with the message of Slurm if Slurm is missing or refuses the job.
 void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& request);

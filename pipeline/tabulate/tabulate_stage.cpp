@@ -1,20 +1,18 @@
-// Tabulation of several cases in one process, in shares, and gathering. Journals of finished rows
-// are removed only after their table is written.
+// Tabulates several cases in one process, computes the rows of one task, or gathers the rows of all
+// tasks. Journals of finished rows must not be removed before their table is written.
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
-#include "viscontact/freefem_axi/tabulate.hpp"
+#include "viscontact/freefem_axi/journal/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/tabulate.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -63,7 +61,7 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::G
       freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.hash()), points);
   const auto kept = points.size() - missing.size();
   return fmt::format("{} rows{}", points.size(),
-                     kept > 0 ? fmt::format(" ({} of them from before)", kept) : "");
+                     kept > 0 ? fmt::format(" ({} of them already computed)", kept) : "");
 }
 
 void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
@@ -76,14 +74,6 @@ void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
                                      one.table, show_rows);
   terminal::clear_progress();
   write_table(one, std::move(table), provenance);
-}
-
-/// The name of the process that writes a journal. It contains share, host and process id, so that
-/// no two processes that run at the same time have the same name.
-std::string writer_name(const Share& share) {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("{}-of-{}.{}.{}", share.number, share.count, host.data(), ::getpid());
 }
 
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
@@ -99,10 +89,9 @@ std::string writer_name(const Share& share) {
   for (const auto& point : missing)
     if (const auto failed = record.failed.find(point); failed != record.failed.end())
       reasons.push_back(failed->second);
-  std::string text = fmt::format(
-      "{} of {} rows are missing ({}); the finished ones are kept, and the same command "
-      "without --gather computes the rest here, or with --launcher slurm or --task elsewhere",
-      missing.size(), freefem_axi::grid_of(one.tabulation()).size(), fmt::join(named, "; "));
+  std::string text =
+      fmt::format("{} of {} rows are missing ({}); the finished ones are kept", missing.size(),
+                  freefem_axi::grid_of(one.tabulation()).size(), fmt::join(named, "; "));
   if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
   if (const auto submitted = slurm_folder / one.c.path.filename();
       fs::exists(submitted) && read_file(submitted) != one.c.text)
@@ -128,7 +117,7 @@ void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
 template <class Work>
 void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop, const Work& work) {
   if (tables.size() == 1) return work(0);
-  // A FreeFEM that fails is the more serious of the two kinds, so it decides.
+  // If both kinds occur, the error has the kind kExternalProgram, because it is more serious.
   auto kind = ErrorKind::kNotConverged;
   std::vector<std::string> failures;
   for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -172,18 +161,6 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
   return tables;
 }
 
-Share parse_share(const std::string& text) {
-  Share share;
-  const char* const end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, share.number);
-  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, share.count);
-    if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
-  }
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
-}
-
 std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
                                                            const Share& share) {
   std::vector<std::vector<freefem_axi::GridPoint>> points;
@@ -203,7 +180,7 @@ void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopTo
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
                  const StopToken& stop) {
   const freefem_axi::RowWorker worker = {freefem_axi::default_freefem(stop), jobs,
-                                         writer_name(share)};
+                                         freefem_axi::writer_name(share.number, share.count)};
   const auto points = points_of(tables, share);
   for_each_table(tables, stop, [&](std::size_t i) {
     if (points[i].empty()) return;

@@ -1,5 +1,5 @@
-// The stage tabulate: the tables of one or several cases. The rows are computed by this process, or
-// in shares by the tasks of a job on a cluster; then gather_stage puts the tables together.
+// The stage tabulate: the tables of one or several cases. This process computes the rows, or each
+// task of a job on a cluster computes a share of them; then gather_stage puts the tables together.
 #pragma once
 
 #include <filesystem>
@@ -27,14 +27,11 @@ struct CaseTable {
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const std::filesystem::path& output);
 
-/// The share of task `number` among `count` tasks: the rows are numbered through the grids of all
-/// tables, and the share has those whose number is congruent to `number` modulo `count`.
+/// The rows that task `number` of `count` tasks computes. The rows of all tables are numbered in
+/// one sequence from 0; the task computes those whose number modulo `count` is `number`.
 struct Share {
   std::size_t number = 0, count = 1;
 };
-
-/// Reads "K/T". Throws Error(kWrongUsage) unless these are integers with 0 <= K < T.
-Share parse_share(const std::string& text);
 
 /// The points of each table's grid that belong to the share.
 std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,

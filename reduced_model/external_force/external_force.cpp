@@ -1,5 +1,6 @@
-// Sums of piecewise polynomials (polynomial.hpp) and sinusoids, whose closed forms are arranged so
-// that short intervals and small arguments lose no digits, and the search for changes of sign.
+// Sums of piecewise polynomials (polynomial.hpp) and sinusoids, and the search for their changes of
+// sign. Units are those of external_force.hpp. A change must keep the form of the sums, in which
+// short intervals and small arguments lose no digits.
 #include "viscontact/reduced_model/external_force/external_force.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@
 namespace viscontact::reduced_model {
 namespace {
 
-/// How finely a sinusoid is sampled in the search for changes of sign.
+/// Number of samples in a period of the fastest sinusoid, in the search for changes of sign.
 constexpr int kSamplesPerPeriod = 32;
 
 double sine(const ExternalForce::Sinusoid& s, double time) {

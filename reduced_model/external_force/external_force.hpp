@@ -1,5 +1,5 @@
-// The external force f_ext(t): every force on the sphere but that of the fluid and of contact, such
-// as gravity, a push or a measured signal. Lengths, masses and times are in any one consistent
+// The external force f_ext(t): every force on the sphere except those of the fluid and of contact,
+// such as gravity, a push or a measured signal. Lengths, masses and times are in any one consistent
 // system of units. A change must keep means and impulses exact, because the budgets are balanced to
 // round-off.
 #pragma once
@@ -83,8 +83,9 @@ class ExternalForce {
   std::vector<Sinusoid> sinusoids_;
 };
 
-/// value() and mean() of a force at times that do not decrease from call to call. Where the force
-/// is constant, they need no search for the piece.
+/// value() and mean() of a force at times that do not decrease from call to call. They are faster
+/// than the functions of ExternalForce, because they need not search for the piece while the force
+/// is constant.
 class ForceWalk {
  public:
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }

@@ -1,4 +1,4 @@
-// Calls of SUNDIALS 6 and 7, with all their return codes checked.
+// Calls CVODE of SUNDIALS 6 or 7 and checks all return codes (cvode.hpp).
 #include "viscontact/reduced_model/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
@@ -84,14 +84,15 @@ Cvode::Cvode(StiffSystem system, std::span<const double> state)
   check(CVodeWFtolerances(s.memory, Sundials::weights), "CVodeWFtolerances");
   check(CVodeSetUserData(s.memory, this), "CVodeSetUserData");
   check(print_no_errors(s.context, s.memory), "print_no_errors");
-  // A negative number turns off all warnings of steps below the rounding of the time. SUNDIALS 7
-  // would print them on standard output.
+  // A negative number turns off all warnings of steps that are shorter than the rounding error of
+  // the time. SUNDIALS 7 would print them on standard output.
   check(CVodeSetMaxHnilWarns(s.memory, -1), "CVodeSetMaxHnilWarns");
   check(CVodeSetLinearSolver(s.memory, s.solver.get(), s.matrix.get()), "CVodeSetLinearSolver");
   check(CVodeSetJacFn(s.memory, Sundials::jacobian), "CVodeSetJacFn");
-  // By default CVODE keeps a Jacobian for up to 51 steps. When the stiffness falls by decades
-  // within a few steps (a film that opens), an old Jacobian makes Newton's corrections vanish, and
-  // a wrong state is accepted as a solution. A new Jacobian at each step costs almost nothing here.
+  // By default CVODE keeps a Jacobian for up to 51 steps. When the stiffness falls by several
+  // powers of ten within a few steps, as in a film that opens, an old Jacobian makes Newton's
+  // corrections vanish, and a wrong state is accepted as a solution. A new Jacobian at each step
+  // costs almost nothing here.
   check(CVodeSetLSetupFrequency(s.memory, 1), "CVodeSetLSetupFrequency");
   check(CVodeSetJacEvalFrequency(s.memory, 1), "CVodeSetJacEvalFrequency");
 }
@@ -129,8 +130,9 @@ void Cvode::step() {
   if (code >= 0 && (!(time_ > before) || ++steps_since_restart_ > kMostSteps))
     code = CV_TOO_MUCH_WORK;
   if (code < 0 && system_error_) {
-    // CVODE reports its own last failure. If it did not get beyond the time at which the system was
-    // not defined, up to the relative distance kNoWay, the Error of the system is the cause.
+    // CVODE reports its own last failure. If it did not get further than the relative distance
+    // kNoWay beyond the time at which the system was not defined, the Error of the system is the
+    // cause.
     constexpr double kNoWay = 1e-9;
     double reached = 0;
     check(CVodeGetCurrentTime(sundials_->memory, &reached), "CVodeGetCurrentTime");

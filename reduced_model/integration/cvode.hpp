@@ -73,7 +73,7 @@ class Cvode {
   long steps_before_restart_ = 0;
   long steps_since_restart_ = 0;
   std::exception_ptr system_error_;  // the last Error that the system threw
-  double system_error_time_ = 0;     // the time at which it did
+  double system_error_time_ = 0;     // the time at which the system threw it
 };
 
 }  // namespace viscontact::reduced_model

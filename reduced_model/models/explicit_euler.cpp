@@ -1,4 +1,5 @@
-// The loop over time of the model `explicit_euler`.
+// The loop over time of the model `explicit_euler`. Scheme and units are those of
+// explicit_euler.hpp. A change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/explicit_euler.hpp"
 
 namespace viscontact::reduced_model {

@@ -1,5 +1,6 @@
 // Drives CVODE through the equation of inertial_equation.hpp: it restarts where the force jumps,
-// and makes rows at the required times and where the velocity changes its sign.
+// and makes rows at the required times and where the velocity changes its sign. A change of its
+// results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
 #include <array>
@@ -25,7 +26,7 @@ class InertialRun {
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
         next_row_(times_.begin() + 1) {
-    // The 16 further rows are for changes of sign of the velocity.
+    // The 16 additional rows are for the times at which the velocity changes its sign.
     trajectory_.rows.reserve(times_.size() + 16);
     add_row(0,
             {motion.initial_gap, motion.initial_velocity, 0, force.resistance(motion.initial_gap)});
@@ -68,8 +69,8 @@ class InertialRun {
       return true;
     } catch (const Error&) {
       // If the state differs from the balance of forces in the film by more than its tolerance,
-      // CVODE would have to follow how it returns to the balance, at the rate R/m. It gets one
-      // chance at each time to restart from the balance.
+      // CVODE would have to resolve its return to the balance, at the rate R/m. At each time CVODE
+      // may restart from the balance once.
       if (now_ <= given_up_at_) throw;
       given_up_at_ = now_;
       const double q = gap();

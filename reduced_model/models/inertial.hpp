@@ -22,15 +22,15 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 /// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.
 ///
 /// The equation is stiff, because the film damps at the rate R/m. Errors of s decay in the film and
-/// do not add up. The first integral holds by construction, so it is no check of this model. Its
-/// checks are exact states (data/reference/limit_case_states.csv) and an integration of (M) in
-/// extended precision.
+/// do not add up. The first integral is satisfied by construction, so that it cannot check this
+/// model. The model is checked by exact states (data/reference/limit_case_states.csv) and by an
+/// integration of (M) in extended precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
-/// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in
-/// a step is at most a tenth of inertial.relative_tolerance, and 3e-4 of that in free
-/// flight. If a film stops a fall within 1e-12 of t, which no step can resolve, the fall ends at
-/// once in that film.
+/// reference.time_step, at the jumps, and where u = 0 (the extrema of q). The error of s in a step
+/// is at most a tenth of inertial.relative_tolerance, and 3e-4 of that in free flight. If a film
+/// stops a fall in less than 1e-12 t, a time that no step can resolve, the sphere is put into that
+/// film at once.
 ///
 /// Throws Error(kNotConverged) if CVODE gives up, and Error(kBadInput) if the motion leaves the
 /// interval of the fit.

@@ -1,4 +1,5 @@
 // Equation (S), the tolerances of its integration, and the velocity that belongs to a state.
+// Equations and units are those of inertial_equation.hpp.
 #include "viscontact/reduced_model/models/inertial_equation.hpp"
 
 #include <algorithm>
@@ -34,21 +35,22 @@ StiffSystem InertialEquation::system(const double& step_begin) const {
   system.derivative = [this, &step_begin](double t, std::span<const double> y,
                                           std::span<double> derivative) {
     const double q = gap_of(y[0]);
-    // CVODE chooses its first step from the slope at its beginning, which must not be mere
-    // rounding.
+    // CVODE chooses its first step from the slope at its beginning, which must not consist of
+    // rounding errors.
     derivative[0] = t == step_begin ? instant(t, q, t).velocity / q : slope(t, q);
   };
   system.jacobian = [this](double t, std::span<const double> y, std::span<double> jacobian) {
     const double q = gap_of(y[0]);
     jacobian[0] = -force_.resistance(q) / motion_.mass - slope(t, q);
   };
-  // s is a logarithm, so its absolute error is the relative error of the gap. A tenth of the user's
-  // tolerance in a step leaves room for the sum of the errors of all steps. In free flight the film
-  // damps errors too slowly to forget them before the motion ends, and a landing, in which ln q
-  // changes fast, multiplies errors of time. There only the fraction kFlightShare is allowed.
+  // s is a logarithm, so its absolute error is the relative error of the gap. Only a tenth of the
+  // user's tolerance is allowed in a step, which leaves room for the errors of the steps before. In
+  // free flight the film damps errors too slowly to forget them before the motion ends, and a
+  // landing, in which ln q changes fast, multiplies errors of time. There only the fraction
+  // kFlightShare is allowed.
   system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
     constexpr double kShare = 0.1, kFlightShare = 3e-4;
-    // Above so many damping times within the motion, errors are forgotten before its end.
+    // If the motion lasts more than this many damping times, errors decay before its end.
     constexpr double kManyDampings = 10;
     constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
     const double q = gap_of(y[0]);
@@ -74,8 +76,8 @@ InertialInstant InertialEquation::instant(double t, double gap, double force_tim
   if (m * std::abs(by_momentum) > kMuchInertia * resistance * q &&
       std::abs(by_momentum) > 1e3 * momentum_error)
     return {q, by_momentum, momentum_error, resistance};
-  // With little inertia the velocity follows the force. The momentum still contains what remains of
-  // earlier times, so both values are compared.
+  // With little inertia the velocity follows the force. The velocity from the momentum also
+  // contains what remains of an earlier velocity, so that both values are compared.
   const double balance = motion_.external_force.value(force_time) / resistance;
   const double rate = (motion_.external_force.slope(force_time) -
                        balance * balance * force_.resistance_log_slope(q) / q) /

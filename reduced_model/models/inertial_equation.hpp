@@ -45,8 +45,8 @@ class InertialEquation {
   /// The velocity is (P - Gamma)/m. In a film so thin that m/R is much shorter than all other
   /// times, this difference loses its digits. There the velocity is the balance of drag and force
   /// with its first correction for inertia, u = u_0 - (m/R) du_0/dt with u_0 = f/R, provided that
-  /// both values agree to within the error of the former. `force_time` is t, or a time just before
-  /// t where f_ext jumps at t, because the velocity does not jump.
+  /// both values agree to within four times the error bound of the former. `force_time` is t, or a
+  /// time just before t where f_ext jumps at t, because the velocity does not jump.
   InertialInstant instant(double t, double gap, double force_time) const;
 
   /// The first step [T] that CVODE should try after a restart at time t and gap q; 0 leaves the
@@ -61,7 +61,7 @@ class InertialEquation {
   /// Gamma^{-1}(P), to which `film` [L] is set, then takes all the momentum at once.
   bool lands_at_once(double t, const InertialInstant& now, double& film) const;
 
-  /// The smallest step over time t that CVODE can still resolve.
+  /// The smallest ratio of a step to the time t that CVODE can resolve.
   static constexpr double kTimeResolution = 1e-12;
 
  private:

@@ -1,5 +1,5 @@
 // The registry of models, the suffixes of their names, and the budget of models whose film is the
-// whole drag.
+// whole drag. Units are those of models.hpp.
 #include "viscontact/reduced_model/models/models.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +29,7 @@ namespace {
 constexpr bool kByDefault = true, kOnRequest = false;
 constexpr bool kInertia = true, kNoInertia = false;
 constexpr bool kFluid = true, kNoFluid = false;
+constexpr bool kInSweeps = true, kUsualReference = true;
 
 constexpr std::array kReferenceParameters = {kReferenceTimeStep};
 constexpr std::array kContactParameters = {kContactTimeStep};
@@ -39,9 +40,9 @@ constexpr std::array kModels = {
     Model{"reference_exact", "no inertia, first integral", simulate_reference_exact, nullptr,
           kByDefault, kNoInertia, kFluid, kReferenceParameters},
     Model{"inertial", "with inertia, CVODE", simulate_inertial, nullptr, kByDefault, kInertia,
-          kFluid, kInertialParameters},
+          kFluid, kInertialParameters, nullptr, "variable", kInSweeps, kUsualReference},
     Model{"viscous_contact", "viscous contact", nullptr, viscous_contact, kByDefault, kInertia,
-          kFluid, kContactParameters, &kContactTimeStep},
+          kFluid, kContactParameters, &kContactTimeStep, "", kInSweeps},
     Model{"viscous_contact_regular_drag", "viscous contact and regular drag", nullptr,
           viscous_contact_regular_drag, kByDefault, kInertia, kFluid, kContactParameters,
           &kContactTimeStep},
@@ -55,10 +56,11 @@ constexpr std::array kModels = {
           kInertia, kNoFluid, kContactParameters, &kContactTimeStep},
     Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
           kOnRequest, kInertia, kFluid, kContactParameters, &kContactTimeStep},
+    // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 
-/// The budget of a model whose film is the whole drag. The film's impulse between two rows is the
-/// change of momentum minus the impulse of the force, its work that impulse times the mean
+/// The budget of a model whose film is the whole drag. Between two rows, the film's impulse is the
+/// change of momentum minus the impulse of the force, and its work is this impulse times the mean
 /// velocity.
 MomentumEnergyBudget budget_of_drag(const std::vector<TrajectoryRow>& rows, const Motion& motion,
                                     bool inertia) {
@@ -102,30 +104,33 @@ void check_finite(const Trajectory& trajectory) {
     if (!(trajectory.rows[i].time > trajectory.rows[i - 1].time)) refuse(trajectory.rows[i].time);
 }
 
-/// Calls `work`. The messages of its Errors get the name of the model.
-template <class Work>
-void with_name_in_errors(const ModelChoice& choice, const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("model {}: {}", choice.name, error.what()));
-  }
+std::vector<Model> models_with(bool Model::*property) {
+  std::vector<Model> models;
+  std::ranges::copy_if(kModels, std::back_inserter(models), property);
+  return models;
 }
 
 }  // namespace
 
 std::span<const Model> all_models() { return kModels; }
 
-std::vector<Model> default_models() {
-  std::vector<Model> models;
-  std::ranges::copy_if(kModels, std::back_inserter(models), &Model::by_default);
-  return models;
-}
+std::vector<Model> default_models() { return models_with(&Model::by_default); }
+
+std::vector<Model> sweep_models() { return models_with(&Model::in_sweeps); }
 
 std::vector<Model> models_on_request() {
   std::vector<Model> models;
   std::ranges::remove_copy_if(kModels, std::back_inserter(models), &Model::by_default);
   return models;
+}
+
+std::string usual_reference() {
+  return std::string(std::ranges::find(kModels, true, &Model::usual_reference)->name);
+}
+
+std::string reference_of(const std::vector<std::string>& names) {
+  const std::string usual = usual_reference();
+  return names.empty() || std::ranges::find(names, usual) != names.end() ? usual : names.front();
 }
 
 std::vector<ModelParameter> model_parameters() {
@@ -139,9 +144,11 @@ std::vector<ModelParameter> model_parameters() {
 
 std::vector<std::string_view> model_sections() {
   std::vector<std::string_view> sections;
-  for (const auto& parameter : model_parameters())
-    if (std::ranges::find(sections, parameter.section()) == sections.end())
-      sections.push_back(parameter.section());
+  const auto add = [&](std::string_view section) {
+    if (std::ranges::find(sections, section) == sections.end()) sections.push_back(section);
+  };
+  for (const auto& parameter : model_parameters()) add(parameter.section());
+  add(section_of(kRoughnessKey));
   return sections;
 }
 
@@ -173,8 +180,7 @@ bool depends_on(const ModelChoice& choice, std::string_view key) {
   if (key == "sphere.mass" || key == "motion.initial_velocity") return model.inertia;
   if (key == "fluid.viscosity" || key == "sphere.radius") return model.fluid;
   // The roughness bounds the film of contact models, and plain contact has no film.
-  if (key == "viscous_contact.roughness")
-    return model.contact != nullptr && model.fluid && !choice.smooth;
+  if (key == kRoughnessKey) return model.contact != nullptr && model.fluid && !choice.smooth;
   const auto has_key = [&](const auto& parameters) {
     return std::ranges::find(parameters, key, &ModelParameter::key) != std::end(parameters);
   };
@@ -185,6 +191,11 @@ Motion motion_of(const ModelChoice& choice, const Motion& motion) {
   Motion result = motion;
   if (choice.smooth) result.roughness = {0, 0};
   return result;
+}
+
+ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
+                              const lubrication::LubricationForce& force) {
+  return choice.model->contact(motion_of(choice, motion), force);
 }
 
 std::string description_of(const ModelChoice& choice) {
@@ -201,11 +212,10 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
 
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force) {
-  with_name_in_errors(choice, [&] {
+  with_place("model " + choice.name, [&] {
     for (const auto& parameter : choice.model->parameters)
       if (parameter.is_time_step) (void)step_count(motion.end_time, motion.parameter(parameter));
-    if (choice.model->contact != nullptr)
-      (void)choice.model->contact(motion_of(choice, motion), force);
+    if (choice.model->contact != nullptr) (void)contact_model_of(choice, motion, force);
   });
 }
 
@@ -213,7 +223,7 @@ Trajectory simulate(const ModelChoice& choice, const Motion& motion,
                     const lubrication::LubricationForce& force) {
   const auto start = std::chrono::steady_clock::now();
   Trajectory trajectory;
-  with_name_in_errors(choice, [&] {
+  with_place("model " + choice.name, [&] {
     const Model& model = *choice.model;
     const Motion own_motion = motion_of(choice, motion);
     const lubrication::LubricationForce own_force = drag_of(choice, force);

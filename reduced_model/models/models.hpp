@@ -1,5 +1,6 @@
 // The registry of models of motion. A new model needs its own source and a row in models.cpp.
-// Lengths, masses and times are in any one consistent system of units.
+// Lengths, masses and times are in any one consistent system of units. A change must keep the names
+// of models, which case files contain.
 #pragma once
 
 #include <optional>
@@ -16,13 +17,13 @@
 
 namespace viscontact::reduced_model {
 
-/// A model of motion with what the programs must know about it.
+/// A model of motion, with what the program must know about it.
 struct Model {
   std::string_view name;         ///< as users type it; the stem of its trajectory file
   std::string_view description;  ///< a line for --help and legends
   /// Null for a contact model that run_contact_model() runs.
   Trajectory (*simulate)(const Motion&, const lubrication::LubricationForce&);
-  /// What gamma stands for; null if it is no contact model.
+  /// Makes the contact model; null if this is not a contact model.
   MakeContactModel contact = nullptr;
   /// True if it runs when a case names no models.
   bool by_default = true;
@@ -34,11 +35,15 @@ struct Model {
   std::span<const ModelParameter> parameters;
   /// The parameter that is its time step; null if it has no fixed one.
   const ModelParameter* time_step = nullptr;
-  /// What trajectory files say of the time step of a model without a fixed one.
+  /// What trajectory files state as the time step if the model has no fixed one.
   std::string_view steps = "variable";
+  /// True if a sweep runs it when its case and its command name no models.
+  bool in_sweeps = false;
+  /// True for the one model that others are compared with when a user names no reference.
+  bool usual_reference = false;
 };
 
-/// All models.
+/// All models. The report chooses the colour of a model's lines by its place here.
 std::span<const Model> all_models();
 
 /// The models that run when a case names none.
@@ -47,10 +52,20 @@ std::vector<Model> default_models();
 /// The models that run only when they are named.
 std::vector<Model> models_on_request();
 
+/// The models that a sweep runs when a user names none.
+std::vector<Model> sweep_models();
+
+/// The name of the model that others are compared with when a user names no reference.
+std::string usual_reference();
+
+/// The reference among models of these names: the usual one if it is among them or if there are no
+/// names, otherwise the first.
+std::string reference_of(const std::vector<std::string>& names);
+
 /// The parameters of all models, each once, in the order of the models.
 std::vector<ModelParameter> model_parameters();
 
-/// The sections of a case that these parameters are in, each once, in their order.
+/// The sections of a case that these parameters and the roughness are in, each once, in this order.
 std::vector<std::string_view> model_sections();
 
 /// Suffix of the name of a model that runs with the exact drag (lubrication/plane_drag.hpp) in
@@ -77,8 +92,9 @@ std::optional<ModelChoice> known_model(std::string_view name);
 ModelChoice find_model(std::string_view name);
 
 /// False if the number of the case at this key, such as "viscous_contact.roughness[0]", cannot
-/// change what the model computes. True for all keys of [motion] but the initial velocity, and for
-/// keys that are neither of fluid, sphere and roughness nor of a parameter.
+/// change what the model computes. Always true for keys of [motion] other than the initial
+/// velocity, and for keys that belong neither to fluid, sphere and roughness nor to a parameter of
+/// a model.
 bool depends_on(const ModelChoice& choice, std::string_view key);
 
 /// The drag for the model: `force`, or the exact drag of the same viscosity and radius.
@@ -88,11 +104,16 @@ lubrication::LubricationForce drag_of(const ModelChoice& choice,
 /// The motion for the model: `motion`, without roughness if the choice is smooth.
 Motion motion_of(const ModelChoice& choice, const Motion& motion);
 
+/// The contact model that the choice, which must be of a contact model, makes of the motion for the
+/// model (motion_of) and of `force`. `force` must outlive the result, which refers to it.
+ContactModel contact_model_of(const ModelChoice& choice, const Motion& motion,
+                              const lubrication::LubricationForce& force);
+
 /// A line for legends.
 std::string description_of(const ModelChoice& choice);
 
 /// Throws the same Error(kBadInput) as simulate() would for numbers of the motion that it refuses,
-/// but without running the model. Of `force`, only the interval matters.
+/// but without running the model. Of `force`, only its interval and its coefficient k are used.
 void check_model(const ModelChoice& choice, const Motion& motion,
                  const lubrication::LubricationForce& force);
 

@@ -1,4 +1,5 @@
-// The loop over time of the model `reference`.
+// The loop over time of the model `reference`. Scheme and units are those of reference.hpp. A
+// change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference.hpp"
 
 #include <fmt/format.h>

@@ -13,8 +13,8 @@ namespace viscontact::reduced_model {
 ///     F_lub(q^n, u^n) + f^n = 0,   that is u^n = f^n / R(q^n),
 ///     q^{n+1} = q^n + h u^n,
 ///
-/// f^n is the mean of f_ext over the step and h = reference.time_step. The scheme is of
-/// first order in h, and its film is too thin. Throws Error(kNotConverged) if a step goes through
+/// f^n is the mean of f_ext over the step and h = reference.time_step. The scheme is of first order
+/// in h. The film that it computes is too thin. Throws Error(kNotConverged) if a step goes through
 /// the wall, and Error(kBadInput) if the motion leaves the fit's interval.
 Trajectory simulate_reference(const Motion& motion, const lubrication::LubricationForce& force);
 

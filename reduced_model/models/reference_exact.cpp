@@ -1,4 +1,5 @@
-// The rows of the model `reference_exact`.
+// Computes the rows of the model `reference_exact`. Equation and units are those of
+// reference_exact.hpp. A change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/reference_exact.hpp"
 
 namespace viscontact::reduced_model {

@@ -1,4 +1,5 @@
-// Windows around the sphere and the gap; sides of triangles, outlines of bodies and streamlines.
+// Chooses the parts of the flow that pictures show, and computes the curves in them: sides of
+// triangles, outlines of bodies and streamlines (flow_lines.hpp). Lengths are in [L].
 #include "viscontact/report/flow/flow_lines.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ double sphere_bottom(double radius, double gap, double rho) {
   return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
 }
 
-/// The lines without points that are less than a pixel away from the point before them.
+/// The lines, without the points that are less than a pixel away from the point before them.
 std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
   const double x_scale = view.plot_width / view.window.width();
   const double y_scale = view.plot_height / view.window.height();
@@ -119,7 +120,7 @@ Curve mirrored(const std::string& legend, const std::string& style,
 }
 
 std::vector<Polyline> sides(const freefem_axi::CurvedMesh& mesh, const Window& window, int pieces) {
-  // Two triangles share a side; the key, the number of its middle, keeps each side once.
+  // Two triangles share a side. The map has each side once, by the number of its middle node.
   std::map<std::size_t, std::array<std::size_t, 3>> by_middle;
   for (const auto& [v0, v1, v2, m0, m1, m2] : mesh.triangles) {
     by_middle[m0] = {v1, v2, m0};
@@ -167,7 +168,7 @@ std::vector<Curve> outlines(const freefem_axi::CurvedMesh& mesh, const PlotView&
 }
 
 Curve streamlines(const freefem_axi::Flow& flow, const PlotView& view) {
-  constexpr int kLines = 14;  // about, on each side
+  constexpr int kLines = 14;  // approximate number on each side of the axis
   std::vector<std::array<double, 2>> gradient;
   for (std::size_t i = 0; i < flow.velocity.size(); ++i)
     gradient.push_back({flow.mesh.nodes[i][0] * flow.velocity[i][1],
@@ -178,11 +179,11 @@ Curve streamlines(const freefem_axi::Flow& flow, const PlotView& view) {
   const double step = rounded((high - low) / kLines);
   std::vector<Polyline> lines;
   for (double n = std::ceil(low / step); n <= high / step; ++n) {
-    if (n == 0) continue;  // the axis and the surfaces at rest that it meets
+    if (n == 0) continue;  // psi = 0 on the axis and on surfaces at rest that meet it
     auto more = level_lines(field, n * step);
     std::ranges::move(more, std::back_inserter(lines));
   }
-  return mirrored(fmt::format("streamlines; flow rate between one and the next: {:.3g} (unit: "
+  return mirrored(fmt::format("streamlines; flow rate between neighbouring ones: {:.3g} (unit: "
                               "length^3 / time)",
                               2 * std::numbers::pi * step),
                   "lines linewidth 1 linecolor rgb '#202020'", thinned(lines, view));

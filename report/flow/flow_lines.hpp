@@ -22,18 +22,19 @@ struct PlotView {
 /// centre.
 PlotView surroundings(const freefem_axi::CurvedMesh& mesh, double radius, double gap);
 
-/// Half the width of a gap's view, in units of sqrt(2 gap radius), the width of the middle of the
-/// film. There, the film over a plane is about 7 times as thick as in its middle.
+/// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
+/// axis, the film over a plane is twice as thick as on the axis; at this end it is about 7 times as
+/// thick.
 inline constexpr double kGapReach = 2.5;
 
 PlotView gap_view(const freefem_axi::CurvedMesh& mesh, double radius, double gap,
                   double reach = kGapReach);
 
-/// One curve, with interruptions, of the lines in rho >= 0 and their mirror images.
+/// The lines in rho >= 0 and their mirror images, as one curve with interruptions.
 Curve mirrored(const std::string& legend, const std::string& style,
                const std::vector<Polyline>& lines);
 
-/// The sides of the triangles near the window, each as `pieces` straight pieces.
+/// The sides of the triangles near the window, each divided into `pieces` straight pieces.
 std::vector<Polyline> sides(const freefem_axi::CurvedMesh& mesh, const Window& window, int pieces);
 
 /// The sphere as a filled surface, and the walls and the neighbour as lines.

@@ -1,5 +1,5 @@
-// Puts the pictures of a row together: title, colours of the pressure, and curves. Lengths and
-// pressures are in the units of the case.
+// Combines title, colours of the pressure and curves into the pictures of a row (flow_plots.hpp).
+// Lengths and pressures are in the units of the case.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
@@ -81,7 +81,7 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The values at the cells of the plot, which are about as small as an eye can see.
+/// The values at the cells of the plot, which are so small that they are hardly seen.
 ColourField colour_field(const LinearField& values, const PlotView& view) {
   const auto& window = view.window;
   // Size of a cell [pixels]. The time of gnuplot is proportional to the number of cells.
@@ -117,8 +117,8 @@ std::string plot_pressure_and_streamlines(const std::string& what,
 
 std::string plot_mesh(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  // Straight pieces of a side of the coarsest mesh; a side of the finest mesh has a quarter of
-  // them.
+  // The number of straight pieces of a side of the coarsest mesh. A side of the finest mesh has a
+  // quarter of this number.
   constexpr int kPieces = 8;
   constexpr std::size_t kMostSides = 3500;  // with more sides, the view is made narrower
   double reach = kGapReach;

@@ -1,4 +1,6 @@
-// Ends, numbers and words of the colour bar for pressures.
+// Computes ends, numbers and words of the colour bar for pressures [M/(L T^2)]
+// (pressure_colours.hpp). gnuplot gets at(pressure) and not the pressure, so settings() and at()
+// must agree.
 #include "viscontact/report/flow/pressure_colours.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +15,8 @@
 namespace viscontact::report {
 namespace {
 
-/// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, which colour-blind readers tell
-/// apart; linear between its nodes.
+/// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, whose colours colour-blind
+/// readers can tell apart. It is linear between its nodes.
 std::string colour(double place) {
   static const std::vector<ColourNode> kRedBlue = {
       {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
@@ -31,7 +33,7 @@ std::string short_number(double value) {
   return text;
 }
 
-/// The next number above that is 1, 2 or 5 times a power of ten.
+/// The smallest number >= value that is 1, 2 or 5 times a power of ten.
 double rounded_up(double value) {
   const double decade = std::pow(10, std::floor(std::log10(value)));
   for (const double mantissa : {1.0, 2.0, 5.0})
@@ -48,7 +50,7 @@ std::vector<double> sorted_finite(const std::vector<double>& values) {
   return sorted;
 }
 
-/// The colours with two different ends of the bar, as gnuplot needs them.
+/// The colours, with the ends of the bar made different, because gnuplot needs low < high.
 PressureColours widened(PressureColours colours) {
   if (colours.high > colours.low) return colours;
   const double half = colours.high == 0 ? 1 : std::abs(colours.high);

@@ -26,9 +26,10 @@ struct PressureColours {
 PressureColours proportional_colours(const std::vector<double>& pressures);
 
 /// A scale for pixels of which a few may have a much larger pressure than all others. If the
-/// largest 0.5 % are more than three times the rest, the bar ends at the rest. In this case, and
-/// also if the bar reaches more than ten times the pressure `usual` (> 0), the scale is logarithmic
-/// above about `usual`.
+/// largest of all is more than three times the largest that remains without the highest 0.5 %, the
+/// bar ends at the latter, rounded up; and likewise for the lowest. In this case, and also if an
+/// end of the bar is more than ten times the pressure `usual` (> 0), the scale is logarithmic above
+/// about `usual`.
 PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

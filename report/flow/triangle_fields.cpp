@@ -1,5 +1,6 @@
-// Division of quadratic triangles, values at pixels, and level lines by following the crossed
-// sides.
+// Divides quadratic triangles into straight ones, interpolates values at pixels, and follows level
+// lines from side to side (triangle_fields.hpp). The tables of new points and triangles below
+// belong together.
 #include "viscontact/report/flow/triangle_fields.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ bool touches(const Window& window, const freefem_axi::CurvedMesh& mesh,
 }
 
 /// A new point of a curved triangle that is divided into 16: the middle between two of its nodes.
-/// `weights` are the values there of the six quadratic shape functions, first those of the
+/// `weights` are the values of the six quadratic shape functions at this point, first those of the
 /// vertices, then those of the middles of the opposite sides.
 struct NewPoint {
   std::size_t first, second;

@@ -1,4 +1,5 @@
-// Escaping for HTML and for addresses (RFC 3986).
+// Escapes texts for HTML and for addresses (RFC 3986). Every text of the user must pass through
+// escaped(), because it could contain markup.
 #include "viscontact/report/html/html.hpp"
 
 #include <fmt/format.h>

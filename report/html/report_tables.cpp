@@ -1,4 +1,5 @@
-// Rows and words of the report's tables.
+// Writes the tables of the report and the sentences beside them (report_tables.hpp), in the units
+// of the case. Texts of the user must pass through escaped().
 #include "viscontact/report/html/report_tables.hpp"
 
 #include <fmt/format.h>
@@ -39,12 +40,13 @@ std::string trust(const lubrication::FitDiagnostics& d) {
         "Chi-squared against the table's error estimates: {:.3g} for {} degrees of freedom{}.",
         *d.chi_squared, d.degrees_of_freedom,
         d.misfit == lubrication::Misfit::kBasis
-            ? ": the misfit is the basis's, and the standard errors take it for noise"
+            ? ": the basis causes the misfit, but the standard errors treat it as noise"
             : "");
   if (!text.empty()) text = "<p>" + text + "</p>\n";
   for (const auto& outlier : d.outliers)
-    text += fmt::format("<p>Outlier at gap {:.6g}: the fit is {:+.2g} relative from it.</p>\n",
-                        outlier.gap, outlier.relative_residual);
+    text += fmt::format(
+        "<p>Outlier at gap {:.6g}: the relative difference of the fit is {:+.2g}.</p>\n",
+        outlier.gap, outlier.relative_residual);
   return text;
 }
 
@@ -55,7 +57,7 @@ std::string model_link(const results::RunResults& run, const std::string& model)
 
 std::string drag_in_words(const results::RunResults& run) {
   const lubrication::Fit& fit = run.fit;
-  if (fit.terms.empty()) return "Brenner's exact series, nothing fitted";
+  if (fit.terms.empty()) return "Brenner's exact series; nothing is fitted";
   return fmt::format("{}, gaps from {:.4g} to {:.4g}",
                      fit.table_sha256.empty() ? "a given fit" : "a fit", fit.gap_interval[0],
                      fit.gap_interval[1]);
@@ -172,7 +174,7 @@ std::string fit_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& term : fit.terms)
     rows += table_row(escaped(term.name), fmt::format("{:.8g}", term.coefficient),
-                      term.is_fixed ? "held" : fmt::format("{:.2g}", term.standard_error));
+                      term.is_fixed ? "fixed" : fmt::format("{:.2g}", term.standard_error));
   return fmt::format(
              "<p>F(q) at velocity {}, {} weights: largest relative residual {:.3g}, root mean "
              "square {:.3g}, condition number {:.3g}.</p>\n"
@@ -190,9 +192,10 @@ std::string uncertainty_words(const results::RunResults& run) {
   if (!run.uncertainty) return "";
   const auto& smallest = run.uncertainty->smallest;
   return fmt::format(
-      "<p>Without inertia the smallest gap is {:.6g} at time {:.4g}. 95 % of {} draws of the "
-      "coefficients ({} refused) lie in [{:.6g}, {:.6g}]. If the drag were off by {:.2g} "
-      "everywhere, the largest residual and error estimate: in [{:.6g}, {:.6g}].</p>\n"
+      "<p>Without inertia the smallest gap is {:.6g} at time {:.4g}. Of {} random draws of the "
+      "coefficients ({} of them refused), 95 % give a smallest gap in [{:.6g}, {:.6g}]. If the "
+      "drag were wrong at every gap by {:.2g} (from the largest residual and the largest error "
+      "estimate), the smallest gap would be in [{:.6g}, {:.6g}].</p>\n"
       "<p class=source>From {}.</p>\n",
       smallest.gap, smallest.time, run.uncertainty->draws, run.uncertainty->refused,
       smallest.random[0], smallest.random[1], run.uncertainty->misfit, smallest.misfit[0],

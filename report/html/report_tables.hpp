@@ -1,5 +1,5 @@
-// The tables of the report as HTML, in the units of the case. Each table names and links the file
-// from which its numbers are.
+// The tables of the report as HTML, in the units of the case. Each table names the file from which
+// its numbers are, and links to it.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace viscontact::report {
 
-/// A sentence that says what was computed, and the parameters of the case.
+/// The parameters of the case with their dimensions.
 std::string parameters_table(const results::RunResults& run);
 
 /// Smallest gap, times of contact and distance to the reference of each model.
@@ -23,8 +23,8 @@ std::string fit_table(const results::RunResults& run);
 /// The effect of the fit's errors on the smallest gap, in words; empty if it is not known.
 std::string uncertainty_words(const results::RunResults& run);
 
-/// How the files of the run were made: commands, inputs with their hashes, versions and times.
-/// Throws Error(kBadInput) if the provenance in a file is damaged.
+/// How the files of the run were made: commands, inputs with their hashes, versions and times. If
+/// the provenance in a file is missing or damaged, the table says so.
 std::string origin_section(const results::RunResults& run);
 
 }  // namespace viscontact::report

@@ -1,4 +1,5 @@
-// The colour scale viridis and the ticks of gamma.
+// Computes colours by the scale viridis, and the ticks of the scale of gamma [M L/T]
+// (film_colours.hpp). The picture and the page must have the same colours.
 #include "viscontact/report/particles/film_colours.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +24,8 @@ bool has_contact_without_film(const particles::Frame& frame) {
 }
 
 std::string film_colour(double share) {
-  // The scale viridis: colour-blind readers tell its colours apart, also when it is printed in
-  // grey.
+  // Colour-blind readers can tell the colours of the scale viridis apart, and so can readers of a
+  // print in grey.
   static const std::vector<ColourNode> kViridis = {
       {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
       {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},

@@ -1,5 +1,5 @@
-// Colours for gamma, and the numbers of the scale beside them, for the picture and the page of a
-// motion of particles. gamma [M L/T] is minus the impulse that a film has absorbed.
+// Colours for gamma, and the numbers on the scale of these colours, for the picture and the page of
+// a motion of particles. gamma [M L/T] is minus the impulse that a film has absorbed.
 #pragma once
 
 #include <string>
@@ -24,7 +24,8 @@ std::string film_colour(int level, int levels);
 std::vector<double> film_ticks(double lowest);
 std::string film_tick_text(double tick);
 
-inline constexpr const char* kFilmWords = "gamma: what the film remembers [mass × length/time]";
+inline constexpr const char* kFilmWords =
+    "gamma: minus the impulse that the film has absorbed [mass × length/time]";
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 
 }  // namespace viscontact::report

@@ -1,5 +1,5 @@
-// Draws the particles of a frame with their planes and contacts. Motions in space are drawn from
-// the back to the front.
+// Draws the particles of a frame with planes and contacts as SVG (frame_picture.hpp). Motions in
+// space must be drawn from the back to the front, because SVG has no depth.
 #include "viscontact/report/particles/frame_picture.hpp"
 
 #include <fmt/format.h>
@@ -58,8 +58,8 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   return text;
 }
 
-/// The planes as patches. A plane that is seen from its free side is filled; of a plane that is
-/// seen from behind, only the edges are drawn, because the particles are behind it.
+/// The planes as polygons. A plane that is seen from its free side is filled. Of a plane that is
+/// seen from the other side only the edges are drawn, because the particles are behind it.
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
@@ -98,8 +98,8 @@ std::string class_colour(std::size_t colour) {
   return colour == 0 ? kTouchingColour : film_colour(static_cast<int>(colour) - 1, kContactColours);
 }
 
-/// The contacts of a particle in one colour. They are drawn together with the particle: over it and
-/// over what is behind it, and under what is in front of it.
+/// The line of a contact. In space it is drawn just after the nearer of its two particles: over
+/// this particle and those behind it, and under those in front of it.
 struct ContactLine {
   std::size_t colour = 0;
   double width = 0;
@@ -145,7 +145,7 @@ std::string discs(const PanelSettings& d, const Frame& frame) {
   text += "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
   for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every) text += circle(d, frame, k);
   text += "</g>\n" + plane_2d_lines(d, frame);
-  // There is one path for each colour; its width is proportional to the mean radius of the
+  // All contacts of one colour make one path. Its width is the mean of the widths of these
   // contacts.
   std::array<ContactLine, kContactColours + 1> lines;
   std::array<int, kContactColours + 1> counts{};

@@ -21,18 +21,18 @@ struct Projection {
   double y(const particles::Vector& p) const { return scale * (top - particles::dot(up, p)); }
 };
 
-/// The view of motions in the plane (dimension 2) from the front, of motions in space from a little
-/// above and from the side, with the third axis upwards. The scale is 1.
+/// The direction of view: from the front for motions in the plane (dimension 2); for motions in
+/// space from a little above and from the side, with the third axis upwards. The scale is 1.
 Projection view_of(int dimension);
 
-/// What all panels of a picture share.
+/// Settings that all panels of a picture share.
 struct PanelSettings {
   const particles::Playback& playback;
   ViewBox box;
   Projection view;
   double width = 0, height = 0;  ///< size of a panel in page units
   double lowest = 0;             ///< lowest gamma of the motion [M L/T]
-  std::size_t every = 1;         ///< every such particle is drawn
+  std::size_t every = 1;         ///< one particle in `every` is drawn
 };
 
 inline constexpr int kContactColours = 20;  ///< for gamma < 0

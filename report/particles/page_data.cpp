@@ -1,5 +1,5 @@
-// Chooses what fits into the page and encodes it. A change must keep the format that the script of
-// the page reads.
+// Chooses the frames, particles and contacts that fit into the page, and encodes them. The format
+// must agree with report/particles/page/particles.js, which reads it.
 #include "viscontact/report/particles/page_data.hpp"
 
 #include <openssl/evp.h>
@@ -36,7 +36,7 @@ void append_short(Bytes& bytes, std::uint32_t value) {
   bytes.push_back(static_cast<unsigned char>(value));
 }
 
-/// Chooses how positions are encoded.
+/// Chooses whether positions are written as 16-bit numbers or as floats.
 void choose_position_bytes(PageData& data, const Playback& playback) {
   constexpr double kSteps = 65535, kSmall = 0.02;  // largest 16-bit number; step over radius
   const auto dimension = static_cast<std::size_t>(playback.dimension);
@@ -52,7 +52,7 @@ void choose_position_bytes(PageData& data, const Playback& playback) {
   const auto smallest = std::ranges::min_element(playback.radii);
   const double largest_step =
       *std::max_element(data.step.begin(), data.step.begin() + playback.dimension);
-  // The comparison is negated so that a step that is not finite also leads to floats.
+  // If the step is not finite, the comparison is false, and positions are written as floats.
   if (smallest == playback.radii.end() || largest_step <= kSmall * *smallest) return;
   data.position_bytes = 4;
   data.low = {0, 0, 0};

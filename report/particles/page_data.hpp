@@ -1,5 +1,5 @@
-// The data of the page that plays a motion of particles, as binary numbers. A change must agree
-// with report/particles/page/particles.js, which reads them.
+// The data of the page that plays a motion of particles, as binary numbers in the units of the
+// case. A change must agree with report/particles/page/particles.js, which reads them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace viscontact::report {
 
 using Bytes = std::vector<unsigned char>;
 
-/// What the page shows of a motion.
+/// The part of a motion that the page shows, and its encoding.
 struct PageData {
   std::vector<std::size_t> frames;  ///< indices of the shown frames
   std::size_t every_frame = 1, every_particle = 1;

@@ -1,4 +1,5 @@
-// The HTML of the page: words, controls, scale of gamma, and the data in blocks of base64.
+// Writes the HTML of the page: words, controls, scale of gamma, and the data in blocks of base64.
+// The keys of the JSON and the ids of elements must agree with report/particles/page/particles.js.
 #include "viscontact/report/particles/particles_page.hpp"
 
 #include <fmt/format.h>
@@ -51,9 +52,10 @@ std::string words_for(const Playback& playback, const PageData& data) {
     words += fmt::format(" Every {}{} frame is shown.", data.every_frame,
                          data.every_frame == 2 ? "nd" : "th");
   if (data.every_particle > 1)
-    words += fmt::format(" One particle in {} is shown, and contacts between those.",
-                         data.every_particle);
-  if (!data.contacts) words += " The contacts are too many for this page.";
+    words +=
+        fmt::format(" One particle in {} is shown, with the contacts between the shown particles.",
+                    data.every_particle);
+  if (!data.contacts) words += " There are too many contacts for this page, so none are shown.";
   return words;
 }
 
@@ -108,11 +110,14 @@ std::string particles_page(const Playback& playback, const std::string& title) {
       "value=.5>× 0.5<option value=1 selected>× 1<option value=2>× 2<option value=4>× 4</select>"
       "</label>\n<label><input type=checkbox id=films checked> Contacts</label>\n"
       "<button type=button id=whole>Whole view</button>\n</div>\n{}</main>\n"
-      "<p class=hint>Space plays and pauses, ← and → go one frame, Home and End to the ends. {} "
-      "Point at a particle to read it off.</p>\n",
+      "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward "
+      "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
+      "see "
+      "its values.</p>\n",
       escaped(words), legend(lowest, touching),
-      flat ? "Drag moves the picture, wheel or pinch zooms."
-           : "Drag turns the picture, with Shift or two fingers moves it; wheel or pinch zooms.");
+      flat ? "Drag to move the picture; use the wheel or pinch to zoom."
+           : "Drag to turn the picture, or with Shift or two fingers to move it; use the wheel or "
+             "pinch to zoom.");
   page += data_of(playback, data, lowest);
   page += fmt::format("<script>\n{}</script>\n</body></html>\n", particles_script());
   return page;

@@ -1,4 +1,5 @@
-// Arranges frames of a motion side by side, with the scale of gamma below.
+// Arranges frames of a motion side by side in an SVG, with the scale of gamma [M L/T] below. Sizes
+// are in units of the page.
 #include "viscontact/report/particles/particles_picture.hpp"
 
 #include <fmt/format.h>
@@ -44,8 +45,8 @@ std::vector<std::size_t> chosen_frames(const Playback& playback, int panels) {
   return chosen;
 }
 
-/// The number of columns of panels, for a picture of about the proportions of a slide with few
-/// empty places.
+/// The number of columns of panels with which the picture has about the proportions of a slide and
+/// few empty places.
 int columns_for(int panels, double width_over_height) {
   constexpr double kSlide = 2.2;  // width over height of the picture
   int best = 1;
@@ -83,7 +84,8 @@ std::string colour_bar(double lowest, bool touching, double left, double top, do
                             touching ? "; thin and grey: touching, no film" : "");
 }
 
-/// The size of the projected box [L]. The upper left corner of the panel becomes that of the box.
+/// Returns the size of the projected box [L], and puts its upper left corner into that of the
+/// panel.
 std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {

@@ -9,9 +9,9 @@
 namespace viscontact::report {
 
 /// An SVG with `panels` (1 to 6, at most the number of frames) states at evenly spaced times, side
-/// by side at the same scale. The first and the last frame are among them; with one panel it is the
-/// last. Motions in the plane are drawn as discs; motions in space as spheres, seen from a little
-/// above with the third axis upwards.
+/// by side at the same scale. The first and the last frame are among them; a single panel shows the
+/// last. Particles are drawn as discs in motions in the plane, and as spheres in motions in space,
+/// which are seen from a little above with the third axis upwards.
 std::string particles_picture(const particles::Playback& playback, const std::string& title,
                               int panels);
 

@@ -1,4 +1,5 @@
-// Extent of the particles, extension to planes nearby, and clipping of polygons by half-spaces.
+// Computes the extent of the particles, extends it to planes nearby, and clips polygons by
+// half-spaces (view_box.hpp).
 #include "viscontact/report/particles/view_box.hpp"
 
 #include <algorithm>
@@ -59,7 +60,8 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
 }  // namespace
 
 ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames) {
-  // If all particles need more than 1.5 times the size of the central ones, some have flown away.
+  // If the extent of all particles is more than 1.5 times that of the central ones, some particles
+  // have flown away.
   constexpr double kFlownAway = 1.5;
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   // At both ends of all axes together, 2 % of the particles are left out.
@@ -109,7 +111,7 @@ Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& norma
 
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<PlanePosition>& planes, std::size_t own, int dimension) {
-  // Planes may meet or coincide; the slack keeps round-off from removing such polygons.
+  // Planes may meet or coincide. Without the slack, round-off could remove polygons of such planes.
   const double slack = 1e-4 * size_of(box, dimension);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     Vector axis{0, 0, 0};

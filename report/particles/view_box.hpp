@@ -27,8 +27,8 @@ struct ViewBox {
   particles::Vector low{}, high{};
 };
 
-/// The box that a view of these frames should show: all particles, or the central 98 % of each
-/// frame if the others have flown far away, and the planes next to them. The box has a positive
+/// The box that a view of these frames should show: all particles (or the central 98 % of each
+/// frame, if the others have flown far away), and the planes next to them. The box has a positive
 /// size in each direction of the playback's dimension.
 ViewBox view_box_of(const particles::Playback& playback, const std::vector<std::size_t>& frames);
 
@@ -38,8 +38,8 @@ using Polygon = std::vector<particles::Vector>;  ///< convex, its corners in ord
 Polygon clipped(const Polygon& polygon, const particles::Vector& point,
                 const particles::Vector& normal);
 
-/// The part of a polygon in the plane number `own` that is in the box and on the free side
-/// of all other planes.
+/// The part of a polygon that is in the box and on the free side of all planes except plane number
+/// `own`, in which the polygon is.
 Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
                         const std::vector<particles::PlanePosition>& planes, std::size_t own,
                         int dimension);

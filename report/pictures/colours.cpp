@@ -1,4 +1,4 @@
-// Interpolation between the nodes of a colour scale.
+// Interpolates red, green and blue linearly between the nodes of a colour scale (colours.hpp).
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>

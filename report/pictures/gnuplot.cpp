@@ -109,9 +109,10 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
-  // A picture takes about one second, so ten minutes mean that gnuplot hangs.
+  // A picture takes about one second. If gnuplot needs ten minutes, it hangs.
   constexpr std::chrono::seconds kLongest = std::chrono::minutes(10);
-  // The shell command puts gnuplot's warnings after the picture, so that none is within it.
+  // The shell command puts gnuplot's warnings after the picture, because they could be written into
+  // the middle of it.
   const auto result = run_process(
       {"/bin/sh", "-c",
        "{ errors=$(gnuplot 2>&1 >&3); status=$?; } 3>&1; printf '%s' \"$errors\"; exit $status"},

@@ -1,4 +1,5 @@
-// Draws curves and colour fields as SVG with the program gnuplot.
+// Draws curves and colour fields as SVG with the program gnuplot. Values have no unit here; the
+// labels of the axes name the units.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Two panels over the gap: shifts and residuals.
+// Draws shifts [L] and relative residuals over the gap [L], in two panels (shift_plot.hpp).
 #include "viscontact/report/pictures/shift_plot.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
   Curve common{fmt::format("common shift {:.4g}", shift.shift),
                "lines linewidth 2 linecolor rgb '#D55E00'",
                {}};
-  Curve residual{"smooth at gap + common shift, over rough, - 1",
+  Curve residual{"|smooth wall at gap + common shift / rough wall - 1|",
                  "linespoints pointtype 7 pointsize 0.5 linecolor rgb '#0072B2'",
                  {}};
   Curve estimate{"the table's own error estimate",
@@ -31,14 +31,14 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
     if (row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   }
-  const Panel shifts{fmt::format("Smooth wall that drags like the rough one ({})", wall),
+  const Panel shifts{fmt::format("Smooth wall with the same drag as the rough one ({})", wall),
                      "gap from the crests q",
                      "shift below the crests",
                      true,
                      false,
                      {"set yrange [0:*]", "set key bottom right", "set format x '1e%T'"},
                      {own, common}};
-  Panel residuals{"How well one shift holds",
+  Panel residuals{"Residuals with the common shift",
                   shifts.x_label,
                   "relative difference of drag",
                   true,

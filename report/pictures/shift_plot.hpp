@@ -1,5 +1,5 @@
-// The picture of `viscontact shift`: how far below its crests a rough wall acts like a smooth one
-// (fitting/wall_shift.hpp).
+// The picture of `viscontact shift`: the depth below the crests of a rough wall at which a smooth
+// wall has the same drag (fitting/wall_shift.hpp).
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Reads a sweep's file row by row, because it may be larger than the memory, and draws it.
+// Reads the columns to draw from a sweep's file and draws them (sweep_plot.hpp). The file must be
+// read row by row, because it may be larger than the memory.
 #include "viscontact/report/pictures/sweep_plot.hpp"
 
 #include <fmt/format.h>
@@ -80,8 +81,8 @@ class SweepRows {
   std::vector<std::string> names_, fields_;
 };
 
-/// True if all finite values are positive and span a decade or more, so that a logarithmic axis
-/// shows more.
+/// True if all finite values are positive and span a decade or more. The axis is then logarithmic,
+/// because a linear one would show little of the small values.
 bool is_logarithmic(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const double value : values) {
@@ -144,7 +145,7 @@ std::string label(const std::string& name, bool logarithmic) {
   return logarithmic ? fmt::format("log10 {}", name) : name;
 }
 
-/// An axis of a map. `low` and `high` are its ends on its scale.
+/// An axis of a map. `low` and `high` are its ends: values, or their logarithms to base 10.
 struct MapAxis {
   std::set<double> values;
   bool logarithmic = false;
@@ -161,8 +162,8 @@ MapAxis axis_of(const std::set<double>& values) {
   return {values, logarithmic, first - margin, last + margin};
 }
 
-/// The value that each of the pixels along the axis shows: the nearest, so that grids of unequal
-/// spacing are drawn at the right place.
+/// For each pixel along the axis, the value that it shows. This is the nearest value, so that grids
+/// of unequal spacing are drawn at the right places.
 std::vector<double> values_of_pixels(const MapAxis& axis) {
   // Programs that show a picture with few pixels smooth it. With eight pixels for each value, the
   // edges of the values stay sharp.
@@ -185,8 +186,8 @@ std::vector<std::string> map_colours(double low, double high) {
     // For values of both signs, a scale from blue over grey to red (Moreland 2009).
     return {"set palette defined (-1 '#3b4cc0', 0 '#dddddd', 1 '#b40426')",
             fmt::format("set cbrange [{}:{}]", -reach, reach)};
-  // The lightness of this scale (cividis, Nunez et al. 2018) increases throughout, so that
-  // colour-blind readers and readers of prints can read it.
+  // The lightness of this scale (cividis, Nunez et al. 2018) increases from end to end, so that
+  // colour-blind readers and readers of grey prints can read it.
   return {
       "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78', 0.75 '#bcae6c', 1 "
       "'#fee838')"};

@@ -1,4 +1,4 @@
-// The picture of a sweep, from its CSV file.
+// The picture of a sweep, from its CSV file. Values are in the units of the case.
 #pragma once
 
 #include <filesystem>

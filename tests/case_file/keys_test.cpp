@@ -26,6 +26,7 @@ struct KeyRules {
 
 const char* const kPositiveWords = "> 0";
 
+// NOLINTNEXTLINE(readability-function-size): a table of all keys
 std::vector<KeyRules> all_keys() {
   const std::vector<const char*> not_positive = {"0", "0.0", "-1", "-1e-300"};
   return {

@@ -121,7 +121,7 @@ TEST(ExternalForceOfACase, IsFoundBesideTheCaseWhereARunKeepsItsCopies) {
 TEST(ExternalForceOfACase, SaysWhatIsWrongInAnEntry) {
   const std::string entry = std::string(kForce.path) + "[0]";
   expect_refused(with_value(kForce, "[ { until = 4, value = 1, polynomial = [ 1 ] } ]"),
-                 entry + ".value", "must be left out where polynomial");
+                 entry + ".value", "must be left out, because the first coefficient of polynomial");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 0 } ]"),
                  entry + ".angular_frequency", "> 0");
   expect_refused(with_value(kForce, "[ { amplitude = 1, angular_frequency = 1, until = 3 } ]"),
@@ -154,8 +154,8 @@ TEST(FitOfACase, MayReachBeyondItsInterval) {
   };
   const Case c =
       read_text(with_limits("below = \"theory_limit\"\nabove = \"stokes_limit\"\n").text);
-  EXPECT_EQ(required_fit(c).below, lubrication::BelowInterval::kTheoryLimit);
-  EXPECT_EQ(required_fit(c).above, lubrication::AboveInterval::kStokesLimit);
+  EXPECT_EQ(required_fit(c).outside.below, lubrication::BelowInterval::kTheoryLimit);
+  EXPECT_EQ(required_fit(c).outside.above, lubrication::AboveInterval::kStokesLimit);
   auto refused = with_limits("below = \"no\"\n");
   ++refused.line;
   expect_refused(refused, "fit.below", "\"lubrication_limit\" or \"theory_limit\"");

@@ -1,8 +1,7 @@
 // A folder of its own for one test, gone with the test.
 #pragma once
 
-#include <stdlib.h>  // mkdtemp is POSIX
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -47,7 +46,7 @@ class TemporaryFolder {
 
   /// A file of that name in the folder with these bytes.
   std::filesystem::path file(const std::string& name, std::string_view content) const {
-    const auto path = path_ / name;
+    auto path = path_ / name;
     put_text(path, content);
     return path;
   }

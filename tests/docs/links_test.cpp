@@ -37,7 +37,7 @@ std::string anchor_of(const std::string& heading) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == ' ')
       anchor += '-';
-    else if (std::isalnum(byte) || c == '-' || c == '_' || byte >= 0x80)
+    else if (std::isalnum(byte) != 0 || c == '-' || c == '_' || byte >= 0x80)
       anchor += static_cast<char>(std::tolower(byte));
   }
   return anchor;

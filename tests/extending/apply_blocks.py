@@ -5,9 +5,12 @@
 A block is applied if the paragraph before it says where it goes:
 
     New file `PATH`:
-    In `PATH`, after the line with `TEXT`:            or: before the line with, in place of the line with
+    In `PATH`, after the line with `TEXT`:
+    In `PATH`, before the line with `TEXT`:
+    In `PATH`, in place of the line with `TEXT`:
 
-TEXT must stand in exactly one line of the file, so that a reader finds it too. The folder's `changed_files` lists what was written.
+TEXT must be in exactly one line of the file, so that a reader finds it too. The file
+`changed_files` in OUTPUT_FOLDER lists the files that were written.
 """
 import pathlib
 import re
@@ -19,7 +22,7 @@ WHERE = re.compile(r"^(New file|In) `")
 
 
 def blocks(text):
-    """(the line above the block, the block) of every fenced block."""
+    """(the paragraph above the block on one line, the block) of every fenced block."""
     lines = text.splitlines()
     above, i = "", 0
     while i < len(lines):
@@ -28,7 +31,7 @@ def blocks(text):
             yield above, lines[i + 1 : end]
             above, i = "", end
         elif lines[i].strip():
-            above = lines[i]
+            above = f"{above} {lines[i]}" if above and lines[i - 1].strip() else lines[i]
         i += 1
 
 

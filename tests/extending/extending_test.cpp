@@ -11,7 +11,7 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/docs/document.hpp"
-#include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/bispherical/bispherical.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"

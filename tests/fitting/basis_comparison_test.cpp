@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
+#include "tests/common/failure.hpp"
 #include "tests/fitting/samples.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 
@@ -24,6 +27,12 @@ TEST(CompareBases, TakesAUsersOwnTermsAlong) {
   const auto results = compare_bases(exact_drag_table(fifty_gaps(), {-1}, 3, 1), settings);
   EXPECT_EQ(results.back().basis, lubrication::kOwnTerms);
   EXPECT_EQ(results.back().fit->terms.size(), 3U);
+}
+
+TEST(CompareBases, EndsWhenAStopIsRequested) {
+  const std::atomic<bool> flag = true;
+  failure(ErrorKind::kInterrupted,
+          [&] { compare_bases(exact_drag_table(fifty_gaps(), {-1}, 3, 1), {}, StopToken(flag)); });
 }
 
 TEST(CompareBases, KeepsTheReasonWhereABasisCannotBeFitted) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -90,6 +91,14 @@ TEST_P(RobustLoss, OfExactDataIsExact) {
   line.right_hand_side(5) = 100;  // one wrong row among exact ones
   const auto spoiled = solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam());
   EXPECT_LT((spoiled.least_squares.coefficients - kTrue).norm(), 1e-9);
+}
+
+TEST_P(RobustLoss, EndsWhenAStopIsRequested) {
+  const auto line = noisy_parabola(0.01);
+  const std::atomic<bool> flag = true;
+  failure(ErrorKind::kInterrupted, [&] {
+    solve_robust_least_squares(line.matrix, line.right_hand_side, GetParam(), StopToken(flag));
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RobustLoss,

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "tests/common/temporary_folder.hpp"
-#include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/bispherical/bispherical.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact::freefem_axi {

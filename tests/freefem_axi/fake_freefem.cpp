@@ -10,22 +10,11 @@ namespace viscontact::freefem_axi {
 
 FakeFreeFem::FakeFreeFem(std::filesystem::path folder, const std::string& before)
     : folder_(std::move(folder)) {
-  // Called as: fake_freefem -nw -v 0 SCRIPT -name value ...
   put_text(executable(), "#!/bin/sh\nfolder='" + folder_.string() + "'\n" + R"(
 case $4 in
   *version.edp) echo "viscontact-version 0-fake"; exit 0 ;;
 esac
-shift 4
-while [ $# -gt 1 ]; do
-  case $1 in
-    -gap) gap=$2 ;;
-    -velocity) velocity=$2 ;;
-    -viscosity) viscosity=$2 ;;
-    -radius) radius=$2 ;;
-  esac
-  shift 2
-done
-)" + before + R"(
+)" + kReadRow + before + R"(
 awk "BEGIN { printf \"viscontact-result %.17g 1e-6 1000 4\n\", \
      -6 * 3.14159265358979323846 * $viscosity * $radius * ($velocity) * ($radius / $gap + 1) }"
 echo "$gap $velocity" >> "$folder/answered"

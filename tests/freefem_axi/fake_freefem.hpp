@@ -10,6 +10,20 @@
 
 namespace viscontact::freefem_axi {
 
+/// Shell text that sets $gap, $velocity, $viscosity and $radius from the arguments of FreeFEM,
+/// which is called as: FreeFem++-nw -nw -v 0 SCRIPT -name value ...
+inline constexpr const char* kReadRow = R"(shift 4
+while [ $# -gt 1 ]; do
+  case $1 in
+    -gap) gap=$2 ;;
+    -velocity) velocity=$2 ;;
+    -viscosity) viscosity=$2 ;;
+    -radius) radius=$2 ;;
+  esac
+  shift 2
+done
+)";
+
 class FakeFreeFem {
  public:
   /// Writes the script into `folder`. `before` is shell text that runs before a row is answered,

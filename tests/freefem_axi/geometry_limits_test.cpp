@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/freefem_axi/exact_rows.hpp"
+#include "tests/freefem_axi/accuracy/exact_rows.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
-#include "tests/oracles/bispherical.hpp"
+#include "tests/oracles/bispherical/bispherical.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {

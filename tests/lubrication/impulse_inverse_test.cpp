@@ -71,7 +71,7 @@ class Inverse : public ::testing::TestWithParam<Sample> {};
 
 TEST_P(Inverse, GivesTheGapBackToRoundOff) {
   const auto& [name, fit, below, smallest] = GetParam();
-  const LubricationForce force(fit, below);
+  const LubricationForce force(fit, {below});
   const double largest = fit.gap_interval[1];
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> logarithm(std::log(smallest), std::log(largest));
@@ -91,7 +91,7 @@ TEST_P(Inverse, GivesTheGapBackToRoundOff) {
 
 TEST_P(Inverse, GivesTheEndsOfTheIntervalBack) {
   const auto& [name, fit, below, smallest] = GetParam();
-  const LubricationForce force(fit, below);
+  const LubricationForce force(fit, {below});
   const auto [from, to] = fit.gap_interval;
   double gap_above = from;
   double gap_below = to;
@@ -134,7 +134,7 @@ TEST(ImpulseInverse, IsMonotonicAcrossTheLowerEnd) {
   const LubricationForce force(
       fitting::fit_force_table(fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1),
                                "asymptotic", Weights::kRelative),
-      BelowInterval::kLubricationLimit);
+      {BelowInterval::kLubricationLimit});
   const double end = force.impulse(1e-3);
   double last = 0;
   for (int i = -50; i <= 50; ++i) {
@@ -152,21 +152,21 @@ TEST(ImpulseInverse, NamesTheIntervalItLeaves) {
   EXPECT_THAT(bad_input([&] { force.gap_of_impulse(force.impulse(2) + 1); }),
               HasSubstr("wider than the fitted interval [0.001, 2]"));
   const LubricationForce limit(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2),
-                               BelowInterval::kLubricationLimit);
+                               {BelowInterval::kLubricationLimit});
   EXPECT_THAT(bad_input([&] { limit.gap_of_impulse(limit.impulse(2) + 1); }),
               HasSubstr("wider than the fitted interval [0.001, 2]"));
 }
 
 TEST(ImpulseInverse, RefusesWhatIsNoImpulse) {
   const LubricationForce force(fitting::planted_fit({{"1/q", 56.5}}, 1e-3, 2),
-                               BelowInterval::kLubricationLimit);
+                               {BelowInterval::kLubricationLimit});
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::quiet_NaN()), Error);
   EXPECT_THROW(force.gap_of_impulse(std::numeric_limits<double>::infinity()), Error);
 }
 
 TEST(ImpulseInverse, SaysThatAFilmIsTooThinForADouble) {
   const LubricationForce force(fitting::planted_fit({{"1/q", 1}}, 1e-3, 2),
-                               BelowInterval::kLubricationLimit);
+                               {BelowInterval::kLubricationLimit});
   EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { force.gap_of_impulse(-1000); }),
               HasSubstr("thinner than the smallest number"));
 }

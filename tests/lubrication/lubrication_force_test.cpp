@@ -60,7 +60,7 @@ TEST_P(OnBothBases, ResistanceDoesNotDependOnTheVelocityOfTheFit) {
 }
 
 TEST_P(OnBothBases, LogSlopeIsGapTimesTheDerivativeOfTheResistance) {
-  const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
+  const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   for (const double gap : {1e-5, 5e-4, 2e-3, 0.1, 0.9}) {
     const double h = std::ldexp(gap, -8);
     const auto r = [&](double q) { return force.resistance(q); };
@@ -74,7 +74,7 @@ TEST_P(OnBothBases, LogSlopeIsGapTimesTheDerivativeOfTheResistance) {
 }
 
 TEST_P(OnBothBases, ImpulseIsTheIntegralOfTheResistance) {
-  const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
+  const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   const auto resistance = [&](double gap) { return force.resistance(gap); };
   // Simpson in ln q: h^4/180 ((ln q)^4-derivative of q R, at most 81 q R for q^4 terms) < 1e-11 of
   // the whole.
@@ -101,7 +101,7 @@ TEST_P(OnBothBases, RegularResistanceIsWhatIsLeftWithoutTheLeadingTerm) {
 }
 
 TEST_P(OnBothBases, IsContinuousAtTheLowerEndOfItsInterval) {
-  const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
+  const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   const double gap = 1e-3;
   const double below = std::nextafter(gap, 0.0);
   // One unit in the last place of q changes R and Gamma by as many of theirs; both are sums of a
@@ -111,7 +111,7 @@ TEST_P(OnBothBases, IsContinuousAtTheLowerEndOfItsInterval) {
 }
 
 TEST_P(OnBothBases, TendsToTheLubricationLimitBelowItsInterval) {
-  const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
+  const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   for (const double gap : {1e-4, 1e-8, 1e-100, 1e-300}) {
     const double limit = force.leading_coefficient() / gap + force.regular_resistance(1e-3);
     EXPECT_DOUBLE_EQ(force.resistance(gap), limit);
@@ -134,7 +134,7 @@ TEST_P(OnBothBases, RefusesGapsOutsideItsIntervalAndNamesIt) {
 }
 
 TEST_P(OnBothBases, WithTheLubricationLimitRefusesOnlyWhatIsNoGap) {
-  const LubricationForce force(exact_fit(GetParam()), BelowInterval::kLubricationLimit);
+  const LubricationForce force(exact_fit(GetParam()), {BelowInterval::kLubricationLimit});
   for (const double gap : {0.0, -1.0, 1.1, std::numeric_limits<double>::infinity()}) {
     EXPECT_THAT(bad_input([&] { force.resistance(gap); }), HasSubstr("[0.001, 1]")) << gap;
     EXPECT_THAT(bad_input([&] { force.impulse(gap); }), HasSubstr("[0.001, 1]")) << gap;
@@ -177,7 +177,7 @@ TEST(LubricationForce, WithoutALeadingTermHasNoLubricationLimit) {
   const Fit fit = fitting::planted_fit({{"1", 2}}, 1e-3, 1);
   EXPECT_EQ(LubricationForce(fit).resistance(0.5), 2);
   EXPECT_THAT(bad_input([&] { LubricationForce(fit).leading_coefficient(); }), HasSubstr("1/q"));
-  const LubricationForce force(fit, BelowInterval::kLubricationLimit);
+  const LubricationForce force(fit, {BelowInterval::kLubricationLimit});
   EXPECT_THAT(bad_input([&] { force.resistance(1e-4); }), HasSubstr("1/q"));
   EXPECT_THAT(bad_input([&] { force.impulse(1e-4); }), HasSubstr("1/q"));
 }

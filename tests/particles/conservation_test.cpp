@@ -1,5 +1,5 @@
-// What contacts must not change: momentum, the sum of an action and its reaction; and the memory's
-// books.
+// What contacts must not change: the momentum, because action and reaction are equal, and the
+// impulse that the films remember.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST_P(Conservation, MomentumStaysToRounding) {
   }
 }
 
-TEST_P(Conservation, ActionIsReactionAndFilmsBookTheImpulses) {
+TEST_P(Conservation, ActionIsReactionAndFilmsRememberTheImpulses) {
   auto c = collapse(GetParam(), 4);
   Simulation simulation(c.setting, c.state, 1);
   const double h = c.setting.time_step;
@@ -83,7 +83,7 @@ TEST_P(Conservation, ActionIsReactionAndFilmsBookTheImpulses) {
     const auto& after = simulation.state();
     const auto& p = after.particles;
     std::map<std::pair<int, int>, double> gammas;
-    for (const auto& film : before.pairs) gammas[{film.first, film.second}] = film.gamma;
+    for (const auto& pair : before.pairs) gammas[{pair.first, pair.second}] = pair.gamma;
     std::vector<Vector> change(p.count());
     std::vector<double> scale(p.count());
     for (std::size_t k = 0; k < p.count(); ++k) {
@@ -91,22 +91,22 @@ TEST_P(Conservation, ActionIsReactionAndFilmsBookTheImpulses) {
                   h * c.setting.forces[static_cast<std::int32_t>(k)].pieces[0].value;
       scale[k] = p.masses[k] * norm(p.velocity(k)) + p.masses[k] * norm(p.position(k)) / h * 1e-3;
     }
-    for (const auto& film : after.pairs) {
-      const auto i = static_cast<std::size_t>(film.first),
-                 j = static_cast<std::size_t>(film.second);
+    for (const auto& pair : after.pairs) {
+      const auto i = static_cast<std::size_t>(pair.first),
+                 j = static_cast<std::size_t>(pair.second);
       const Vector between = before.particles.position(j) - before.particles.position(i);
-      const Vector push = film.impulse / norm(between) * between;
+      const Vector push = pair.impulse / norm(between) * between;
       change[i] = change[i] + push;
       change[j] = change[j] - push;
-      scale[i] += std::abs(film.impulse);
-      scale[j] += std::abs(film.impulse);
+      scale[i] += std::abs(pair.impulse);
+      scale[j] += std::abs(pair.impulse);
       // Smooth: gamma takes all, up to 0.
-      const double gamma = gammas[{film.first, film.second}];
-      EXPECT_NEAR(film.gamma, std::min(0.0, gamma - film.impulse),
-                  8 * kEpsilon * (std::abs(gamma) + std::abs(film.impulse)));
-      gammas.erase({film.first, film.second});
-      held += film.gamma < 0 ? 1 : 0;
-      released += gamma < 0 && film.gamma == 0 ? 1 : 0;
+      const double gamma = gammas[{pair.first, pair.second}];
+      EXPECT_NEAR(pair.gamma, std::min(0.0, gamma - pair.impulse),
+                  8 * kEpsilon * (std::abs(gamma) + std::abs(pair.impulse)));
+      gammas.erase({pair.first, pair.second});
+      held += pair.gamma < 0 ? 1 : 0;
+      released += gamma < 0 && pair.gamma == 0 ? 1 : 0;
     }
     for (std::size_t k = 0; k < p.count(); ++k)
       EXPECT_LE(norm(change[k]), 1000 * kEpsilon * scale[k]) << k << " at " << n;

@@ -103,31 +103,31 @@ TEST(RandomMotions, ObeyTheContactLaw) {
           overlap = std::max(overlap, -pair_gap(state, a, b) / radius);
       EXPECT_LE(overlap, tolerated + rounding) << report.time;
       std::size_t glued = 0;
-      for (const auto* films : {&state.pairs, &state.walls})
-        for (const auto& film : *films) {
-          const double other = film.first < 0 ? std::numeric_limits<double>::infinity()
-                                              : p.radii[static_cast<std::size_t>(film.first)];
+      for (const auto* pairs : {&state.pairs, &state.walls})
+        for (const auto& pair : *pairs) {
+          const double other = pair.first < 0 ? std::numeric_limits<double>::infinity()
+                                              : p.radii[static_cast<std::size_t>(pair.first)];
           const double lowest =
-              s.law.lower_bound(p.radii[static_cast<std::size_t>(film.second)], other);
-          EXPECT_GE(film.gamma, lowest);
-          EXPECT_LE(film.gamma, 0);
-          solid += film.gamma < 0 && film.gamma == lowest ? 1 : 0;
-          glued += film.gamma < 0 ? 1 : 0;
+              s.law.lower_bound(p.radii[static_cast<std::size_t>(pair.second)], other);
+          EXPECT_GE(pair.gamma, lowest);
+          EXPECT_LE(pair.gamma, 0);
+          solid += pair.gamma < 0 && pair.gamma == lowest ? 1 : 0;
+          glued += pair.gamma < 0 ? 1 : 0;
           // In the parts of a divided step the normals change.
-          if (!(film.gamma < 0) || !report.converged || report.parts > 1) continue;
+          if (!(pair.gamma < 0) || !report.converged || report.parts > 1) continue;
           ++held;
           // A film that holds has a gap of 0, but for the drift of the linearised equality, d^2/(2
           // |x_j - x_i|) for a step d across the normal; or it has no more left than the tolerance.
-          const auto j = static_cast<std::size_t>(film.second);
+          const auto j = static_cast<std::size_t>(pair.second);
           double mobility = s.time_step / p.masses[j];
           double drift = 0, gap_now = 0;
-          if (film.first < 0) {
-            gap_now = gap(s.planes[static_cast<std::size_t>(-1 - film.first)].at(state.time),
+          if (pair.first < 0) {
+            gap_now = gap(s.planes[static_cast<std::size_t>(-1 - pair.first)].at(state.time),
                           p.position(j), p.radii[j]);
           } else {
-            const auto a = static_cast<std::size_t>(film.first);
+            const auto a = static_cast<std::size_t>(pair.first);
             mobility += s.time_step / p.masses[a];
-            gap_now = pair_gap(state, film.first, film.second);
+            gap_now = pair_gap(state, pair.first, pair.second);
             const Vector apart = before.position(j) - before.position(a);
             const Vector step = p.position(j) - p.position(a) - apart;
             const Vector normal = 1 / norm(apart) * apart;
@@ -136,7 +136,7 @@ TEST(RandomMotions, ObeyTheContactLaw) {
             drift = dot(across, across) / (2 * (norm(apart) + along));
           }
           const double small = (s.solver.tolerance + rounding) * radius;
-          if (mobility * -film.gamma <= small) continue;
+          if (mobility * -pair.gamma <= small) continue;
           EXPECT_LE(gap_now, drift + small) << report.time;
         }
       EXPECT_EQ(report.glued, glued) << report.time;

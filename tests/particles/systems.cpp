@@ -69,8 +69,8 @@ void run(Simulation& simulation, double end, const std::function<void(const Step
 }
 
 Pair pair_of(const State& state, std::int32_t first, std::int32_t second) {
-  for (const auto& film : first < 0 ? state.walls : state.pairs)
-    if (film.first == first && film.second == second) return film;
+  for (const auto& pair : first < 0 ? state.walls : state.pairs)
+    if (pair.first == first && pair.second == second) return pair;
   return {first, second, 0, 0};
 }
 

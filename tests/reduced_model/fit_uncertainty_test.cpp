@@ -62,10 +62,10 @@ TEST(FitUncertainty, LeavesOutliersOutOfTheMisfitWhichIsOneAtMost) {
 TEST(FitUncertainty, UsesTheLimitsThatTheMotionUses) {
   lubrication::Fit fit = brenner_fit("lecture", {0.02, 2});
   fit.leading_coefficient = 56.548667764616276;
-  const auto below = lubrication::BelowInterval::kTheoryLimit;
-  const lubrication::LubricationForce force(fit, below);
+  const lubrication::OutsideInterval outside{lubrication::BelowInterval::kTheoryLimit};
+  const lubrication::LubricationForce force(fit, outside);
   const double expected = force.gap_of_impulse(force.impulse(1) - 400);
-  EXPECT_EQ(propagate_fit(lecture_motion(), fit, 0, below).smallest.gap, expected);
+  EXPECT_EQ(propagate_fit(lecture_motion(), fit, 0, outside).smallest.gap, expected);
   EXPECT_NE(propagate_fit(lecture_motion(), fit, 0).smallest.gap, expected);
 }
 
@@ -88,12 +88,8 @@ TEST(FitUncertainty, HoldsTheExactMinimumOfTheLecturesCase) {
 }
 
 TEST(FitUncertainty, IsTheSameAtEachCall) {
-  const auto one =
-      propagate_fit(lecture_motion(), lecture_fit(), 3, lubrication::BelowInterval::kError,
-                    lubrication::AboveInterval::kError, 100);
-  const auto two =
-      propagate_fit(lecture_motion(), lecture_fit(), 3, lubrication::BelowInterval::kError,
-                    lubrication::AboveInterval::kError, 100);
+  const auto one = propagate_fit(lecture_motion(), lecture_fit(), 3, {}, 100);
+  const auto two = propagate_fit(lecture_motion(), lecture_fit(), 3, {}, 100);
   EXPECT_EQ(write_uncertainty(one), write_uncertainty(two));
 }
 
@@ -106,9 +102,7 @@ TEST(FitUncertainty, CountsDrawsWhoseDragIsNotPositive) {
 
 TEST(FitUncertainty, IsReadBackAsItWasWritten) {
   const TemporaryFolder folder;
-  const auto written =
-      propagate_fit(lecture_motion(), lecture_fit(), 5, lubrication::BelowInterval::kError,
-                    lubrication::AboveInterval::kError, 100);
+  const auto written = propagate_fit(lecture_motion(), lecture_fit(), 5, {}, 100);
   const auto read = read_uncertainty(folder.file("u.json", write_uncertainty(written)));
   EXPECT_EQ(write_uncertainty(read), write_uncertainty(written));
   const auto other = folder.file("other.json", "{\"draws\": 3}");

@@ -49,9 +49,9 @@ Study study(const char* name) {
       case_file::read_case(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "data/cases" / name);
   const auto& fit = case_file::required_fit(c);
   lubrication::LubricationForce force =
-      fit.exact ? lubrication::LubricationForce::exact_plane(c.viscosity, c.radius)
-                : lubrication::LubricationForce(lubrication::read_fit(fit.file.value()), fit.below,
-                                                fit.above);
+      fit.exact
+          ? lubrication::LubricationForce::exact_plane(c.viscosity, c.radius)
+          : lubrication::LubricationForce(lubrication::read_fit(fit.file.value()), fit.outside);
   return {std::move(c), std::move(force)};
 }
 

@@ -58,7 +58,7 @@ lubrication::LubricationForce force_in(const Units& units, const std::string& ki
   }
   return lubrication::LubricationForce(
       fitting::fit_force_table(table, kind, lubrication::Weights::kRelative),
-      lubrication::BelowInterval::kLubricationLimit, lubrication::AboveInterval::kStokesLimit);
+      lubrication::OutsideInterval{}.with_limits());
 }
 
 struct Push {

@@ -190,8 +190,9 @@ TEST_F(SweepFile, IsMadeAgainForWhateverDecidesItsRows) {
                     [&] { put_text(path("force.csv"), "time,force\n0,-2\n2,-2\n2,2\n6,2\n"); });
   expect_made_again("fit", [&] { plan_.fit.gap_interval[0] = 1e-200; });
   expect_made_again("limit below",
-                    [&] { plan_.below = lubrication::BelowInterval::kLubricationLimit; });
-  expect_made_again("limit above", [&] { plan_.above = lubrication::AboveInterval::kStokesLimit; });
+                    [&] { plan_.outside.below = lubrication::BelowInterval::kLubricationLimit; });
+  expect_made_again("limit above",
+                    [&] { plan_.outside.above = lubrication::AboveInterval::kStokesLimit; });
   expect_made_again("reference", [&] { plan_.reference = "viscous_contact"; });
   expect_made_again("models", [&] { plan_.models.emplace_back("inelastic_contact"); });
   expect_made_again("version", [&] { version_ = "1.2.4"; });

@@ -1,5 +1,6 @@
 // The loop over time of the contact models: the resolved drag in a step, the budget, and the
-// contact interval.
+// contact interval. Equations and units are those of contact_step.hpp. A change of its results must
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"
 
 #include <algorithm>
@@ -129,8 +130,8 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
   }
 }
 
-/// The times at which the force changes its sign. Nothing if it does so too often to be followed;
-/// the lowest gamma then is that at the ends of the steps.
+/// The times at which the force changes its sign. Nothing if there are too many such times to find;
+/// the lowest gamma is then taken from the ends of the steps.
 std::vector<double> turns_of(const Motion& motion) {
   try {
     return motion.external_force.sign_changes(motion.end_time);

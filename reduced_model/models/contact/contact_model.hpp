@@ -1,6 +1,6 @@
-// The loop over time that all contact models share (physics.md (4.5) to (4.7)). A model gives it
+// The loop over time that all contact models share (physics.md (4.5) to (4.7)). A model supplies
 // its resolved drag and the gap at which it makes contact. Lengths, masses and times are in any one
-// consistent system of units.
+// consistent system of units. A change must keep the budget balanced to round-off.
 #pragma once
 
 #include <functional>
@@ -32,15 +32,16 @@ struct ContactModel {
   std::optional<ResolvedDrag> drag;
   /// Thickness [L] of the film that a value of gamma [M L/T] stands for.
   std::function<double(double gamma)> film_thickness;
-  /// That function as a formula, for the heads of files.
+  /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
 };
 
 /// Makes the steps of contact_step.hpp from the start of the motion to its end. The forces in a row
 /// are means over the step before it; the lubrication force is that of film and resolved drag
-/// together. The begin and end of contact are found within the steps of impact and release, as if
-/// the force were constant in each; their error is that of the scheme in a step. The lowest gamma,
-/// and so the recovered film, takes account of changes of sign of the force within a step.
+/// together. The beginning and the end of contact are found within the steps of impact and release,
+/// as if the force were constant in each step. The error of these times is that which the scheme
+/// makes in a step. The lowest gamma, and thus the recovered film, includes its values where the
+/// force changes its sign within a step.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 /// Makes a contact model and runs it.

@@ -62,10 +62,10 @@ struct NoDrag {
 ///                                                  D^n + h v  = 0 if gamma^n < 0 }.
 ///
 /// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
-/// release is exact for every step length: m u + G(D) + gamma = int f holds to round-off as long as
-/// no solid carries load. A step that would raise gamma above 0 releases the sphere with the
-/// momentum that remains. A step that would lower gamma below `gamma_min` sets it to `gamma_min`,
-/// and the solid carries the rest.
+/// release is exact for every step length: the balance m u + G(D) + gamma = int f is exact to
+/// round-off as long as no solid carries load. A step that would raise gamma above 0 releases the
+/// sphere with the momentum that remains. A step that would lower gamma below `gamma_min` sets it
+/// to `gamma_min`, and the solid carries the rest.
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {

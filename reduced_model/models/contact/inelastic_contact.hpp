@@ -1,5 +1,5 @@
-// Plain inelastic contact, to compare viscous contact with. Lengths, masses and times are in any
-// one consistent system of units.
+// Plain inelastic contact, for comparison with viscous contact. Lengths, masses and times are in
+// any one consistent system of units.
 #pragma once
 
 #include "viscontact/reduced_model/models/contact/contact_model.hpp"

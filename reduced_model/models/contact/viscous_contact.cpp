@@ -1,4 +1,5 @@
-// The model `viscous_contact`: contact at q = 0 and no resolved drag.
+// The model `viscous_contact`: contact at q = 0 and no resolved drag. A change of its results must
+// raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// The events of problem (P), landing, release and change to solid contact, and the budget between
-// them.
+// Finds the events of problem (P), which are landing, release and change to solid contact, and
+// computes the budget between them. Equations and units are those of viscous_contact_exact.hpp. A
+// change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The model `viscous_contact_regular_drag`: contact at q = 0 and the regular drag R(q) - k/q.
+// The model `viscous_contact_regular_drag`: contact at q = 0 and the regular drag R(q) - k/q. A
+// change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"

@@ -1,4 +1,5 @@
-// The model `viscous_contact_threshold`: contact at q = q_c and the whole drag R(q) above it.
+// The model `viscous_contact_threshold`: contact at q = q_c and the whole drag R(q) above it. A
+// change of its results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
 
 #include <fmt/format.h>

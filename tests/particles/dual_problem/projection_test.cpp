@@ -108,7 +108,7 @@ TEST(Projection, OfRandomSpheresIsThatOfADenseSolver) {
 }
 
 /// A lattice of discs of radius 1, each touching its neighbours across and along, between floor and
-/// walls: contacts 2 n (n + 1) - n, freedoms 2 n^2.
+/// walls: contacts 2 n (n + 1) - n, degrees of freedom 2 n^2.
 Problem<2> packed_lattice(int side, Random& random) {
   Problem<2> problem;
   const auto contact = [&](int first, int second, std::array<double, 2> normal) {
@@ -134,7 +134,7 @@ Problem<2> packed_lattice(int side, Random& random) {
   return problem;
 }
 
-TEST(Projection, OfAPackingWithMoreContactsThanFreedomsHasOneVelocity) {
+TEST(Projection, OfAPackingWithMoreContactsThanDegreesOfFreedomHasOneVelocity) {
   Random random(3);
   for (const int side : {2, 4, 7}) {
     auto problem = packed_lattice(side, random);

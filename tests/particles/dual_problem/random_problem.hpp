@@ -40,7 +40,7 @@ struct Problem {
 };
 
 /// Bodies thrown together by random normals, gaps >= 0 (staying is allowed), up to several contacts
-/// for each freedom.
+/// for each degree of freedom.
 template <int D>
 Problem<D> random_problem(Random& random) {
   Problem<D> problem;

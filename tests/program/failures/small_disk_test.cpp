@@ -74,7 +74,7 @@ TEST_F(FullDisk, JournalThatFindsNoRoomStopsTheRunAndTheSameCommandGoesOn) {
   const auto full = tabulate(path("disk/table.csv"), fake.executable());
   expect_refusal(full, ErrorKind::kBadInput,
                  AllOf(HasSubstr("table.csv.rows: cannot be written (No space left on device)"),
-                       HasSubstr("the same command goes on")));
+                       HasSubstr("the same command continues")));
   const auto kept = finished(path("disk/table.csv")).size();
   EXPECT_GT(kept, 10U);
   const auto answers_full = fake.answered().size();

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "tests/common/regular_expressions.hpp"
-#include "tests/common/temporary_folder.hpp"
+#include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -20,48 +20,27 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// Three discs on a floor in a file, the first two in touch, and one in the case; one force by id.
-constexpr const char* kCase = R"(title = "Discs with ids"
-[space]
-dimension = 2
-gravity = [0.0, -1.0]
-[viscous_contact]
-time_step = 0.05
-end_time = 2.0
-gamma_min = -2.0
-[[plane]]
-point = [0.0, 0.0]
-normal = [0.0, 1.0]
-[particles]
-file = "discs.csv"
-[[particle]]
+const std::string kCaseWithIds = discs_on_a_floor("0.05", "2.0", R"([[particle]]
 centre = [40.0, 1.0]
 radius = 1.0
 mass = 1.0
 [[force]]
 particles = [3]
 value = [1.0, 0.0]
-)";
-constexpr const char* kDiscs = "id,x,y,radius,mass\n41,0,1,1,1\n7,2,1,1,1\n3,10,1,1,1\n";
+)");
+const std::string kDiscsWithIds = "id,x,y,radius,mass\n41,0,1,1,1\n7,2,1,1,1\n3,10,1,1,1\n";
 
-class ParticleIds : public ::testing::Test {
+class ParticleIds : public ParticlesCommand {
  protected:
-  ParticleIds() { scratch_.file("discs.csv", kDiscs); }
-  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+  ParticleIds() { folder_.file("discs.csv", kDiscsWithIds); }
   ProgramResult run(const std::string& text, const std::string& folder,
-                    std::vector<std::string> more = {}) const {
-    put_text(path("case.toml"), text);
-    more.insert(more.begin(), {"particles", path("case.toml"), "-o", path(folder)});
-    return run_viscontact(more);
+                    const std::vector<std::string>& more = {}) const {
+    return ParticlesCommand::run(put_case(text), out(folder), more);
   }
-  /// Lines of a text that are no comments.
-  static std::string content(const fs::path& file) {
-    return replaced_matches(read_file(file), "#[^\n]*\n", "");
-  }
-  TemporaryFolder scratch_;
 };
 
 TEST_F(ParticleIds, NameTheParticlesOfAForceAndOfEveryOutput) {
-  expect_done(run(kCase, "out"));
+  expect_done(run(kCaseWithIds, "out"));
   const auto end = particles::read_particles(path("out/final_particles.csv"), 2).particles;
   EXPECT_THAT(end.ids, ElementsAre(41, 7, 3, 42));  // those of tables go on after the largest
   // The disc with the id 3 is the third one, and the only one that is pushed: by 1 for 2 units of
@@ -80,10 +59,10 @@ TEST_F(ParticleIds, NameTheParticlesOfAForceAndOfEveryOutput) {
 }
 
 TEST_F(ParticleIds, DoNotChangeTheMotion) {
-  expect_done(run(kCase, "named"));
+  expect_done(run(kCaseWithIds, "named"));
   // The same without ids: the disc that is pushed is number 2.
-  put_text(path("discs.csv"), replaced_matches(kDiscs, "(id|41|7|3),(.*)", "$2"));
-  expect_done(run(replaced(kCase, "particles = [3]", "particles = [2]"), "numbered"));
+  put_text(path("discs.csv"), replaced_matches(kDiscsWithIds, "(id|41|7|3),(.*)", "$2"));
+  expect_done(run(replaced(kCaseWithIds, "particles = [3]", "particles = [2]"), "numbered"));
   const auto without_ids = [&](const std::string& folder) {
     return replaced_matches(content(path(folder + "/final_particles.csv")), "\n[0-9]+,", "\n");
   };
@@ -91,14 +70,15 @@ TEST_F(ParticleIds, DoNotChangeTheMotion) {
 }
 
 TEST_F(ParticleIds, SurviveARestartAndAreReadFromTheFinalParticles) {
-  expect_done(run(kCase, "whole"));
-  expect_done(run(replaced(kCase, "end_time = 2.0", "end_time = 1.0"), "half"));
-  expect_done(run(kCase, "rest", {"--restart", path("half/restart.bin")}));
+  expect_done(run(kCaseWithIds, "whole"));
+  expect_done(run(replaced(kCaseWithIds, "end_time = 2.0", "end_time = 1.0"), "half"));
+  expect_done(run(kCaseWithIds, "rest", {"--restart", path("half/restart.bin")}));
   for (const std::string name : {"final_particles.csv", "final_contacts.csv"})
     EXPECT_EQ(content(path("rest/" + name)), content(path("whole/" + name)));
   // The result as the input of another case: its force finds the disc by the same id.
-  const auto next = replaced_matches(replaced(kCase, "discs.csv", "whole/final_particles.csv"),
-                                     "\\[\\[particle\\]\\][^\\[]*\\[40[^\\[]*", "");
+  const auto next =
+      replaced_matches(replaced(kCaseWithIds, "discs.csv", "whole/final_particles.csv"),
+                       "\\[\\[particle\\]\\][^\\[]*\\[40[^\\[]*", "");
   expect_done(run(next, "next"));
   const auto end = particles::read_particles(path("next/final_particles.csv"), 2).particles;
   EXPECT_THAT(end.ids, ElementsAre(41, 7, 3, 42));
@@ -114,9 +94,9 @@ class BadIds : public ParticleIds, public ::testing::WithParamInterface<BadId> {
 
 TEST_P(BadIds, AreRefusedWithTheirLine) {
   const auto& bad = GetParam();
-  const bool in_file = std::string(kDiscs).find(bad.from) != std::string::npos;
-  if (in_file) put_text(path("discs.csv"), replaced(kDiscs, bad.from, bad.to));
-  expect_refusal(run(in_file ? std::string(kCase) : replaced(kCase, bad.from, bad.to), "out"),
+  const bool in_file = kDiscsWithIds.find(bad.from) != std::string::npos;
+  if (in_file) put_text(path("discs.csv"), replaced(kDiscsWithIds, bad.from, bad.to));
+  expect_refusal(run(in_file ? kCaseWithIds : replaced(kCaseWithIds, bad.from, bad.to), "out"),
                  ErrorKind::kBadInput, HasSubstr(bad.said));
   EXPECT_FALSE(fs::exists(path("out")));
 }
@@ -127,10 +107,11 @@ INSTANTIATE_TEST_SUITE_P(
         {"Twice", "7,2,1", "41,2,1",
          "discs.csv:3: id is 41, which is the id of the particle in line 2"},
         {"Missing", "7,2,1", ",2,1", "discs.csv:3: id is empty; it must be a number"},
-        {"Negative", "7,2,1", "-7,2,1", "discs.csv:3: id is -7; must be a whole number from 0"},
-        {"Fraction", "7,2,1", "7.5,2,1", "discs.csv:3: id is 7.5; must be a whole number"},
-        {"TooLarge", "7,2,1", "2147483648,2,1", "discs.csv:3: id is 2147483648; must be a whole"},
-        {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "the largest one that is possible"},
+        {"Negative", "7,2,1", "-7,2,1", "discs.csv:3: id is -7; it must be a whole number from 0"},
+        {"Fraction", "7,2,1", "7.5,2,1", "discs.csv:3: id is 7.5; it must be a whole number"},
+        {"TooLarge", "7,2,1", "2147483648,2,1",
+         "discs.csv:3: id is 2147483648; it must be a whole"},
+        {"NoneLeftForTheTable", "7,2,1", "2147483647,2,1", "is the largest id that is possible"},
         {"ForceOnNoId", "particles = [3]", "particles = [2]",
          "case.toml:19: force[0].particles contains 2, which is not the id of a particle"},
         {"ForceTwice", "particles = [3]", "particles = [3, 3]",

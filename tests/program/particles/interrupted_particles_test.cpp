@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "tests/common/temporary_folder.hpp"
+#include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -24,26 +24,13 @@ using ::testing::Not;
 
 /// Three discs that fall onto a floor and onto each other, one of them pushed by its id. So many
 /// steps that an interrupt comes between two of the twenty frames.
-constexpr const char* kCase = R"(title = "Three discs that fall"
-[space]
-dimension = 2
-gravity = [0.0, -1.0]
-[viscous_contact]
-time_step = 2.5e-5
-end_time = 10.0
-gamma_min = -2.0
-[output]
+const std::string kLongCase = discs_on_a_floor("2.5e-5", "10.0", R"([output]
 every = 0.5
-[[plane]]
-point = [0.0, 0.0]
-normal = [0.0, 1.0]
-[particles]
-file = "discs.csv"
 [[force]]
 particles = [7]
 value = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0.7] } ]
-)";
-constexpr const char* kDiscs =
+)");
+const std::string kFallingDiscs =
     "id,x,y,vx,vy,radius,mass\n3,3,1,0,0,1,1\n12,6.5,4,0,-1,0.5,0.25\n7,0,2,0,0,1,1\n";
 
 /// Interrupts a run as soon as it has written the frame `frame`.
@@ -52,14 +39,12 @@ struct Interrupt {
   int frame = 0;
 };
 
-class InterruptedParticles : public ::testing::Test {
+class InterruptedParticles : public ParticlesCommand {
  protected:
   InterruptedParticles() {
-    scratch_.file("discs.csv", kDiscs);
-    put_case(kCase);
+    folder_.file("discs.csv", kFallingDiscs);
+    put_case(kLongCase);
   }
-  void put_case(const std::string& text) const { put_text(path("case.toml"), text); }
-  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
   ProgramResult run(const std::string& folder, const Interrupt& interrupt = {}) const {
     const auto shell =
@@ -76,7 +61,7 @@ class InterruptedParticles : public ::testing::Test {
   void run_half(const std::string& folder) const {
     const auto result = run(folder, {"INT", 4});
     ASSERT_EQ(result.exit_status, results::exit_code_of(ErrorKind::kInterrupted)) << result.errors;
-    EXPECT_THAT(result.errors, HasSubstr("the same command goes on from there"));
+    EXPECT_THAT(result.errors, HasSubstr("the same command continues from there"));
   }
 
   /// A text without the lines that say how, how fast and in how much memory it was made.
@@ -111,8 +96,6 @@ class InterruptedParticles : public ::testing::Test {
     }
     EXPECT_EQ(first.size(), second.size());
   }
-
-  TemporaryFolder scratch_;
 };
 
 TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterrupt) {
@@ -123,12 +106,12 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
     const auto result = run("parts", {signal, frame});
     const int status = signal == "KILL" ? 128 + 9 : results::exit_code_of(ErrorKind::kInterrupted);
     ASSERT_EQ(result.exit_status, status) << signal << result.errors;
-    EXPECT_EQ(result.errors.find("goes on from t = ") != std::string::npos, frame > 3)
+    EXPECT_EQ(result.errors.find("continues from t = ") != std::string::npos, frame > 3)
         << result.errors;
   }
   const auto last = run("parts");
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("goes on from t = "));
+  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
   expect_same(path("whole"), path("parts"));
   const auto record = nlohmann::json::parse(read_file(path("parts/run.json")));
   EXPECT_EQ(record["steps"], 400000);
@@ -136,7 +119,7 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
 }
 
 TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
-  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "2.5e-5", "1e-2"));
   expect_done(run("out"));
   const auto before = files_below(path("out"));
   const auto again = run("out");
@@ -149,8 +132,8 @@ TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
 
 TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
   // A stack that needs more than an iteration.
-  put_case(replaced(kCase, "2.5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
-  put_text(path("discs.csv"), std::string(kDiscs) + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
+  put_case(replaced(kLongCase, "2.5e-5", "1e-2") + "[solver]\nmax_iterations = 1\n");
+  put_text(path("discs.csv"), kFallingDiscs + "20,0.1,4.1,0,0,1,1\n21,0.2,6.2,0,0,1,1\n");
   expect_refusal(run("out"), ErrorKind::kNotConverged, HasSubstr("All results are written"));
   const auto again = run("out");
   expect_refusal(again, ErrorKind::kNotConverged, HasSubstr("All results are written"));
@@ -158,26 +141,26 @@ TEST_F(InterruptedParticles, WhoseStepsDidNotConvergeSayItAgain) {
 }
 
 TEST_F(InterruptedParticles, FinishedOneOfWhichAFileIsMissingIsCompletedWithoutAStep) {
-  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "2.5e-5", "1e-2"));
   expect_done(run("out"));
   const auto before = content(path("out"));
   fs::remove(path("out/particles.html"));
   const auto again = run("out");
   expect_done(again);
-  EXPECT_THAT(again.errors, HasSubstr("goes on from t = 10"));
+  EXPECT_THAT(again.errors, HasSubstr("continues from t = 10"));
   EXPECT_EQ(content(path("out")), before);
 }
 
 TEST_F(InterruptedParticles, OfAnotherCaseAreReplacedAndItIsSaid) {
   run_half("out");
-  put_case(replaced(kCase, "2.5e-5", "1e-2"));
+  put_case(replaced(kLongCase, "2.5e-5", "1e-2"));
   const auto changed = run("out");
   expect_done(changed);
   EXPECT_THAT(changed.errors, HasSubstr("was made from another version of " + path("case.toml") +
                                         ", so it is replaced"));
   expect_done(run("fresh"));
   expect_same(path("fresh"), path("out"));
-  put_text(path("discs.csv"), replaced(kDiscs, "6.5,4", "6.5,5"));
+  put_text(path("discs.csv"), replaced(kFallingDiscs, "6.5,4", "6.5,5"));
   EXPECT_THAT(run("out").errors,
               HasSubstr("was made from another version of " + path("discs.csv")));
 }
@@ -212,7 +195,7 @@ TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   put_text(path("out/restart.bin"), older);
   const auto last = run("out");
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr("goes on from t = "));
+  EXPECT_THAT(last.errors, HasSubstr("continues from t = "));
   expect_done(run("whole"));
   expect_same(path("whole"), path("out"));
 }

@@ -51,6 +51,25 @@ force = [ { until = 5.0, value = [0.7, -0.7] }, { until = 10.0, value = [-0.7, 0
 )";
 inline constexpr const char* kDiscs = "x,y,vx,vy,radius,mass\n3,1,0,0,1,1\n6.5,4,0,-1,0.5,0.25\n";
 
+/// The text of a case: the discs of discs.csv on a floor, with these steps and the sections `more`.
+inline std::string discs_on_a_floor(const std::string& time_step, const std::string& end_time,
+                                    const std::string& more) {
+  return R"(title = "Discs on a floor"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = )" +
+         time_step + "\nend_time = " + end_time + R"(
+gamma_min = -2.0
+[[plane]]
+point = [0.0, 0.0]
+normal = [0.0, 1.0]
+[particles]
+file = "discs.csv"
+)" + more;
+}
+
 class ParticlesCommand : public ::testing::Test {
  protected:
   ParticlesCommand() { folder_.file("discs.csv", kDiscs); }
@@ -59,6 +78,7 @@ class ParticlesCommand : public ::testing::Test {
     return folder_.file(name, text);
   }
   std::filesystem::path out(const std::string& name = "out") const { return folder_.path() / name; }
+  std::string path(const std::string& name) const { return out(name).string(); }
   static ProgramResult run(const std::filesystem::path& file, const std::filesystem::path& out,
                            std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"particles", file.string(), "-o", out.string()});

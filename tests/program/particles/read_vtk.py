@@ -27,4 +27,5 @@ for name in ("gap", "gamma", "i", "j"):
     show(name, data.GetCellData().GetArray(name))
 for k in range(data.GetNumberOfCells()):
     cell = data.GetCell(k)
-    print("cell", cell.GetClassName(), *(cell.GetPointId(p) for p in range(cell.GetNumberOfPoints())))
+    points = range(cell.GetNumberOfPoints())
+    print("cell", cell.GetClassName(), *(cell.GetPointId(p) for p in points))

@@ -84,7 +84,7 @@ TEST_F(ParticlesCommand, ARestartIsOfTheSameParticles) {
                    ErrorKind::kBadInput, HasSubstr(said));
     EXPECT_FALSE(fs::exists(out("no")));
   };
-  refused(kCase, "nothing is left to do", restart);
+  refused(kCase, "no time left to simulate", restart);
   refused(replaced(longer, "\nmass = 1.0", "\nmass = 2.0"), "other masses", restart);
   refused(replaced(longer, "radius = 1.0", "radius = 1.01"), "other radii", restart);
   refused(replaced(longer, "[particles]\nfile = \"discs.csv\"\n", ""), "3 particles, not 1",

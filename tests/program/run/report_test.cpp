@@ -65,6 +65,18 @@ TEST_F(Report, SaysThatThereIsNothingToWarnOf) {
   EXPECT_THAT(page(), AllOf(HasSubstr("No warnings"), Not(HasSubstr("<h2>Warnings"))));
 }
 
+TEST_F(Report, OfASmoothModelIsMadeWhereTheRoughModelWouldBeRefused) {
+  // The heights of the roughness together are above the threshold gap.
+  std::filesystem::create_directories(folder());
+  put_text(folder() / "table.csv", read_file(VISCONTACT_SOURCE_FOLDER "/data/tables/lecture.csv"));
+  const auto rough =
+      replaced(lecture_case_text(), "roughness = [0.0, 0.0]", "roughness = [0.06, 0.06]");
+  run(replaced(rough, "end_time = 4.0",
+               "end_time = 4.0\nmodels = [\"inertial\", \"viscous_contact_threshold_smooth\"]"));
+  EXPECT_THAT(page(), HasSubstr("film recovered from gamma"));
+  expect_done(run_viscontact({"report", folder().string()}));
+}
+
 TEST_F(Report, WarnsOfTheFilmBelowTheTableAndOfTheFit) {
   run_lecture();
   EXPECT_THAT(page(),
@@ -94,7 +106,7 @@ TEST_F(Report, WarnsOfEachThingThatIsWrong) {
   fs::remove(folder() / "trajectories" / "viscous_contact_threshold.csv");
   expect_done(run_viscontact({"report", folder().string()}));
   for (const auto* warning :
-       {"Accuracy not met: ", "Poor fit: it misses the table by up to 0.02",
+       {"Accuracy not met: ", "Poor fit: the largest relative residual is 0.02",
         "Extrapolation: inertial gets down to a gap of 0.002967, below the smallest fitted gap, "
         "0.1",
         "Extrapolation: inertial gets up to a gap of 1, above the largest fitted gap, 0.5",

@@ -87,7 +87,7 @@ TEST_F(Run, GapsThatTheModelsOrTheBasisCannotDoWithAreFoundBeforeTheTabulation) 
 TEST_F(Run, FolderIntoWhichAnotherWritesIsRefused) {
   expect_done(run());
   const auto made = write_times(folder());
-  const LockedFolder ours(folder(), "");
+  const LockedFolder lock(folder(), "");
   const auto refused = HasSubstr("another viscontact writes into it");
   expect_refusal(run(), ErrorKind::kBadInput, refused);
   const auto name = folder().string();

@@ -33,7 +33,8 @@ TEST_F(Stages, SimulateSaysWhatTheFitsErrorsDoToTheAnswer) {
   EXPECT_GT(uncertainty.smallest.misfit[1], 2.97084661e-3);
   expect_done(run_viscontact({"compare", path("run")}));
   expect_done(run_viscontact({"report", path("run")}));
-  EXPECT_THAT(read_file(path("run/report.html")), HasSubstr("What the fit does to the answer"));
+  EXPECT_THAT(read_file(path("run/report.html")),
+              HasSubstr("How errors of the fit change the motion"));
 }
 
 TEST_F(Stages, GapAboveTheFitIsAnErrorUnlessStokesLimitIsAskedFor) {

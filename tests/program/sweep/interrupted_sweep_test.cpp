@@ -66,7 +66,7 @@ TEST_F(InterruptedSweep, KilledAgainAndAgainItEndsWithTheFileOfAnUndisturbedOne)
   ASSERT_LT(before, kRows);
   const auto last = run("rows.csv");
   expect_done(last);
-  EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them from before", before)));
+  EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them already computed", before)));
   EXPECT_EQ(rest_of(path("rows.csv")), rest_of(path("undisturbed.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("rows.csv.part")));
 }
@@ -84,7 +84,7 @@ TEST_F(InterruptedSweep, KeepsAllFinishedRowsOnCtrlC) {
     EXPECT_GT(rows, 200);  // of 300 lines, with the header
     const auto last = run("rows.csv");
     expect_done(last);
-    EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them from before", rows)));
+    EXPECT_THAT(last.errors, HasSubstr(fmt::format("{} of them already computed", rows)));
     EXPECT_EQ(rest_of(path("rows.csv")), rest_of(path("undisturbed.csv")));
     std::filesystem::remove(path("rows.csv"));
   }

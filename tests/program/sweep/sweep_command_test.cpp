@@ -146,7 +146,7 @@ TEST_F(SweepCommand, WrongUsageIsRefusedBeforeAnyWork) {
   };
   expect_refused(data("cases/limit.toml"), {"--fit", data("fits/leading_term.json")},
                  ErrorKind::kWrongUsage, HasSubstr("give --vary"));
-  wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not reach 0");
+  wrong({"--vary", "fluid.viscosity=0:1:log:3"}, "must not contain 0");
   wrong({"--vary", "fluid.viscosity=1:2:many"}, "'many' is not a finite number");
   wrong({"--vary", "fluid.viscosity"}, "KEY= is missing");
   wrong({"--models", "inertia", "--reference", "inertia"}, "--models: no model is named 'inertia'");

@@ -51,7 +51,8 @@ fi
 
   const auto resumed = run_viscontact(arguments, environment);
   expect_done(resumed);
-  EXPECT_THAT(resumed.errors, HasSubstr("tabulate: 6 rows (2 of them from before) on 1 processes"));
+  EXPECT_THAT(resumed.errors,
+              HasSubstr("tabulate: 6 rows (2 of them already computed) on 1 processes"));
   EXPECT_THAT(lubrication::read_force_table(path("table.csv")).rows, SizeIs(6));
   EXPECT_THAT(fake.answered(), SizeIs(6));  // no row twice
   EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));

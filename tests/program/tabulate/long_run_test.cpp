@@ -94,15 +94,8 @@ FreeFem++-nw "$@" || exit
 case $4 in
   *version.edp) exit 0 ;;
 esac
-shift 4
-while [ $# -gt 1 ]; do
-  case $1 in
-    -gap) gap=$2 ;;
-    -velocity) velocity=$2 ;;
-  esac
-  shift 2
-done
-echo "$gap $velocity" >> ")sh" + path("answered") + "\"\n");
+)sh" + std::string(freefem_axi::kReadRow) + "echo \"$gap $velocity\" >> \"" +
+                                                    path("answered") + "\"\n");
   make_executable(freefem);
   put_text(path("case.toml"), replaced(case_of_2_rows(), "count = 2", "count = 3"));
   const auto start = std::chrono::steady_clock::now();

@@ -1,0 +1,65 @@
+// Checks the outputs and models that a command line names, and adds the options --jobs and --json
+// (command_options.hpp).
+#include "viscontact/app/arguments/command_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+
+namespace viscontact::app {
+namespace {
+
+/// The path of the file that `path` names, with symbolic links resolved. A link whose target does
+/// not exist yet is resolved, too, because an output need not exist yet.
+std::filesystem::path resolved_place_of(std::filesystem::path path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;  // Linux follows at most so many links in a path
+  path = fs::absolute(path);
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path)); ++i)
+    path = path.parent_path() / fs::read_symlink(path);
+  return fs::weakly_canonical(path.parent_path()) / path.filename();
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].empty())
+      throw Error(ErrorKind::kWrongUsage, "the name of an output is empty; give it a name");
+    for (std::size_t j = 0; j < i; ++j)
+      if (resolved_place_of(paths[i]) == resolved_place_of(paths[j]))
+        throw Error(
+            ErrorKind::kWrongUsage,
+            fmt::format("{} would be written twice; give each output its own name", paths[i]));
+  }
+}
+
+void check_models(std::string_view option, const std::vector<std::string>& names) {
+  for (const auto& name : names)
+    from_option(option, [&] { return reduced_model::find_model(name); });
+}
+
+int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  return CLI::IsMember(std::move(words)).description("");
+}
+
+CLI::Option* add_json(CLI::App& command, bool& json) {
+  return command.add_flag("--json", json, "print the table as JSON");
+}
+
+CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help) {
+  // The default is given in words, because the manual page is made on one machine and read on
+  // another.
+  return command.add_option("-j,--jobs", jobs, help)
+      ->check(CLI::Range(1, 1024))
+      ->default_str("one for each core");
+}
+
+}  // namespace viscontact::app

@@ -1,0 +1,60 @@
+// Options that several commands have, and checks of what a command line names. help/completion.cpp
+// finds out by the type names below what to offer for an option; a change must agree with it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/results/foreign_files.hpp"
+
+namespace viscontact::app {
+
+// Type names of options: they say what the value of an option is. --help and the manual page show
+// them. An option whose value is one of several words has the type name "word|word".
+inline constexpr const char* kFile = "FILE";
+inline constexpr const char* kFolder = "DIR";
+inline constexpr const char* kModel = "MODEL";
+inline constexpr const char* kModels = "MODEL,...";
+
+/// Adds an option, or an argument without a name, whose value has this type name.
+template <class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value,
+                       const std::string& type, const std::string& help) {
+  return command.add_option(name, value, help)->type_name(type);
+}
+
+/// A check that refuses any value but these words. It has no description, because --help shows the
+/// words in the type name.
+CLI::Validator one_of(std::vector<std::string> words);
+
+/// Calls `read`, which reads a word of the command line, such as the name of a basis, and returns
+/// its value. An Error(kBadInput) becomes an Error(kWrongUsage) that names the option.
+template <class Read>
+auto from_option(std::string_view option, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    throw Error(ErrorKind::kWrongUsage, std::string(option) + ": " + error.what());
+  }
+}
+
+/// Throws Error(kWrongUsage), which names the option, if one of `names` is not a model's name.
+void check_models(std::string_view option, const std::vector<std::string>& names);
+
+/// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file.
+void check_outputs(const std::vector<std::string>& paths);
+
+/// The default of --jobs: one process or thread for each core.
+int default_jobs();
+
+/// Adds the option -j, --jobs, which sets `jobs`.
+CLI::Option* add_jobs(CLI::App& command, int& jobs, const std::string& help);
+
+/// Adds the flag --json, which sets `json`.
+CLI::Option* add_json(CLI::App& command, bool& json);
+
+}  // namespace viscontact::app

@@ -1,0 +1,17 @@
+// Turns Ctrl-C and similar signals into a request to stop, which the commands pass to the libraries
+// as a StopToken.
+#pragma once
+
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact::app {
+
+/// After this call SIGINT, SIGTERM and SIGHUP request a stop instead of ending the process. A
+/// process gets SIGHUP when its terminal or connection is lost. SIGHUP stays ignored if it was
+/// ignored when the program started, which is what `nohup` does. main() calls this function once.
+void catch_interrupts();
+
+/// The token that requests a stop after one of these signals has come.
+StopToken interrupt_token();
+
+}  // namespace viscontact::app

@@ -1,0 +1,111 @@
+// Distributes the rows over threads, each of which runs one FreeFEM process at a time and waits for
+// it.
+#include "viscontact/freefem_axi/journal/tabulate.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/freefem_axi/journal/row_journal.hpp"
+
+namespace viscontact::freefem_axi {
+namespace {
+
+/// The version of FreeFEM. FreeFEM is asked for it before the first row, so that a missing FreeFEM
+/// is reported once and not for each row. A worker with a name is a job on a cluster, whose
+/// messages nobody may read. It therefore also writes the reason to its journal.
+std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& points,
+                        const std::filesystem::path& journal_file, const std::string& hash) {
+  try {
+    return freefem_version(worker.freefem);
+  } catch (const Error& error) {
+    if (!worker.name.empty() && error.kind() == ErrorKind::kExternalProgram) {
+      RowJournal journal(journal_file, hash);
+      for (const auto& point : points) journal.append(FailedRow{point, error.what()});
+    }
+    throw;
+  }
+}
+
+/// Solves one row. Returns the row, or the reason why FreeFEM failed.
+JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tabulation& tabulation,
+                   const GridPoint& point) {
+  try {
+    return FinishedRow{solve_row(freefem, tabulation, point.gap, point.reference_velocity),
+                       version};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kExternalProgram) throw;
+    return FailedRow{point, error.what()};
+  }
+}
+
+}  // namespace
+
+void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
+                  const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
+                  const TabulateReport& report) {
+  const std::string hash = tabulation_hash(tabulation);
+  const auto missing = missing_points(read_row_record(table_path, hash), points);
+  if (missing.empty()) return;
+  const auto journal_file = journal_path(table_path, worker.name);
+  const std::string version = version_for(worker, missing, journal_file, hash);
+  RowJournal journal(journal_file, hash);
+
+  std::mutex mutex;  // protects the journal, the failures and the report
+  std::vector<std::string> failures;
+  std::exception_ptr fatal;
+  std::atomic<std::size_t> next = 0;
+  std::size_t finished = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto work = [&] {
+    for (std::size_t i = 0;
+         !worker.freefem.stop.stop_requested() && (i = next++) < missing.size();) {
+      try {
+        if (!read_row_record(table_path, hash).finished.contains(missing[i])) {
+          const auto entry = solve(worker.freefem, version, tabulation, missing[i]);
+          const std::scoped_lock lock(mutex);
+          journal.append(entry);
+          if (const auto* failed = std::get_if<FailedRow>(&entry))
+            failures.push_back(failed->reason);
+        }
+      } catch (...) {
+        // The cause is not the row (Ctrl-C, a full disk), so other rows would fail as well.
+        const std::scoped_lock lock(mutex);
+        if (!fatal) fatal = std::current_exception();
+        next = missing.size();
+        return;
+      }
+      const std::scoped_lock lock(mutex);
+      ++finished;
+      const double elapsed =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const std::size_t left = missing.size() - finished;
+      report({points.size() - left, points.size(),
+              elapsed / static_cast<double>(finished) * static_cast<double>(left)});
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    workers.reserve(static_cast<std::size_t>(worker.jobs));
+    for (int i = 0; i < worker.jobs; ++i) workers.emplace_back(work);
+  }
+  if (fatal) std::rethrow_exception(fatal);
+  worker.freefem.stop.throw_if_stop_requested();
+  if (!failures.empty())
+    throw Error(ErrorKind::kExternalProgram,
+                fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
+                            points.size(), fmt::join(failures, "; ")));
+}
+
+lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
+                                 const std::filesystem::path& table_path,
+                                 const TabulateReport& report) {
+  compute_rows({freefem, jobs, ""}, tabulation, grid_of(tabulation), table_path, report);
+  return assemble_table(tabulation, read_row_record(table_path, tabulation_hash(tabulation)));
+}
+
+}  // namespace viscontact::freefem_axi

@@ -1,0 +1,79 @@
+// Only a registry names its models, geometries and bases: no other source of the program quotes one
+// of these names. The sources of the models themselves are in the folder of their registry.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/geometry.hpp"
+#include "viscontact/lubrication/terms.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::UnorderedElementsAre;
+
+std::vector<std::string> registered_names() {
+  std::vector<std::string> names;
+  for (const auto& model : reduced_model::all_models()) names.emplace_back(model.name);
+  for (const auto& geometry : freefem_axi::all_geometries()) names.emplace_back(geometry.name);
+  for (const auto& basis : lubrication::all_bases()) names.emplace_back(basis.name);
+  return names;
+}
+
+/// The .cpp and .hpp files of the program that belong to no registry, relative to the source
+/// folder.
+std::vector<std::string> sources_outside_registries() {
+  const fs::path root = VISCONTACT_SOURCE_FOLDER;
+  std::vector<std::string> sources;
+  for (const auto& part : fs::directory_iterator(root)) {
+    const auto name = part.path().filename();
+    if (!fs::exists(part.path() / "CMakeLists.txt") || name == "tests" || name == "bench") continue;
+    for (const auto& file : fs::recursive_directory_iterator(part)) {
+      const auto extension = file.path().extension();
+      const auto source = file.path().lexically_relative(root).string();
+      if ((extension == ".cpp" || extension == ".hpp") &&
+          !source.starts_with("reduced_model/models/") && source != "freefem_axi/geometry.cpp" &&
+          source != "lubrication/terms.cpp")
+        sources.push_back(source);
+    }
+  }
+  return sources;
+}
+
+TEST(Registries, AreTheOnlySourcesWithTheirNames) {
+  const auto names = registered_names();
+  const auto sources = sources_outside_registries();
+  EXPECT_GT(sources.size(), 100U);
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const auto& source : sources) {
+    const auto text = read_file(fs::path(VISCONTACT_SOURCE_FOLDER) / source);
+    for (const auto& name : names)
+      if (text.find("\"" + name + "\"") != std::string::npos) found.emplace_back(source, name);
+  }
+  using Found = std::pair<std::string, std::string>;
+  // These texts are other things of the same name.
+  EXPECT_THAT(found,
+              UnorderedElementsAre(
+                  // sections of a case, and its key sweep.reference
+                  Found("case_file/case_file.cpp", "sphere"),
+                  Found("case_file/case_file.cpp", "reference"), Found("sweep/sweep.cpp", "sphere"),
+                  // sections of a case of particles
+                  Found("case_file/particles_case.cpp", "viscous_contact"),
+                  Found("case_file/particles_case.cpp", "plane"),
+                  // a key in the head of a file of a sweep
+                  Found("sweep/sweep_file.cpp", "reference"),
+                  // a part of the boundary, which FreeFEM's scripts print
+                  Found("freefem_axi/row_picture.cpp", "sphere"),
+                  // the body in words
+                  Found("report/particles/particles_page.cpp", "sphere")));
+}
+
+}  // namespace
+}  // namespace viscontact

@@ -1,0 +1,53 @@
+#include "viscontact/results/foreign_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/results/kinds_of_text.hpp"
+
+namespace viscontact::results {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ForeignFiles, AreThoseWithoutAProvenanceOfAnyKind) {
+  const TemporaryFolder folder;
+  for (const auto& [kind, text] : texts_of_all_kinds()) {
+    const auto users = folder.file("users", text);
+    EXPECT_FALSE(is_written_by_viscontact(users)) << text;
+    EXPECT_THAT(bad_input([&] { refuse_other_kind(users, "", "result"); }),
+                HasSubstr("is not a result that Viscontact wrote"));
+    const auto own = folder.file("own", with_provenance(kind, text, sample_provenance()));
+    EXPECT_TRUE(is_written_by_viscontact(own)) << text;
+    EXPECT_NO_THROW(refuse_other_kind(own, "", "result")) << text;
+  }
+}
+
+TEST(ForeignFiles, AreNotThoseThatAnotherProgramWroteAgainWithOtherSpaces) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(is_written_by_viscontact(folder.file(
+      "fit.json", "{\r\n\t\"provenance\" : {\r\n\t\t\"command\" : [\"viscontact\"]\r\n\t}\r\n}")));
+  EXPECT_FALSE(
+      is_written_by_viscontact(folder.file("notes.txt", "On the provenance of a command.\n")));
+}
+
+TEST(ForeignFiles, AreThoseOfAnotherKindToo) {
+  const TemporaryFolder folder;
+  const auto table = folder.file(
+      "table.csv", with_provenance(TextKind::kHashComment, "# case: 1\n", sample_provenance()));
+  EXPECT_NO_THROW(refuse_other_kind(table, "# case: ", "table"));
+  EXPECT_THAT(bad_input([&] { refuse_other_kind(table, "<svg", "picture"); }),
+              HasSubstr("table.csv: is not a picture that Viscontact wrote"));
+}
+
+TEST(ForeignFiles, AreNeitherEmptyNorAbsent) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(refuse_other_kind(folder.file("empty", ""), "<svg", "picture"));
+  EXPECT_NO_THROW(refuse_other_kind(folder.path() / "absent", "<svg", "picture"));
+  EXPECT_NO_THROW(refuse_other_kind(folder.path(), "<svg", "picture"));
+}
+
+}  // namespace
+}  // namespace viscontact::results

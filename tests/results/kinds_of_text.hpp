@@ -1,0 +1,39 @@
+// A small complete text of each kind that Viscontact writes, and a provenance for it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscontact/common/text/text_kind.hpp"
+#include "viscontact/results/provenance.hpp"
+
+namespace viscontact::results {
+
+struct TextOfKind {
+  TextKind kind;
+  std::string text;
+};
+
+inline std::vector<TextOfKind> texts_of_all_kinds() {
+  return {{TextKind::kHashComment, "gap,force\n0.1,2\n"},
+          {TextKind::kJson, "{\n  \"gap\": 0.1\n}\n"},
+          {TextKind::kSvg, "<?xml version=\"1.0\"?>\n<svg width=\"9\">\n</svg>\n"},
+          {TextKind::kHtml, "<html><head>\n<title>A run</title>\n</head></html>\n"},
+          {TextKind::kXml, "<?xml version=\"1.0\"?>\n<VTKFile>\n</VTKFile>\n"},
+          {TextKind::kC, "double force(double gap);\n"},
+          {TextKind::kFortran, "real function force(gap)\n"}};
+}
+
+/// The provenance of a command whose file has a name that would end every kind of comment.
+inline Provenance sample_provenance() {
+  Provenance provenance;
+  provenance.command = {"/opt/bin/viscontact", "fit", "a --> */ </script> & \"b\".csv"};
+  provenance.folder = "/home/someone";
+  provenance.inputs = {{"table.csv", std::string(64, '0'), false}, {"fit.json", "", true}};
+  provenance.versions = {{"Viscontact", "0.1.0"}};
+  provenance.output = "out.txt";
+  provenance.made = "2001-09-09T01:46:40Z";
+  return provenance;
+}
+
+}  // namespace viscontact::results

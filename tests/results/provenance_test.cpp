@@ -1,0 +1,94 @@
+#include "viscontact/results/provenance.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/results/kinds_of_text.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact::results {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(Provenance, IsReadAsItWasWrittenIntoEachKindOfText) {
+  const auto written = sample_provenance();
+  for (const auto& [kind, text] : texts_of_all_kinds()) {
+    const auto read = provenance_in(with_provenance(kind, text, written), "file");
+    ASSERT_TRUE(read.has_value()) << text;
+    EXPECT_EQ(read->command, written.command) << text;
+    EXPECT_EQ(read->folder, written.folder) << text;
+    ASSERT_EQ(read->inputs.size(), written.inputs.size()) << text;
+    for (std::size_t i = 0; i < read->inputs.size(); ++i) {
+      EXPECT_EQ(read->inputs[i].file, written.inputs[i].file) << text;
+      EXPECT_EQ(read->inputs[i].sha256, written.inputs[i].sha256) << text;
+      EXPECT_EQ(read->inputs[i].intermediate, written.inputs[i].intermediate) << text;
+    }
+    EXPECT_EQ(read->versions, written.versions) << text;
+    EXPECT_EQ(read->output, written.output) << text;
+    EXPECT_EQ(read->made, written.made) << text;
+  }
+}
+
+TEST(Provenance, IsALineThatHashesLeaveOut) {
+  auto later = sample_provenance();
+  later.made = "2002-09-09T01:46:40Z";
+  for (const auto& [kind, text] : texts_of_all_kinds()) {
+    const auto first = with_provenance(kind, text, sample_provenance());
+    const auto second = with_provenance(kind, text, later);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(without_provenance(first), text);
+    EXPECT_EQ(content_sha256(first), content_sha256(second)) << text;
+    EXPECT_EQ(content_sha256(first), sha256(text)) << text;
+  }
+}
+
+TEST(Provenance, IsAbsentFromAUsersText) {
+  for (const auto& [kind, text] : texts_of_all_kinds()) {
+    EXPECT_FALSE(provenance_in(text, "file").has_value()) << text;
+    EXPECT_EQ(without_provenance(text), text);
+  }
+}
+
+TEST(Provenance, ThatIsDamagedIsAnErrorThatNamesTheFile) {
+  EXPECT_THAT(bad_input([] { provenance_in("# provenance: {\"command\":[1\n", "table.csv"); }),
+              HasSubstr("table.csv: its line 'provenance' is damaged"));
+}
+
+TEST(Provenance, DoesNotCountWhenContentsAreCompared) {
+  const TemporaryFolder folder;
+  const std::string text = "gap,force\n0.1,2\n";
+  const auto file =
+      folder.file("table.csv", with_provenance(TextKind::kHashComment, text, sample_provenance()));
+  EXPECT_TRUE(has_content(file, text));
+  EXPECT_FALSE(has_content(file, "gap,force\n0.1,3\n"));
+  EXPECT_FALSE(has_content(folder.path() / "absent.csv", text));
+}
+
+TEST(Provenance, WithoutFoldersNamesNoFolderOfTheMachine) {
+  auto provenance = sample_provenance();
+  provenance.command = {"/opt/bin/viscontact", "fit", "/home/someone/data/table.csv",
+                        "--output=/tmp/fit.json", "-o/home/someone/fit.json"};
+  provenance.inputs = {{"/home/someone/data/table.csv", "", false}, {"/etc/force.csv", "", false}};
+  const auto shared = without_folders(provenance);
+  EXPECT_EQ(shared.folder, "");
+  EXPECT_THAT(shared.command, ElementsAre("viscontact", "fit", "data/table.csv",
+                                          "--output=fit.json", "-ofit.json"));
+  EXPECT_EQ(shared.inputs[0].file, "data/table.csv");
+  EXPECT_EQ(shared.inputs[1].file, "force.csv");
+}
+
+TEST(Provenance, SaysHowAnInputHasChanged) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("table.csv", "a\n").string();
+  EXPECT_EQ(change_of({"table.csv", sha256("a\n")}, folder.path()), "");
+  EXPECT_EQ(change_of({"table.csv", sha256("b\n")}, folder.path()), path + " has changed");
+  EXPECT_EQ(change_of({"table.csv", ""}, folder.path()), path + " was a pipe and not a file");
+  EXPECT_THAT(change_of({"absent.csv", ""}, folder.path()), HasSubstr("no longer exists"));
+}
+
+}  // namespace
+}  // namespace viscontact::results

@@ -1,0 +1,79 @@
+#include "viscontact/terminal/progress.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <functional>
+#include <thread>
+
+namespace viscontact::terminal {
+namespace {
+
+/// What `call` writes to standard error, which is a file meanwhile.
+std::string said_by(const std::function<void()>& call) {
+  ::testing::internal::CaptureStderr();
+  call();
+  return ::testing::internal::GetCapturedStderr();
+}
+
+/// A terminal of its own.
+class Terminal {
+ public:
+  Terminal() : controller_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+    if (controller_ >= 0 && ::grantpt(controller_) == 0 && ::unlockpt(controller_) == 0)
+      descriptor_ = ::open(::ptsname(controller_), O_RDWR | O_NOCTTY);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+  ~Terminal() {
+    ::close(descriptor_);
+    ::close(controller_);
+  }
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int controller_;
+  int descriptor_ = -1;
+};
+
+TEST(Progress, IsNotShownWithoutATerminal) {
+  EXPECT_EQ(said_by([] {
+              show_progress("row 1 of 2");
+              clear_progress();
+            }),
+            "");
+}
+
+TEST(Progress, IsDueOnceInATenthOfASecond) {
+  ProgressTimer timer;
+  EXPECT_FALSE(timer.is_due());
+  std::this_thread::sleep_for(std::chrono::milliseconds(110));
+  EXPECT_TRUE(timer.is_due());
+}
+
+TEST(Messages, ArePlainTextWithoutATerminal) {
+  EXPECT_EQ(said_by([] {
+              say("tabulate: 2 rows");
+              warn("case.toml: warning: an odd key");
+              complain("viscontact: no such case");
+            }),
+            "tabulate: 2 rows\ncase.toml: warning: an odd key\nviscontact: no such case\n");
+}
+
+TEST(Words, AreColouredOnATerminalUnlessThatIsRefused) {
+  const Terminal terminal;
+  ASSERT_TRUE(::isatty(terminal.descriptor()));
+  const auto word = [&](const char* term, const char* no_color) {
+    ::setenv("TERM", term, 1);
+    ::setenv("NO_COLOR", no_color, 1);
+    return coloured("failed", Colour::kRed, terminal.descriptor());
+  };
+  EXPECT_EQ(word("xterm", ""), "\033[31mfailed\033[0m");  // an empty NO_COLOR refuses nothing
+  EXPECT_EQ(word("xterm", "1"), "failed");
+  EXPECT_EQ(word("dumb", ""), "failed");
+}
+
+}  // namespace
+}  // namespace viscontact::terminal
