@@ -57,7 +57,7 @@ TEST(FitSection, RefusesWhatItDoesNotKnow) {
   const std::string weights = "weights = \"relative\"\n";
   expect_refused(with_text(kFitKeys, "terms = \"1/q, q^9\"\n" + weights), "fit.terms", "q^9");
   expect_refused(with_text(kFitKeys, kFitKeys + "terms = \"1/q\"\n"), "fit.basis",
-                 "left out where terms gives");
+                 "must be left out, because the key terms defines the basis");
   expect_refused(with_text(kFitKeys, "loss = \"tukey\"\n" + kFitKeys), "fit.loss", "huber");
   expect_refused(with_text(kFitKeys, "fix = \"free\"\n" + kFitKeys), "fit.fix", "theory");
   expect_refused(with_text(kFitKeys, "fix = true\n" + kFitKeys), "fit.fix", "number");

@@ -132,7 +132,7 @@ class UsersFile : public OwnFolder {
     put_text(path(name), text);
     const auto before = files_below(scratch_.path());
     const auto answered = fake_.answered();
-    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr(name + ": is not a "));
+    expect_refusal(run(command), ErrorKind::kBadInput, HasSubstr(name + ": is not a"));
     EXPECT_TRUE(files_below(scratch_.path()) == before) << "something was written or deleted";
     EXPECT_EQ(fake_.answered(), answered);
     std::filesystem::remove(path(name));

@@ -22,11 +22,12 @@ using ::testing::Lt;
 
 TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
   for (const std::string values : {"-1,1", "1,-1"})
-    EXPECT_THAT(bad_input([&] {
-                  Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}));
-                }),
-                AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
-                      HasSubstr("must be a number > 0"), HasSubstr("with fluid.viscosity = -1")));
+    EXPECT_THAT(
+        bad_input([&] {
+          Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}));
+        }),
+        AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
+              HasSubstr("must be a number > 0"), HasSubstr("at the point fluid.viscosity = -1")));
   EXPECT_THAT(
       bad_input([] { Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"})); }),
       HasSubstr("fluid.viscosty"));

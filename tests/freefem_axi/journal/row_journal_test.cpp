@@ -142,7 +142,7 @@ TEST_F(RowJournalFile, RowAppendedAfterTheDiskWasFullForAWhileIsWhole) {
   ::setrlimit(RLIMIT_FSIZE, &full);
   expect_error([&] { journal.append(kSecond); }, ErrorKind::kBadInput,
                AllOf(HasSubstr(path().string()), HasSubstr("File too large"),
-                     HasSubstr("the same command goes on")));
+                     HasSubstr("the same command continues")));
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(record().finished.size(), 1U);
   journal.append(kSecond);
