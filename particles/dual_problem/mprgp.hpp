@@ -156,7 +156,7 @@ class Mprgp {
 
   /// Sets direction = swept + beta * direction, and computes its displacements and its curvature.
   void combine_directions(double beta) {
-    const double square = graph_.pool().template sum_of_blocks<double>(
+    const auto square = graph_.pool().template sum_of_blocks<double>(
         graph_.count(), [&](std::size_t begin, std::size_t end) {
           auto direction = part(direction_, begin, end);
           direction = part(swept_, begin, end) + beta * direction;

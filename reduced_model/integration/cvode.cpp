@@ -44,9 +44,9 @@ constexpr int kTryAgain = 1;
 /// CVODE calls. The argument `self` of these functions is the Cvode.
 struct Cvode::Sundials {
   struct Deleters {
-    void operator()(N_Vector vector) const { N_VDestroy(vector); }
-    void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-    void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+    void operator()(N_Vector object) const { N_VDestroy(object); }
+    void operator()(SUNMatrix object) const { SUNMatDestroy(object); }
+    void operator()(SUNLinearSolver object) const { SUNLinSolFree(object); }
   };
   template <class T>
   using Owned = std::unique_ptr<std::remove_pointer_t<T>, Deleters>;

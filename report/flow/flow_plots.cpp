@@ -47,8 +47,8 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
           "set key at screen 0.5, screen 0.005 bottom center horizontal Left reverse samplen 3",
           "set xlabel offset 0,0.3",
           // The grey ground shows where there is no fluid.
-          "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#dedede' "
-          "fillstyle solid noborder"};
+          ("set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb '#dedede' "
+           "fillstyle solid noborder")};
 }
 
 Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
@@ -71,7 +71,8 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
   constexpr double kLegendRow = 20;
   const auto legends =
       std::ranges::count_if(panel.curves, [](const Curve& curve) { return !curve.legend.empty(); });
-  const double below = kBelow + kLegendRow * static_cast<double>(legends / 2);
+  const auto legend_rows = legends / 2;
+  const double below = kBelow + kLegendRow * static_cast<double>(legend_rows);
   const double width = kLeft + view.plot_width + right;
   const double height = kAbove + view.plot_height + below;
   auto settings = layout(view, right, below, width, height);

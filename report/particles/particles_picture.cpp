@@ -89,9 +89,9 @@ std::string colour_bar(double lowest, bool touching, double left, double top, do
 std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   Interval x, y;
   for (int corner = 0; corner < 8; ++corner) {
-    const particles::Vector p = {(corner & 1 ? box.high : box.low)[0],
-                                 (corner & 2 ? box.high : box.low)[1],
-                                 (corner & 4 ? box.high : box.low)[2]};
+    const particles::Vector p = {((corner & 1) != 0 ? box.high : box.low)[0],
+                                 ((corner & 2) != 0 ? box.high : box.low)[1],
+                                 ((corner & 4) != 0 ? box.high : box.low)[2]};
     x.add(dot(view.right, p), dot(view.right, p));
     y.add(dot(view.up, p), dot(view.up, p));
   }
@@ -144,8 +144,9 @@ std::string particles_picture(const Playback& playback, const std::string& title
   const double place = kPictureWidth / columns;
   for (int i = 0; i < count; ++i) {
     const auto& frame = playback.frames[chosen[static_cast<std::size_t>(i)]];
+    const int row = i / columns;
     const double left = place * (i % columns) + (place - panel.width) / 2;
-    const double top = kTitle + (i / columns) * (panel.height + kCaption);
+    const double top = kTitle + row * (panel.height + kCaption);
     svg += fmt::format(
         "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
         "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"

@@ -40,11 +40,11 @@ struct NoDrag {
   static constexpr bool kResolved = false;
   /// The velocity v with m v + G(D + h v) - G(D) = momentum, where D + h v >= 0. G is the impulse
   /// of the drag, so dG/dD is its resistance.
-  double velocity(const ContactSetting& setting, double, double momentum) const {
+  static double velocity(const ContactSetting& setting, double, double momentum) {
     return momentum * setting.per_mass;
   }
   /// G(to) - G(from) [M L/T].
-  double impulse(double, double) const { return 0; }
+  static double impulse(double, double) { return 0; }
 };
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
