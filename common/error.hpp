@@ -1,5 +1,5 @@
 // The error type of Viscontact. Every error that a user can cause or meet is thrown as
-// viscontact::Error, and is caught in one place, in app/.
+// viscontact::Error, and, unless a caller handles it, is reported in app/main.cpp.
 #pragma once
 
 #include <stdexcept>
@@ -13,9 +13,10 @@ enum class ErrorKind {
   kWrongUsage,
   /// A file, or a value in a file, is wrong.
   kBadInput,
-  /// A computation did not reach the accuracy or tolerance that was asked for.
+  /// A computation did not reach the accuracy or tolerance that was asked for, left the range of a
+  /// double, or has missing rows.
   kNotConverged,
-  /// FreeFEM or gnuplot failed or is missing.
+  /// An external program (FreeFEM, gnuplot, Slurm) failed or is missing.
   kExternalProgram,
   /// The user interrupted the program; everything finished so far is kept.
   kInterrupted,

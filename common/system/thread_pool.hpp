@@ -19,14 +19,15 @@ namespace viscontact {
 class ThreadPool {
  public:
   /// `threads` >= 1, including the calling thread; fewer are used if the system refuses to start
-  /// more. The threads sleep between loops.
+  /// more. Between loops the threads look for the next one for a short while, then sleep.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Number of entries in a block. In the loops of a projection a block is about 0.1 ms of work;
-  /// for less work, waking a thread costs more time than the thread saves.
+  /// Number of entries in a block. In the loops of the solver of a particle step
+  /// (docs/particles.md) a block is about 0.1 ms of work; for less work, waking a thread costs more
+  /// time than the thread saves.
   static constexpr std::size_t kBlock = 16384;
 
   /// Calls body(begin, end) for each block of [0, count). If a body throws, the exception is thrown

@@ -1,5 +1,6 @@
-// Finds all pairs of close particles by cell lists, for any ratio of radii. Time and memory grow
-// with the number of particles and pairs. All lengths are in one unit.
+// Finds all pairs of close particles by cell lists, for any ratio of radii. Memory grows with the
+// number of particles and pairs, and time also with the number of grids. All lengths are in one
+// unit.
 #pragma once
 
 #include <cstdint>

@@ -8,10 +8,11 @@
 
 namespace viscontact::report {
 
-/// An SVG with `panels` (1 to 6, at most the number of frames) states at evenly spaced times, side
-/// by side at the same scale. The first and the last frame are among them; a single panel shows the
-/// last. Particles are drawn as discs in motions in the plane, and as spheres in motions in space,
-/// which are seen from a little above with the third axis upwards.
+/// An SVG with up to `panels` states, side by side at the same scale: the frames nearest to evenly
+/// spaced times, each once. `panels` is limited to 1 to 6 and to the number of frames. The first
+/// and the last frame are among them; a single panel shows the last. Particles are drawn as discs
+/// in motions in the plane, and as spheres in motions in space, which are seen from a little above
+/// with the third axis upwards.
 std::string particles_picture(const particles::Playback& playback, const std::string& title,
                               int panels);
 
