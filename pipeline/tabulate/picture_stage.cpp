@@ -49,12 +49,11 @@ std::vector<double> gaps_to_picture(const freefem_axi::Tabulation& tabulation,
   constexpr double kTolerance = 1e-6;  // relative; names of files have seven digits of the gap
   auto sorted = tabulation.gaps;
   std::ranges::sort(sorted);
-  std::vector<double> gaps;
   if (asked.empty()) {
-    gaps = {sorted.front(), sorted[sorted.size() / 2], sorted.back()};
-    gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
-    return gaps;
+    const std::set gaps = {sorted.front(), sorted[sorted.size() / 2], sorted.back()};
+    return {gaps.begin(), gaps.end()};
   }
+  std::vector<double> gaps;
   for (const double gap : asked) {
     const double nearest =
         *std::ranges::min_element(sorted, {}, [&](double g) { return std::abs(g - gap); });
