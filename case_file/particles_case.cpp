@@ -26,7 +26,7 @@ namespace {
 using particles::Particles;
 using particles::PiecewiseConstant;
 using particles::Vector;
-using particles::operator*;  // NOLINT(misc-unused-using-decls): it is used
+using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 // Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
 constexpr double kLargest = 1e100;

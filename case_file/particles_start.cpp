@@ -13,7 +13,7 @@
 
 namespace viscontact::case_file {
 
-using particles::operator-;  // NOLINT(misc-unused-using-decls): it is used
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 namespace {
 

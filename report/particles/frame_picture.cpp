@@ -18,9 +18,9 @@ namespace {
 
 using particles::Frame;
 using particles::Vector;
-using particles::operator+;  // NOLINT(misc-unused-using-decls): it is used
-using particles::operator-;  // NOLINT(misc-unused-using-decls): it is used
-using particles::operator*;  // NOLINT(misc-unused-using-decls): it is used
+using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 using particles::cross;
 using particles::dot;
 using particles::norm;

@@ -1,4 +1,4 @@
-// A run of many particles that was interrupted goes on by the same command, and becomes the run
+// A run of many particles that was interrupted continues by the same command, and becomes the run
 // that it would have been without the interrupt.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -100,7 +100,7 @@ class InterruptedParticles : public ParticlesCommand {
 
 TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterrupt) {
   expect_done(run("whole"));
-  // Two interrupts, and a death that saves nothing: after it the run goes on from the second
+  // Two interrupts, and a death that saves nothing: after it the run continues from the second
   // interrupt.
   for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"TERM", 8}, {"KILL", 13}}) {
     const auto result = run("parts", {signal, frame});

@@ -1,4 +1,4 @@
-// Sweeps that a signal ends: the same command goes on from the rows that are finished.
+// Sweeps that a signal ends: the same command continues from the rows that are finished.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tabulations that are killed, or whose journal is damaged: the same command goes on, no finished
+// Tabulations that are killed, or whose journal is damaged: the same command continues, no finished
 // row is computed again, and the table is that of an undisturbed run. (Ctrl-C: interrupt_test.cpp.)
 #include <fmt/format.h>
 #include <gmock/gmock.h>
