@@ -24,8 +24,9 @@ TEST(StopToken, NeverStopsByDefault) {
 
 TEST(StopToken, AndItsCopiesSeeTheFlag) {
   std::atomic<bool> flag = false;
-  const StopToken token(flag),
-      copy = token;  // NOLINT(performance-unnecessary-copy-initialization): the copy is tested
+  const StopToken token(flag);
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): the copy is tested
+  const StopToken copy = token;
   EXPECT_NO_THROW(copy.throw_if_stop_requested());
   flag = true;
   EXPECT_TRUE(copy.stop_requested());

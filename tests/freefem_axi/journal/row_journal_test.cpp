@@ -130,7 +130,7 @@ TEST_F(RowJournalFile, LineWithAByteLostOrChangedIsIgnored) {
 }
 
 TEST_F(RowJournalFile, RowAppendedAfterTheDiskWasFullForAWhileIsWhole) {
-  // The first row fits, the second does not, and the same process continues when there is room again.
+  // The first row fits, the second does not, and the same process continues when the disk has room.
   write({kFirst});
   const auto room = std::filesystem::file_size(path()) + 10;
   std::signal(SIGXFSZ, SIG_IGN);

@@ -34,7 +34,7 @@ ProcessResult run_in_source_folder(const std::string& commands) {
 }
 
 /// Leaves in out/ what an interrupted tabulation of the lecture's case leaves: a journal, here with
-/// all but two rows of the main job's table. README says that the same command continues from there;
+/// all but two rows of the main job's table. README says that the same command continues there;
 /// to compute all rows once more would take minutes.
 void interrupt_tabulation() {
   const fs::path out = fs::path(VISCONTACT_SOURCE_FOLDER) / "out";
