@@ -1,0 +1,69 @@
+// The fluid around the particles, as a case describes it: sections [fluid] and [domain] of a case
+// file. Lengths, masses and times are in the units of the case; in two dimensions masses and forces
+// are per unit length of the third dimension.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "viscontact/particles/domain.hpp"
+
+namespace viscontact::particles {
+
+/// How the fluid solver keeps a body rigid, docs/physics.md (6.1) and (6.2).
+enum class RigidConstraint {
+  kPenalty,  ///< the body is a very viscous fluid (the lecture's method)
+  kRigid,    ///< the rigid motions of the bodies are unknowns
+};
+
+enum class FluidMesh {
+  kFitted,  ///< follows the surfaces of the particles with curved edges
+  kFixed,   ///< does not know the particles (the lecture's method)
+};
+
+/// How contact acts on particles in a fluid, docs/physics.md (6.4).
+enum class Coupling {
+  kConstrained,  ///< contact impulses are forces in the problem of the fluid
+  kSplitting,    ///< the velocities that the fluid gives are projected (the lecture's method)
+};
+
+/// Velocity of a wall: (a, b) constant, or a parabola along the wall that is 0 at both ends.
+struct WallVelocity {
+  enum class Kind {
+    kConstant,   ///< `value` everywhere
+    kParabolic,  ///< along the inward normal, with the largest speed value[0] in the middle
+    kOpen,       ///< no stress acts on this side, and fluid flows through it freely
+  };
+  Kind kind = Kind::kConstant;
+  std::array<double, 2> value{};  ///< [L/T]
+};
+
+/// The velocity G x of all walls, with the constant matrix G; where the domain is periodic both
+/// ways, the mean velocity gradient. A shear rate s is G = (0, s; 0, 0), u = (s y, 0), and a strain
+/// rate s is G = (s, 0; 0, -s), u = (s x, -s y). All zero: walls at rest.
+struct LinearFlow {
+  std::array<double, 4> gradient{};  ///< du/dx, du/dy, dv/dx, dv/dy [1/T]
+};
+
+/// One entry for each side of a box, in the order left, right, bottom, top. The entries of periodic
+/// sides are not used.
+using SideVelocities = std::array<WallVelocity, 4>;
+
+struct Fluid {
+  double viscosity = 0;  ///< mu [M/(L T)], > 0
+  double density = 0;    ///< rho_f; 0: Stokes flow, the only possibility so far
+  RigidConstraint constraint = RigidConstraint::kPenalty;
+  double penalty = 1e-6;  ///< epsilon mu, > 0; used by kPenalty only
+  FluidMesh mesh = FluidMesh::kFitted;
+  int edges_per_particle = 24;  ///< on the circumference of the smallest particle, >= 6
+  Coupling coupling = Coupling::kConstrained;
+  double threshold_gap = 0;  ///< D_c [L], >= 0: contact is made where a gap reaches it
+  std::variant<LinearFlow, SideVelocities> boundary;
+  /// Command of a solver of the user's own; empty: FreeFEM.
+  std::vector<std::string> solver;
+};
+
+}  // namespace viscontact::particles
