@@ -1,6 +1,6 @@
-// The particles of a simulation: rigid discs or spheres without rotation. Lengths, masses and times
-// are in any one consistent system of units. The restart file stores these arrays as they are
-// (io/restart.cpp).
+// The particles of a simulation: rigid discs or spheres. They rotate only in a fluid. Lengths,
+// masses and times are in any one consistent system of units. The restart file stores these arrays
+// as they are (io/restart.cpp).
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,20 @@ constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::si
 /// Flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and so do `dimension`
 /// entries from dimension * k on of `positions` and `velocities`.
 struct Particles {
-  int dimension = 2;               ///< 2: discs, 3: spheres
+  /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder, which is component 0 of a Vector.
+  int dimension = 2;
   std::vector<double> positions;   ///< of the centres [L]
   std::vector<double> velocities;  ///< [L/T]
   std::vector<double> radii;       ///< [L], > 0
-  std::vector<double> masses;      ///< [M], > 0
+  std::vector<double> masses;      ///< [M], > 0; >= 0 in a fluid
   /// Name of each particle in files, >= 0; no two names are equal. Empty: particle k has the name
   /// k.
   std::vector<std::int32_t> ids{};
+  // Rotation of discs in a fluid, one entry for each particle. Empty if the case has no fluid, and
+  // on an axis.
+  std::vector<double> angles{};              ///< counter-clockwise [rad]
+  std::vector<double> angular_velocities{};  ///< counter-clockwise [1/T]
+  std::vector<double> inertias{};            ///< moments of inertia [M L^2], >= 0
 
   std::size_t count() const { return radii.size(); }
   std::int32_t id(std::size_t k) const {

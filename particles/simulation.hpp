@@ -13,6 +13,9 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact_law.hpp"
+#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/given_motion.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/plane.hpp"
@@ -24,15 +27,24 @@ namespace viscontact::particles {
 struct ProjectionResult;
 
 /// What moves the particles, and how their motion is computed. A case file's values are checked
-/// when it is read. The keys of `forces` must be numbers of existing particles.
+/// when it is read. The keys of the maps must be numbers of existing particles.
 struct Setting {
   std::vector<Plane> planes;
+  /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
+  Domain domain;
   Vector gravity{};  ///< acceleration, on all particles [L/T^2]
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
   ContactLaw law;
   double time_step = 0;  ///< h [T], > 0
   SolverSettings solver;
+  std::optional<Fluid> fluid;  ///< around the particles; needs a domain
+  /// Torques on single particles in a fluid, by the number of the particle: value[2],
+  /// counter-clockwise [M L^2/T^2]. A particle with a torque has no entry in `given_motions`.
+  std::map<std::int32_t, PiecewiseConstant> torques;
+  /// Motions of the particles that are driven through the fluid, by the number of the particle. A
+  /// driven particle has no entry in `forces`, and gravity does not change its motion.
+  std::map<std::int32_t, GivenMotion> given_motions;
 };
 
 /// What is recorded of one step.

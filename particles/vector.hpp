@@ -9,7 +9,8 @@
 
 namespace viscontact::particles {
 
-/// A vector with three components. In two dimensions the third component is 0.
+/// A vector with three components. In two dimensions the third component is 0; on an axis only the
+/// first, along the axis, is not 0.
 using Vector = std::array<double, 3>;
 
 inline double dot(const Vector& a, const Vector& b) {
@@ -27,10 +28,10 @@ inline Vector cross(const Vector& a, const Vector& b) {
 }
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-/// Vector k of a flat array with `dimension` (2 or 3) numbers for each vector.
+/// Vector k of a flat array with `dimension` (1, 2 or 3) numbers for each vector.
 inline Vector point_of(const double* values, std::size_t k, int dimension) {
   const double* at = values + k * static_cast<std::size_t>(dimension);
-  return {at[0], at[1], dimension == 3 ? at[2] : 0.0};
+  return {at[0], dimension > 1 ? at[1] : 0.0, dimension > 2 ? at[2] : 0.0};
 }
 
 }  // namespace viscontact::particles
