@@ -1,0 +1,112 @@
+// A child process that is asked over and over: text goes to its standard input, and words come from
+// its standard output (Linux). A change must keep that neither a full pipe nor a child that ends
+// or is silent can stop this process for longer than the deadline.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/common/system/start_process.hpp"
+
+namespace viscontact {
+
+/// The last lines of two streams, in the order in which the lines were completed. Blank lines are
+/// left out, and the rest of a line beyond kLongest bytes is lost.
+class LastLines {
+ public:
+  static constexpr std::size_t kLines = 20, kLongest = 1000;
+
+  enum Stream { kOutput, kErrors };
+
+  void add(Stream stream, std::string_view text);
+
+  /// The lines without their ends, those that are not complete last.
+  std::deque<std::string> lines() const;
+
+ private:
+  void complete(std::string& line);
+
+  std::deque<std::string> lines_;
+  std::array<std::string, 2> incomplete_;
+};
+
+/// The child leads a process group of its own. The group is killed when the object is destroyed, and
+/// the child is ended by the kernel when the thread that made the object ends, even by SIGKILL.
+///
+/// The functions that wait throw Error(kInterrupted) if `stop` requests a stop.
+class ChildProcess {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Throws Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is no such program.
+  ChildProcess(const ProcessCommand& command, const StopToken& stop);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ~ChildProcess();
+
+  /// Adds `text` to what is sent to the child. It is sent while one of the functions below waits, so
+  /// that a child that writes before it reads cannot block both sides.
+  void send(std::string_view text);
+
+  enum class State {
+    kRead,
+    kClosed,    ///< the child has closed its standard output before the end of a word or line
+    kTimedOut,  ///< the deadline has passed
+    kTooLong,   ///< a word or line is longer than kLongestText; `text` is its beginning
+  };
+  /// What was read. `text` is valid until the next call of a function of the object.
+  struct Reading {
+    State state = State::kRead;
+    std::string_view text{};
+  };
+  static constexpr std::size_t kLongestText = 4096;  ///< bytes
+
+  /// The next word of the output, which white space precedes and follows.
+  Reading read_word(Clock::time_point deadline);
+
+  /// The rest of the current line of the output, without its end. At the end of the output the line
+  /// need not be complete: state is kClosed, and `text` is what there is.
+  Reading read_line(Clock::time_point deadline);
+
+  /// The last word that was read counts as not read: the next call reads it again.
+  void put_word_back() { at_ = word_start_; }
+
+  /// Whether the child has written anything but white space that was not read yet.
+  bool has_unread_output();
+
+  /// Adds a line of the output that was read to last_lines().
+  void keep(std::string_view line);
+
+  /// Closes the standard input of the child, waits for its end until `grace` has passed, and then
+  /// kills its process group. All its output that was not read is added to last_lines(). Returns
+  /// how it ended: "ended with status 3", "ended by signal 11 (Segmentation fault)", or "had to be
+  /// stopped". A stop request ends the waiting without an error.
+  std::string finish(std::chrono::milliseconds grace);
+
+  /// The last lines of the standard error, and of the output that keep() or finish() added.
+  std::deque<std::string> last_lines() const { return last_lines_.lines(); }
+
+ private:
+  void exchange(int milliseconds);
+  void send_some();
+  void receive();
+  void receive_errors();
+  Reading more_or(Clock::time_point deadline, std::size_t length);
+  bool has_ended() const;
+
+  StopToken stop_;
+  StartedProcess child_;
+  std::string to_send_;
+  std::size_t sent_ = 0;        ///< bytes of to_send_ that the child has got
+  std::string output_;          ///< what came and may still be read
+  std::size_t at_ = 0;          ///< the first byte of output_ that was not read
+  std::size_t word_start_ = 0;  ///< the last word that was read
+  LastLines last_lines_;
+};
+
+}  // namespace viscontact

@@ -1,0 +1,126 @@
+// Starts a child process by fork and exec (start_process.hpp). Between fork and exec only
+// async-signal-safe calls are allowed.
+#include "viscontact/common/system/start_process.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+
+namespace viscontact {
+namespace {
+
+struct Pipe {
+  Descriptor read_end{}, write_end{};
+};
+
+/// A pair of sockets instead of a pipe: a write to a child that no longer reads returns an error
+/// code, where a pipe would cause SIGPIPE.
+Pipe make_pipe() {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw std::system_error(errno, std::generic_category(), "socketpair");
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+/// The variables of this process that `added` does not set, followed by `added`.
+std::vector<std::string> merged_environment(const std::vector<std::string>& added) {
+  std::vector<std::string> all;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    const std::string name = text.substr(0, text.find('=') + 1);
+    bool replaced = false;
+    for (const auto& other : added) replaced = replaced || other.starts_with(name);
+    if (!replaced) all.push_back(text);
+  }
+  all.insert(all.end(), added.begin(), added.end());
+  return all;
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (const auto& text : texts)
+    result.push_back(const_cast<char*>(text.c_str()));  // execve does not change the texts
+  result.push_back(nullptr);
+  return result;
+}
+
+/// The descriptors that the child gets.
+struct ChildStreams {
+  int input, output, errors;
+  int failure;  ///< where it writes the error number if it cannot become the program
+};
+
+/// Runs in the child between fork and exec, where only async-signal-safe calls are allowed. Becomes
+/// the program, or writes the error number to `streams.failure` and ends.
+[[noreturn]] void become(char* const* arguments, char* const* variables, const char* folder,
+                         const ChildStreams& streams, pid_t parent) {
+  // In a process group of its own the child does not receive Ctrl-C. Only this process receives it;
+  // it then kills the child and throws Error(kInterrupted).
+  ::setpgid(0, 0);
+  // The kernel ends the child if this process is killed by SIGKILL.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);
+  if (::dup2(streams.input, STDIN_FILENO) >= 0 && ::dup2(streams.output, STDOUT_FILENO) >= 0 &&
+      ::dup2(streams.errors, STDERR_FILENO) >= 0 && (*folder == '\0' || ::chdir(folder) == 0))
+    ::execvpe(arguments[0], arguments, variables);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = ::write(streams.failure, &error, sizeof error);
+  ::_exit(127);
+}
+
+}  // namespace
+
+StartedProcess start_process(const ProcessCommand& command, ErrorStream errors) {
+  const bool separate = errors == ErrorStream::kSeparate;
+  Pipe in = make_pipe();
+  Pipe out = make_pipe();
+  Pipe err = separate ? make_pipe() : Pipe{};
+  Pipe failure = make_pipe();
+  const auto variables = merged_environment(command.environment);
+  const auto argument_pointers = pointers(command.arguments);
+  const auto variable_pointers = pointers(variables);
+  const pid_t self = ::getpid();
+  // posix_spawn cannot make the child end when this process ends (PR_SET_PDEATHSIG), so fork is
+  // used.
+  const pid_t child = ::fork();
+  if (child == 0)
+    become(argument_pointers.data(), variable_pointers.data(), command.folder.c_str(),
+           {in.read_end.get(), out.write_end.get(),
+            separate ? err.write_end.get() : out.write_end.get(), failure.write_end.get()},
+           self);
+  StartedProcess started;
+  if (child < 0) {
+    started.failure = std::strerror(errno);
+    return started;
+  }
+  failure.write_end.close();
+  int error = 0;
+  ssize_t count = 0;
+  while ((count = ::read(failure.read_end.get(), &error, sizeof error)) < 0 && errno == EINTR) {
+  }
+  if (count > 0) {
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    started.failure = std::strerror(error);
+    return started;
+  }
+  started.id = child;
+  started.to_child = std::move(in.write_end);
+  started.from_child = std::move(out.read_end);
+  started.errors_of_it = std::move(err.read_end);
+  return started;
+}
+
+std::string end_by_signal_in_words(int signal) {
+  return fmt::format("ended by signal {} ({})", signal, sigdescr_np(signal));
+}
+
+}  // namespace viscontact

@@ -1,0 +1,44 @@
+// Starts a child process with sockets as its standard streams (Linux). It is what run_process and
+// ChildProcess share. A change must keep that the child ends with the thread that started it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "viscontact/common/files/descriptor.hpp"
+
+namespace viscontact {
+
+/// What a child process is: a program, its arguments and its surroundings.
+struct ProcessCommand {
+  /// The program, which is looked up on PATH, and its arguments. At least one.
+  std::vector<std::string> arguments;
+  /// "NAME=value" each, added to the environment of this process.
+  std::vector<std::string> environment{};
+  std::string folder{};  ///< working folder; empty: that of this process
+};
+
+/// Where the standard error of a child process goes.
+enum class ErrorStream { kWithOutput, kSeparate };
+
+/// A child process that runs. The child leads a process group of its own, whose number is `id`, so
+/// that kill(-id, SIGKILL) also ends the processes that it has started. Whoever starts it must wait
+/// for its end.
+struct StartedProcess {
+  pid_t id = -1;            ///< -1: there is no such program, or it cannot be run
+  std::string failure;      ///< why it cannot be run
+  Descriptor to_child{};    ///< a write to a child that does not read gives EPIPE with MSG_NOSIGNAL
+  Descriptor from_child{};  ///< its standard output
+  Descriptor errors_of_it{};  ///< its standard error, if kSeparate
+};
+
+/// Starts the program. The child does not receive Ctrl-C of the terminal. It is ended by the kernel
+/// when the thread or the process that started it ends, even by SIGKILL.
+StartedProcess start_process(const ProcessCommand& command, ErrorStream errors);
+
+/// "ended by signal 11 (Segmentation fault)".
+std::string end_by_signal_in_words(int signal);
+
+}  // namespace viscontact
