@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/splitmix.hpp"
 #include "viscontact/common/text/number.hpp"
 
 namespace viscontact::sweep {
@@ -31,14 +32,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
-}
-
-/// SplitMix64 (Steele, Lea & Flood 2014): a hash of one number that mixes all bits.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
 }
 
 }  // namespace
@@ -112,9 +105,8 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
                                                          std::uint64_t index, std::uint64_t seed) {
   std::vector<std::pair<std::string, double>> point;
   for (std::size_t i = 0; i < variations.size(); ++i) {
-    const std::uint64_t bits = mixed(mixed(mixed(seed) + index) + i);
-    point.emplace_back(variations[i].key,
-                       variations[i].at(std::ldexp(static_cast<double>(bits >> 11), -53)));
+    const std::uint64_t bits = splitmix_hash(splitmix_hash(splitmix_hash(seed) + index) + i);
+    point.emplace_back(variations[i].key, variations[i].at(unit_interval_of(bits)));
   }
   return point;
 }

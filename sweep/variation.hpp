@@ -40,7 +40,7 @@ std::vector<std::pair<std::string, double>> grid_point(const std::vector<Variati
 
 /// Keys and values of random sample `index`. Each value is uniformly distributed over its range (in
 /// the logarithm, if the range is logarithmic) or over its list, and independent of all others.
-/// Equal arguments give equal values: a hash (SplitMix64, variation.cpp) of seed, index and number
+/// Equal arguments give equal values: a hash (common/splitmix.hpp) of seed, index and number
 /// of the variation. A change must keep them bit for bit, because an interrupted sweep compares
 /// them with the rows that it has already written.
 std::vector<std::pair<std::string, double>> random_point(const std::vector<Variation>& variations,
