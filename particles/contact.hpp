@@ -31,35 +31,52 @@ struct Contact {
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
-  double tolerated = 0;  ///< overlap that is left as it is [L], >= 0
+  double tolerated = 0;    ///< overlap that is left as it is [L], >= 0
+  std::int32_t image = 0;  ///< Pair::image
 };
 
-/// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); planes are at
-/// `places`. If both centres coincide, the normal is the first axis, because every direction
+/// Vector from the centre of particle `first` to that of the image `image` of particle `second` [L].
+template <int D>
+std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
+                                 std::int32_t image) {
+  const auto i = index_of(first), j = index_of(second);
+  std::array<double, D> x;
+  for (std::size_t d = 0; d < D; ++d) x[d] = p.positions[j * D + d] - p.positions[i * D + d];
+  if (image != 0) {
+    const Vector shift = shift_of(p.cell, image);
+    for (std::size_t d = 0; d < D; ++d) x[d] += shift[d];
+  }
+  return x;
+}
+
+/// Contact of a particle with a plane or circle at `place`, as contact_of() gives it for a pair.
+template <int D>
+Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
+  const auto j = index_of(pair.second);
+  Contact<D> contact{-1, pair.second, {}, 0, pair.gamma, pair.impulse};
+  const Vector normal = normal_at(place, p.position(j));
+  for (std::size_t d = 0; d < D; ++d) contact.normal[d] = normal[d];
+  contact.gap = gap(place, p.position(j), p.radii[j]);
+  return contact;
+}
+
+/// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); obstacles are at
+/// `places`. D is 1, 2 or 3. If both centres coincide, the normal is the first axis, because every direction
 /// separates them.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
   Contact<D> contact{pair.first, pair.second, {}, 0, pair.gamma, pair.impulse};
-  const auto j = index_of(pair.second);
-  if (pair.first < 0) {
-    const auto& place = places[pair.plane()];
-    contact.first = -1;
-    for (std::size_t d = 0; d < D; ++d) contact.normal[d] = place.normal[d];
-    contact.gap = gap(place, p.position(j), p.radii[j]);
-    return contact;
-  }
-  const auto i = index_of(pair.first);
+  contact.image = pair.image;
+  contact.normal = separation<D>(p, pair.first, pair.second, pair.image);
   double square = 0;
-  for (std::size_t d = 0; d < D; ++d) {
-    contact.normal[d] = p.positions[j * D + d] - p.positions[i * D + d];
-    square += contact.normal[d] * contact.normal[d];
-  }
+  for (std::size_t d = 0; d < D; ++d) square += contact.normal[d] * contact.normal[d];
   const double distance = std::sqrt(square);
   if (distance > 0)
     for (auto& x : contact.normal) x /= distance;
   else
     contact.normal[0] = 1;
-  contact.gap = distance - p.radii[i] - p.radii[j];
+  contact.gap = distance - p.radii[index_of(pair.first)] - p.radii[index_of(pair.second)];
   return contact;
 }
 
@@ -97,6 +114,8 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
   const double* partner =
       pair.first < 0 ? places[pair.plane()].point.data() : &p.positions[index_of(pair.first) * D];
   for (std::size_t d = 0; d < D; ++d) sizes += std::abs(partner[d]);
+  if (pair.first < 0) sizes += places[pair.plane()].radius;
+  if (pair.image != 0) sizes += p.cell.lengths[0] + p.cell.lengths[1];
   if (contact.gap < 0) {
     contact.tolerated = std::min(tolerated, -contact.gap);
     contact.gap += contact.tolerated;
@@ -112,10 +131,10 @@ Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
 template <int D>
 bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements) {
   const auto i = index_of(pair.first), j = index_of(pair.second);
+  const auto apart = separation<D>(p, pair.first, pair.second, pair.image);
   double square = 0, moved = 0;
   for (std::size_t d = 0; d < D; ++d) {
-    const double apart = p.positions[j * D + d] - p.positions[i * D + d];
-    square += apart * apart;
+    square += apart[d] * apart[d];
     moved += std::abs(displacements[j * D + d] - displacements[i * D + d]);
   }
   // The margin is larger than the rounding errors that resolved() takes for contact.
@@ -141,7 +160,8 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
 }
 
 /// True if particle `contact.second` turns about particle `contact.first` by more than kLargestTurn
-/// in the step. Always false for a plane, because its linearised gap is exact.
+/// in the step. Always false for a plane, whose linearised gap is exact, and for a circle, of which the
+/// projection takes the tangent where the free motion ends.
 template <int D>
 bool turns_too_far(const Particles& p, const Contact<D>& contact,
                    std::span<const double> displacements) {
@@ -162,20 +182,20 @@ template <int D>
 bool paths_meet(const Particles& p, const Contact<D>& contact,
                 std::span<const double> displacements) {
   if (!turns_too_far(p, contact, displacements)) return true;
-  const auto i = index_of(contact.first), j = index_of(contact.second);
   const auto w = relative_displacement(contact, displacements);
+  const auto apart = separation<D>(p, contact.first, contact.second, contact.image);
   double square = 0, along = 0;
   for (std::size_t d = 0; d < D; ++d) {
     square += w[d] * w[d];
-    along -= w[d] * (p.positions[j * D + d] - p.positions[i * D + d]);
+    along -= w[d] * apart[d];
   }
   const double at = std::clamp(along / square, 0.0, 1.0);
   double nearest = 0;
   for (std::size_t d = 0; d < D; ++d) {
-    const double x = p.positions[j * D + d] - p.positions[i * D + d] + at * w[d];
+    const double x = apart[d] + at * w[d];
     nearest += x * x;
   }
-  const double sum = p.radii[i] + p.radii[j];
+  const double sum = p.radii[index_of(contact.first)] + p.radii[index_of(contact.second)];
   return nearest < sum * sum;
 }
 

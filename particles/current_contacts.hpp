@@ -12,26 +12,27 @@
 namespace viscontact::particles {
 
 struct CurrentContact {
-  std::int32_t first;      ///< number of a particle, or -1 - k for plane k
+  std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
   double gamma;            ///< [M L/T]
   double gamma_error = 0;  ///< Pair::gamma_error [M L/T]
+  std::int32_t image = 0;  ///< Pair::image
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
-/// and -1, -2, ... for the first, second plane.
+/// and -1, -2, ... for the first, second obstacle (obstacles.hpp).
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 
 /// The pairs that are glued (gamma < 0) or touch (gap <= solver tolerance times mean radius): first
-/// pairs of particles, then particles at planes, each in the order of the state.
+/// pairs of particles, then particles at obstacles, each in the order of the state.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
 /// Largest Pair::gamma_error of all pairs [M L/T].
 double largest_gamma_error(const State& state);
 
-/// Largest overlap of two particles, or of a particle and a plane, divided by the mean radius; 0 if
+/// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius; 0 if
 /// nothing overlaps. It checks all particles, not only the pairs in the neighbour list.
 double largest_overlap(const Setting& setting, const State& state);
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscontact/particles/periods.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -31,6 +32,9 @@ struct Particles {
   std::vector<double> angles{};              ///< counter-clockwise [rad]
   std::vector<double> angular_velocities{};  ///< counter-clockwise [1/T]
   std::vector<double> inertias{};            ///< moments of inertia [M L^2], >= 0
+  /// Periods of the domain, by which the images of particles are shifted. A simulation takes them
+  /// from its setting; the restart file does not store them.
+  PeriodicCell cell{};
 
   std::size_t count() const { return radii.size(); }
   std::int32_t id(std::size_t k) const {

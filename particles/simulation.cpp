@@ -12,6 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/obstacles.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 
 namespace viscontact::particles {
@@ -56,13 +57,21 @@ double checked_length(const Particles& p, const std::vector<double>& displacemen
   return norm(w);
 }
 
+std::array<std::int32_t, 3> key_of(const Pair& pair) {
+  return {pair.first, pair.second, pair.image};
+}
+
 }  // namespace
 
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),
       mean_radius_(mean_radius(state_.particles)),
-      pool_(std::make_unique<ThreadPool>(threads)) {}
+      pool_(std::make_unique<ThreadPool>(threads)),
+      obstacles_(obstacles_of(setting_)) {
+  state_.particles.cell = cell_of(setting_.domain);
+  wrap_into_cell(state_);
+}
 
 template <int D>
 void Simulation::move_freely(double h, double next) {
@@ -95,7 +104,7 @@ void Simulation::move(double h) {
 
 template <int D>
 ProjectionResult Simulation::project(double h, double next) {
-  const auto planes = positions_of(setting_.planes, next);
+  const auto planes = positions_of(obstacles_, next);
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const auto length_of = [&](std::size_t k) {
     return checked_length(state_.particles, displacements_, k, largest, next);
@@ -166,7 +175,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   accept(projected, h, next, report);
   if (halvings > 0)
     for_pairs([&](const Pair& pair) {
-      if (pair.impulse != 0) impulses_of_parts_[{pair.first, pair.second}] += pair.impulse;
+      if (pair.impulse != 0) impulses_of_parts_[key_of(pair)] += pair.impulse;
     });
 }
 
@@ -202,11 +211,12 @@ StepReport Simulation::step(double end) {
     advance_whole<3>(h, next, report);
   if (!impulses_of_parts_.empty()) {
     for_pairs([&](Pair& pair) {
-      const auto sum = impulses_of_parts_.find({pair.first, pair.second});
+      const auto sum = impulses_of_parts_.find(key_of(pair));
       pair.impulse = sum == impulses_of_parts_.end() ? 0 : sum->second;
     });
     impulses_of_parts_.clear();
   }
+  wrap_into_cell(state_);
   ++state_.steps;
   if (cut) {
     state_.grid_time = next;
@@ -218,20 +228,21 @@ StepReport Simulation::step(double end) {
 void Simulation::throw_step_without_solution(const ProjectionResult& projected, double next) const {
   const auto& overlapping = projected.deepest_overlap;
   std::string moving;
-  // Whether each plane pushes on a particle in this step.
-  std::vector<char> presses(setting_.planes.size(), 0);
+  // Whether each obstacle pushes on a particle in this step.
+  std::vector<char> presses(obstacles_.size(), 0);
   for (const auto* wall : projected.pairs)
     if (wall->first < 0 && wall->impulse > 0) presses[wall->plane()] = 1;
-  const auto before = positions_of(setting_.planes, state_.time);
-  const auto after = positions_of(setting_.planes, next);
+  const auto before = positions_of(obstacles_, state_.time);
+  const auto after = positions_of(obstacles_, next);
   for (std::size_t w = 0; w < before.size(); ++w)
-    if (presses[w] != 0 &&
-        (before[w].point != after[w].point || before[w].normal != after[w].normal))
+    if (presses[w] != 0 && before[w] != after[w])
       moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
   const auto id = [&](std::int32_t k) { return state_.particles.id(index_of(k)); };
   const auto pair =
       overlapping.first < 0
-          ? fmt::format("particle {} and plane {}", id(overlapping.second), -overlapping.first)
+          ? fmt::format("particle {} and {} {}", id(overlapping.second),
+                        obstacles_.size() > setting_.planes.size() ? "obstacle" : "plane",
+                        -overlapping.first)
           : fmt::format("particles {} and {}", id(overlapping.first), id(overlapping.second));
   throw Error(
       ErrorKind::kNotConverged,

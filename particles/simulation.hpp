@@ -4,11 +4,11 @@
 // bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
@@ -131,9 +131,10 @@ class Simulation {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
+  std::vector<Plane> obstacles_;       // walls of the domain, then planes
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
-  // bodies, and the state before the step.
-  std::map<std::pair<std::int32_t, std::int32_t>, double> impulses_of_parts_;
+  // bodies and of the image, and the state before the step.
+  std::map<std::array<std::int32_t, 3>, double> impulses_of_parts_;
   std::optional<State> before_division_;
 };
 

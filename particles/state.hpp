@@ -22,6 +22,9 @@ struct Pair {
   /// all impulses that gamma is the sum of. It is 0 where gamma is at one of its bounds, because
   /// these values are known.
   double gamma_error = 0;
+  /// The image of `second` that meets `first` (periods.hpp); 0 without a shift. Two images of one
+  /// particle may both touch another particle, and are then two pairs.
+  std::int32_t image = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   bool operator==(const Pair&) const = default;
@@ -36,13 +39,18 @@ struct State {
   /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;
   std::int64_t grid_step = 0;
-  std::vector<Pair> pairs;  ///< pairs of particles that may touch soon, in order of first, second
+  /// Pairs of particles that may touch soon, in order of first, second, image.
+  std::vector<Pair> pairs;
   std::vector<Pair> walls;  ///< particles at planes, in order of plane, particle
   // Pairs outside the list cannot touch as long as no particle has moved further than its skin
   // since the list was made.
   /// Flat array of positions when `pairs` was made [L]; empty if there is no list yet.
   std::vector<double> positions_at_listing;
   std::vector<double> skins;  ///< skin of each particle [L]
+  // What time stepping in a fluid needs of the step before.
+  /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
+  std::vector<double> earlier_velocities;
+  double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
 };
 
 }  // namespace viscontact::particles

@@ -16,7 +16,7 @@ struct Frame {
   /// Flat array [L], `dimension` numbers for each particle; single precision is enough for a
   /// picture.
   std::vector<float> positions;
-  std::vector<PlanePosition> planes;     ///< in the order of the case
+  std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
 };
 
@@ -26,6 +26,7 @@ struct Playback {
   std::vector<float> radii;         ///< [L]
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles
+  PeriodicCell cell{};              ///< as in Particles
 };
 
 /// Position of particle k in a frame [L].

@@ -1,5 +1,5 @@
-// Writes and reads the binary restart file (restart.hpp). Files of version 1 must stay readable; a
-// change of the fields of State or Pair needs a new version.
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 and 2 must stay
+// readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
@@ -12,19 +12,27 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-constexpr std::string_view kWhat = "# viscontact: restart of particles, version 2, ";
-constexpr std::string_view kVersion1 = "# viscontact: restart of particles, version 1, ";
+constexpr int kVersion = 3;
+constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// Calls `field` for each stored field, in the order of the file, for writing and for reading.
-template <class State, class Field>
-void for_fields(State& state, Field&& field) {
+/// A pair as versions 2 and 3 store it. The images of version 3 are an array of their own.
+struct StoredPair {
+  std::int32_t first, second;
+  double gamma, impulse, gamma_error;
+};
+
+/// Calls `field` for each stored field, in the order of a file of version `version`, for writing and
+/// for reading.
+template <class State, class Images, class Field>
+void for_fields(State& state, Images& images, int version, Field&& field) {
   auto& p = state.particles;
   field(p.dimension);
   field(state.time);
@@ -39,6 +47,13 @@ void for_fields(State& state, Field&& field) {
   field(state.walls);
   field(state.positions_at_listing);
   field(state.skins);
+  if (version < 3) return;
+  field(images);
+  field(p.angles);
+  field(p.angular_velocities);
+  field(p.inertias);
+  field(state.earlier_velocities);
+  field(state.earlier_step);
 }
 
 class Writer {
@@ -53,13 +68,20 @@ class Writer {
     (*this)(static_cast<std::uint64_t>(values.size()));
     bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   }
+  void operator()(const std::vector<Pair>& pairs) const {
+    std::vector<StoredPair> stored;
+    stored.reserve(pairs.size());
+    for (const auto& pair : pairs)
+      stored.push_back({pair.first, pair.second, pair.gamma, pair.impulse, pair.gamma_error});
+    (*this)(stored);
+  }
   std::string& bytes;
 };
 
 class Reader {
  public:
-  Reader(std::string_view bytes, std::string file, bool version_1)
-      : bytes_(bytes), file_(std::move(file)), version_1_(version_1) {}
+  Reader(std::string_view bytes, std::string file, int version)
+      : bytes_(bytes), file_(std::move(file)), version_(version) {}
 
   template <class T>
   void operator()(T& value) {
@@ -75,7 +97,14 @@ class Reader {
     if (count > 0) std::memcpy(values.data(), take(count * sizeof(T)), count * sizeof(T));
   }
   void operator()(std::vector<Pair>& pairs) {
-    if (!version_1_) return operator()<Pair>(pairs);
+    pairs.clear();
+    if (version_ > 1) {
+      std::vector<StoredPair> stored;
+      operator()<StoredPair>(stored);
+      for (const auto& pair : stored)
+        pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, pair.gamma_error});
+      return;
+    }
     // Version 1 did not record the error of gamma.
     struct PairOfVersion1 {
       std::int32_t first, second;
@@ -83,7 +112,6 @@ class Reader {
     };
     std::vector<PairOfVersion1> old;
     operator()<PairOfVersion1>(old);
-    pairs.clear();
     for (const auto& pair : old)
       pairs.push_back({pair.first, pair.second, pair.gamma, pair.impulse, 0});
   }
@@ -101,7 +129,7 @@ class Reader {
   }
   std::string_view bytes_;
   std::string file_;
-  bool version_1_;
+  int version_;
 };
 
 /// Removes the line that begins with `begin` from the front of `rest` and returns the remainder of
@@ -115,13 +143,57 @@ std::string_view line_of(std::string_view& rest, std::string_view begin, const s
   return value;
 }
 
+/// Reads the version and checks the byte order in the first line of `rest`, and removes this line.
+int read_version(std::string_view& rest, const std::string& file) {
+  const auto line = line_of(rest, kWhat, file);
+  const int version = line.empty() ? 0 : line[0] - '0';
+  if (version < 1 || version > kVersion || !line.substr(1).starts_with(", "))
+    throw_bad_input({file}, "is a restart file of a version that is not known (" +
+                                std::string(line.substr(0, 20)) + "); versions 1 to " +
+                                std::to_string(kVersion) + " can be read");
+  if (const auto order = line.substr(3); order != kOrder)
+    throw_bad_input({file}, "was written by a machine with another byte order (" +
+                                std::string(order.substr(0, 20)) + "; it must be " +
+                                std::string(kOrder) + ")");
+  return version;
+}
+
+bool is_consistent(const State& state) {
+  const auto& p = state.particles;
+  const auto numbers = p.count() * static_cast<std::size_t>(p.dimension);
+  const auto is_empty_or = [](const std::vector<double>& values, std::size_t size) {
+    return values.empty() || values.size() == size;
+  };
+  return p.dimension >= 1 && p.dimension <= 3 && p.positions.size() == numbers &&
+         p.velocities.size() == numbers && p.masses.size() == p.count() &&
+         (state.positions_at_listing.empty() ||
+          (state.positions_at_listing.size() == numbers && state.skins.size() == p.count())) &&
+         is_empty_or(p.angles, p.count()) && p.angular_velocities.size() == p.angles.size() &&
+         is_empty_or(p.inertias, p.count()) &&
+         is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
+         std::isfinite(state.earlier_step) && state.earlier_step >= 0;
+}
+
+bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
+  const bool first_in_range =
+      at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
+  return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
+         pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
+         pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
+}
+
 }  // namespace
 
 std::string write_restart(const State& state) {
+  // No images are stored if no pair has one.
+  std::vector<std::int32_t> images;
+  for (const auto& pair : state.pairs) images.push_back(pair.image);
+  if (std::ranges::all_of(images, [](std::int32_t image) { return image == 0; })) images.clear();
   std::string bytes;
-  for_fields(state, Writer{bytes});
+  for_fields(state, images, kVersion, Writer{bytes});
   std::string text;
-  text.append(kWhat).append(kOrder).append("\n").append(kHash).append(sha256(bytes)).append("\n");
+  text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
+  text.append(kHash).append(sha256(bytes)).append("\n");
   return text + bytes;
 }
 
@@ -131,34 +203,21 @@ State read_restart(const std::filesystem::path& path) {
   std::string_view rest = text;
   if (rest.starts_with("# provenance"))
     rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
-  const bool version_1 = rest.starts_with(kVersion1);
-  if (const auto order = line_of(rest, version_1 ? kVersion1 : kWhat, file); order != kOrder)
-    throw_bad_input({file}, "was written by a machine with another byte order (" +
-                                std::string(order.substr(0, 20)) + "; it must be " +
-                                std::string(kOrder) + ")");
+  const int version = read_version(rest, file);
   const auto hash = line_of(rest, kHash, file);
-  Reader reader(rest, file, version_1);
+  Reader reader(rest, file, version);
   if (hash != sha256(rest)) reader.throw_short();
   State state;
-  for_fields(state, reader);
-  if (!reader.at_end()) reader.throw_short();
-  const auto& p = state.particles;
-  const auto numbers = p.count() * static_cast<std::size_t>(p.dimension);
-  const bool consistent =
-      (p.dimension == 2 || p.dimension == 3) && p.positions.size() == numbers &&
-      p.velocities.size() == numbers && p.masses.size() == p.count() &&
-      (state.positions_at_listing.empty() ||
-       (state.positions_at_listing.size() == numbers && state.skins.size() == p.count()));
-  if (!consistent) reader.throw_short();
+  std::vector<std::int32_t> images;
+  for_fields(state, images, version, reader);
+  if (!reader.at_end() || !(images.empty() || images.size() == state.pairs.size()))
+    reader.throw_short();
+  for (std::size_t k = 0; k < images.size(); ++k) state.pairs[k].image = images[k];
+  if (!is_consistent(state)) reader.throw_short();
   for (const auto* pairs : {&state.pairs, &state.walls})
-    for (const auto& pair : *pairs) {
-      const bool first_in_range =
-          pairs == &state.walls ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
-      if (!first_in_range || pair.second < 0 || index_of(pair.second) >= p.count() ||
-          !(pair.gamma <= 0) || !std::isfinite(pair.gamma) || !std::isfinite(pair.impulse) ||
-          !(pair.gamma_error >= 0))
+    for (const auto& pair : *pairs)
+      if (!is_consistent(pair, pairs == &state.walls, state.particles.count()))
         reader.throw_short();
-    }
   return state;
 }
 

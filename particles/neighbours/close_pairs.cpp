@@ -1,4 +1,5 @@
-// Cell lists, one grid for each factor of 2 in the extents (close_pairs.hpp, docs/particles.md).
+// Cell lists, one grid for each factor of 2 in the extents (close_pairs.hpp, docs/particles.md), and
+// a sweep along a line.
 // Lengths are in one unit. A change must keep the order of the pairs, on which the results of a
 // simulation depend.
 #include "viscontact/particles/neighbours/close_pairs.hpp"
@@ -7,6 +8,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace viscontact::particles {
 namespace {
@@ -206,11 +209,43 @@ class Search {
   ConcatenatedBlocks<ClosePair> found_;
 };
 
+/// Visits the particles in order of position, and compares each with those before it whose
+/// intervals may still reach it.
+std::vector<ClosePair> close_pairs_on_line(std::span<const double> positions,
+                                           std::span<const double> extents) {
+  std::vector<std::int32_t> order(extents.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto low = [&](std::int32_t k) {
+    const auto i = static_cast<std::size_t>(k);
+    return positions[i] - extents[i];
+  };
+  std::ranges::sort(order, {}, low);
+  std::vector<ClosePair> pairs;
+  std::vector<std::int32_t> reaching;
+  for (const auto j : order) {
+    const auto b = static_cast<std::size_t>(j);
+    std::erase_if(reaching, [&](std::int32_t i) {
+      const auto a = static_cast<std::size_t>(i);
+      return positions[a] + extents[a] < low(j);
+    });
+    for (const auto i : reaching) {
+      const auto a = static_cast<std::size_t>(i);
+      if (std::abs(positions[b] - positions[a]) < extents[a] + extents[b])
+        pairs.push_back({std::min(i, j), std::max(i, j)});
+    }
+    reaching.push_back(j);
+  }
+  std::ranges::sort(pairs, {},
+                    [](const ClosePair& pair) { return std::pair(pair.first, pair.second); });
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
                                    std::span<const double> extents, ThreadPool& pool) {
   if (extents.empty()) return {};
+  if (dimension == 1) return close_pairs_on_line(positions, extents);
   return dimension == 2 ? Search<2>(positions, extents, pool).pairs()
                         : Search<3>(positions, extents, pool).pairs();
 }

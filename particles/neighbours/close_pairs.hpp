@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/periods.hpp"
 
 namespace viscontact::particles {
 
+/// Two particles that are close to each other.
 struct ClosePair {
   std::int32_t first, second;  ///< first < second
+  std::int32_t image = 0;      ///< of second (periods.hpp)
   bool operator==(const ClosePair&) const = default;
 };
 
 /// All pairs with |x_i - x_j| < e_i + e_j, in order of first, then second. `positions`: a flat
-/// array of `dimension` (2 or 3) finite numbers for each particle [L]. `extents`: e > 0 of each
+/// array of `dimension` (1, 2 or 3) finite numbers for each particle [L]. `extents`: e > 0 of each
 /// particle [L].
 ///
 /// Particles whose extents are within the same factor of 2 share a grid, whose cells are twice as
@@ -25,5 +28,16 @@ struct ClosePair {
 /// all coarser ones.
 std::vector<ClosePair> close_pairs(int dimension, std::span<const double> positions,
                                    std::span<const double> extents, ThreadPool& pool);
+
+/// All pairs with |x_j + shift - x_i| < e_i + e_j, i < j, where the shifts are those of the images
+/// -4 to 4 of particle j, in order of first, second, image. Arguments are those of close_pairs();
+/// `dimension` is 2. Positions may lie outside the cell by less than a period.
+///
+/// Needs e_i + e_j < each period for all pairs: otherwise further images might be close. A particle
+/// makes no pair with its own images. Particles near the sides are copied to the opposite sides,
+/// and close_pairs() finds the pairs with the copies.
+std::vector<ClosePair> close_pairs_in_period(const PeriodicCell& cell,
+                                             std::span<const double> positions,
+                                             std::span<const double> extents, ThreadPool& pool);
 
 }  // namespace viscontact::particles

@@ -2,6 +2,8 @@
 // Units are those of neighbour_list.hpp.
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,12 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-auto place_of(const Pair& pair) { return std::tuple(pair.first, pair.second); }
+/// Place in the order of the list.
+template <class AnyPair>
+auto place_of(const AnyPair& pair) {
+  return std::tuple(pair.first, pair.second, pair.image);
+}
 
 /// Sum of vectors, from which a mean is computed.
 struct VectorSum {
@@ -35,6 +42,31 @@ Vector mean_of(std::size_t count, ThreadPool& pool, const Of& vector) {
     return part;
   });
   return (1 / static_cast<double>(count)) * sum.value;
+}
+
+/// Half of the shortest period [L]; infinite if there is none.
+double half_shortest_period(const PeriodicCell& cell) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const double length : cell.lengths)
+    if (length > 0) shortest = std::min(shortest, length);
+  return shortest / 2;
+}
+
+/// The skin of particle k, at most as long as each pair of the list stays closer than a period, so
+/// that periods.hpp has a number for its image: r_i + 2 s_i + r_j + 2 s_j <= period. Throws
+/// Error(kNotConverged) if the particle moves further than this skin.
+double skin_within_period(const Particles& p, std::size_t k, double half_period, double skin,
+                          double moved) {
+  // A little less, because the rounding errors of positions add to the sum.
+  constexpr double kLess = 1 - 1e-9;
+  const double longest = kLess * (half_period - p.radii[k]) / 2;
+  if (!(moved <= longest))
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("particle {} moves by {:.3g} relative to the others in a step, and at "
+                            "most {:.3g} is allowed, because the domain has a period of {:.3g}; "
+                            "make the time step shorter",
+                            p.id(k), moved, std::max(longest, 0.0), 2 * half_period));
+  return std::min(skin, longest);
 }
 
 }  // namespace
@@ -67,30 +99,36 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
     return point_of(displacements.data(), k, p.dimension);
   };
   const Vector common = mean_of(p.count(), pool, displacement);
+  const double half_period = half_shortest_period(p.cell);
   state.positions_at_listing = p.positions;
   state.skins.resize(p.count(), 0.0);
   std::vector<double> extents(p.count());
   for (std::size_t k = 0; k < p.count(); ++k) {
     state.skins[k] =
         std::max({state.skins[k], kOfRadius * p.radii[k], kSteps * norm(displacement(k) - common)});
+    if (p.cell.is_periodic())
+      state.skins[k] =
+          skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
     extents[k] = p.radii[k] + state.skins[k];
   }
-  const auto close = close_pairs(p.dimension, p.positions, extents, pool);
+  const auto close = p.cell.is_periodic()
+                         ? close_pairs_in_period(p.cell, p.positions, extents, pool)
+                         : close_pairs(p.dimension, p.positions, extents, pool);
   std::vector<Pair> pairs;
   pairs.reserve(close.size());
   auto old = state.pairs.begin();
-  const auto keep_until = [&](const std::tuple<std::int32_t, std::int32_t>& place) {
+  const auto keep_until = [&](const std::tuple<std::int32_t, std::int32_t, std::int32_t>& place) {
     for (; old != state.pairs.end() && place_of(*old) < place; ++old)
       if (old->gamma < 0) pairs.push_back(*old);
   };
   for (const auto& pair : close) {
-    keep_until({pair.first, pair.second});
-    if (old != state.pairs.end() && place_of(*old) == std::tuple(pair.first, pair.second))
+    keep_until(place_of(pair));
+    if (old != state.pairs.end() && place_of(*old) == place_of(pair))
       pairs.push_back(*old++);
     else
-      pairs.push_back({pair.first, pair.second, 0, 0});
+      pairs.push_back({pair.first, pair.second, 0, 0, 0, pair.image});
   }
-  keep_until({std::numeric_limits<std::int32_t>::max(), 0});
+  keep_until({std::numeric_limits<std::int32_t>::max(), 0, 0});
   state.pairs = std::move(pairs);
 }
 
@@ -118,6 +156,34 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
     walls += pool.sum_of_blocks<ConcatenatedBlocks<Pair>>(p.count(), in_block);
   }
   state.walls = std::move(walls.values);
+}
+
+void wrap_into_cell(State& state) {
+  auto& p = state.particles;
+  if (!p.cell.is_periodic()) return;
+  std::vector<std::array<int, 2>> wrapped(p.count());
+  bool any = false;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (std::size_t d = 0; d < 2; ++d) {
+      auto& x = p.positions[2 * k + d];
+      const double periods = periods_beyond(p.cell, d, x);
+      if (p.cell.lengths[d] > 0) x = std::max(x - periods * p.cell.lengths[d], p.cell.from[d]);
+      if (periods == 0) continue;
+      any = true;
+      wrapped[k][d] = static_cast<int>(periods);
+      if (!state.positions_at_listing.empty())
+        state.positions_at_listing[2 * k + d] -= periods * p.cell.lengths[d];
+    }
+  if (!any) return;
+  // The vector between the centres of a pair stays the same, so its image changes by the periods by
+  // which its particles were wrapped.
+  for (auto& pair : state.pairs) {
+    auto shift = periods_of_image(pair.image);
+    for (std::size_t d = 0; d < 2; ++d)
+      shift[d] += wrapped[index_of(pair.second)][d] - wrapped[index_of(pair.first)][d];
+    pair.image = image_number(shift[0], shift[1]);
+  }
+  std::ranges::sort(state.pairs, {}, [](const Pair& pair) { return place_of(pair); });
 }
 
 }  // namespace viscontact::particles

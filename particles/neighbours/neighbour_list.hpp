@@ -11,6 +11,11 @@
 
 namespace viscontact::particles {
 
+/// Brings all positions into the cell of a periodic domain (Particles::cell). Pairs keep their memory,
+/// their images and the list stay valid, and velocities do not change. Does nothing if the domain
+/// has no period.
+void wrap_into_cell(State& state);
+
 /// True as long as no pair outside state.pairs can touch after the particles have moved by
 /// `displacements`, a flat array [L]. The mean displacement of all particles does not count,
 /// because it brings no two particles closer together.
@@ -20,9 +25,12 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 /// Makes state.pairs again for the present positions. The skin of each particle (state.skins)
 /// becomes at least three times its displacement, so that the list lasts, and never shrinks. Pairs
 /// keep their memory, and glued pairs stay in the list wherever their particles are.
+///
+/// In a periodic domain a skin is at most (period/2 - radius)/2. Throws Error(kNotConverged) if a
+/// displacement, without the mean displacement, exceeds this length.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool);
 
-/// Makes state.walls again: the particles closer than `margin` [L] to a plane, and those that are
+/// Makes state.walls again: the particles closer than `margin` [L] to an obstacle, and those that are
 /// glued to it. `planes` are positions at the end of the step. Pairs keep their memory.
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
                        ThreadPool& pool);

@@ -39,14 +39,22 @@ StepProjection<D>::StepProjection(State& state, double h, std::span<const PlaneP
       mobilities_(mobilities),
       pool_(pool),
       is_chosen_(pair_count(), 0),
-      system_(displacements, mobilities) {}
+      system_(displacements, mobilities) {
+  if (std::ranges::none_of(planes, &PlanePosition::is_curved)) return;
+  const auto& p = state.particles;
+  for (const auto& wall : state.walls) {
+    const auto j = index_of(wall.second);
+    tangents_.push_back(tangent_at(planes[wall.plane()],
+                                   p.position(j) + point_of(displacements.data(), j, p.dimension)));
+  }
+}
 
 /// True if the displacements close the gap of pair k.
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t k) {
   const auto& p = state_.particles;
   if (pair(k).first >= 0 && cannot_close<D>(p, pair(k), displacements_)) return false;
-  const auto here = contact_of<D>(p, pair(k), planes_);
+  const auto here = contact_at_start(k);
   return gap_after(resolved(here, p, pair(k), planes_, tolerated_), displacements_) < 0 &&
          paths_meet(p, here, displacements_);
 }

@@ -61,9 +61,15 @@ class StepProjection {
     return k < state_.pairs.size() ? state_.pairs[k] : state_.walls[k - state_.pairs.size()];
   }
   std::size_t pair_count() const { return state_.pairs.size() + state_.walls.size(); }
-  Contact<D> contact(std::size_t k) {
+  // Contact of pair k, which meets a curved obstacle at its tangent.
+  Contact<D> contact_at_start(std::size_t k) {
     const auto& p = state_.particles;
-    return resolved(contact_of<D>(p, pair(k), planes_), p, pair(k), planes_, tolerated_);
+    if (!tangents_.empty() && pair(k).first < 0)
+      return contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()]);
+    return contact_of<D>(p, pair(k), planes_);
+  }
+  Contact<D> contact(std::size_t k) {
+    return resolved(contact_at_start(k), state_.particles, pair(k), planes_, tolerated_);
   }
   ResidualScales<D> residual_scales() { return {state_, h_, displacements_, mobilities_, system_}; }
   bool takes_part(std::int32_t particle) const {
@@ -83,6 +89,9 @@ class StepProjection {
   std::span<double> displacements_;
   std::span<const double> mobilities_;
   ThreadPool& pool_;
+  // The tangent of each pair in state.walls where the free motion ends; empty if no obstacle is
+  // curved. The particle cannot leave a circle in the step, because the circle is convex.
+  std::vector<PlanePosition> tangents_;
   double tolerated_ = 0;             // overlap that is left as it is [L]
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list

@@ -12,6 +12,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/particles/obstacles.hpp"
 
 namespace viscontact::pipeline {
 namespace {
@@ -25,7 +26,7 @@ Frame frame_at(double time, const particles::Setting& setting, const std::vector
   Frame frame;
   frame.time = time;
   frame.positions.assign(positions.begin(), positions.end());
-  for (const auto& plane : setting.planes) frame.planes.push_back(plane.at(time));
+  frame.planes = positions_of(particles::obstacles_of(setting), time);
   frame.contacts = std::move(contacts);
   return frame;
 }
@@ -46,6 +47,7 @@ ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& prove
 
 void ParticleFrames::add(const Simulation& simulation) {
   const auto& state = simulation.state();
+  playback_.cell = state.particles.cell;
   auto contacts = particles::contacts_of(simulation.setting(), state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
   results::write_output(folder_ / name, TextKind::kXml,
@@ -58,6 +60,7 @@ void ParticleFrames::add(const Simulation& simulation) {
 
 void ParticleFrames::resume(const std::vector<FrameFile>& files,
                             const particles::Setting& setting) {
+  playback_.cell = particles::cell_of(setting.domain);
   for (const auto& file : files) {
     files_.push_back(file);
     // Frames that are not kept are read, too, to check that their files exist and are complete.

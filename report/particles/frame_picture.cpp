@@ -32,21 +32,46 @@ std::string path_of(const Polygon& polygon, const Projection& view) {
   return path;
 }
 
+/// A circle as a polygon, whose sides are too short to be seen.
+Polygon circle_polygon(const particles::PlanePosition& place) {
+  constexpr int kSides = 240;
+  Polygon polygon;
+  for (int k = 0; k < kSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kSides;
+    polygon.push_back(place.point + place.radius * Vector{std::cos(angle), std::sin(angle), 0});
+  }
+  return polygon;
+}
+
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.box;
   const Polygon all = {
       {low[0], low[1], 0}, {high[0], low[1], 0}, {high[0], high[1], 0}, {low[0], high[1], 0}};
   std::string text;
-  for (const auto& plane : frame.planes)
+  for (const auto& plane : frame.planes) {
+    if (plane.is_curved()) {
+      const auto inside = clipped_to_view(circle_polygon(plane), d.box, {}, 0, 2);
+      text += fmt::format("<path d=\"{}Z{}Z\" fill=\"#d8d8d4\" fill-rule=\"evenodd\"/>\n",
+                          path_of(all, d.view), path_of(inside, d.view));
+      continue;
+    }
     if (const auto solid = clipped(all, plane.point, -1.0 * plane.normal); !solid.empty())
       text += fmt::format("<path d=\"{}Z\" fill=\"#d8d8d4\"/>\n", path_of(solid, d.view));
+  }
   return text;
 }
 
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
-    const auto& [point, normal] = frame.planes[j];
+    const auto& [point, normal, radius] = frame.planes[j];
+    if (radius > 0) {
+      text += fmt::format(
+          "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"none\" stroke=\"#333\" "
+          "stroke-width=\"1.5\"/>\n",
+          d.view.x(point), d.view.y(point), d.view.scale * radius);
+      continue;
+    }
     const double far = norm(d.box.high - d.box.low) + norm(d.box.low - point);
     const Vector along = {-normal[1], normal[0], 0};
     const auto line =
@@ -63,7 +88,8 @@ std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
 std::string plane_3d_patches(const PanelSettings& d, const Frame& frame, bool from_free_side) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
-    const auto& [point, normal] = frame.planes[j];
+    const auto& point = frame.planes[j].point;
+    const auto& normal = frame.planes[j].normal;
     if ((dot(normal, d.view.toward) > 0) != from_free_side) continue;
     std::size_t least = 0;
     for (std::size_t k = 1; k < 3; ++k)
@@ -113,7 +139,8 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame,
   double radius = d.playback.radii[second];
   Vector from{};
   if (contact.first < 0) {
-    const auto& plane = frame.planes.at(static_cast<std::size_t>(-1 - contact.first));
+    const auto plane =
+        tangent_at(frame.planes.at(static_cast<std::size_t>(-1 - contact.first)), to);
     from = to - dot(plane.normal, to - plane.point) * plane.normal;
   } else {
     const auto first = static_cast<std::size_t>(contact.first);
@@ -124,7 +151,14 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame,
   line.colour = colour_class(contact.gamma, d.lowest);
   line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
                                 : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
-  line.path = path_of({from, to}, d.view);
+  // Half of the line to an image is drawn at each of the two particles.
+  const Vector shift = 0.5 * shift_of(d.playback.cell, contact.image);
+  if (contact.image == 0) {
+    line.path = path_of({from, to}, d.view);
+  } else {
+    const Vector middle = 0.5 * (from + to);
+    line.path = path_of({from, middle + shift}, d.view) + path_of({middle - shift, to}, d.view);
+  }
   return line;
 }
 

@@ -84,7 +84,9 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
   append(contacts.offsets, std::uint32_t{0});
   const auto every = static_cast<std::int32_t>(data.every_particle);
   const auto shown = [&](const particles::CurrentContact& c) {
-    return data.contacts && c.second % every == 0 && (c.first < 0 || c.first % every == 0);
+    // The page does not draw contacts across a period.
+    return data.contacts && c.image == 0 && c.second % every == 0 &&
+           (c.first < 0 || c.first % every == 0);
   };
   std::vector<Pair> pairs;
   for (const auto f : data.frames)
@@ -172,9 +174,12 @@ PageData page_data(const Playback& playback, double lowest_gamma) {
                  static_cast<std::uint16_t>(std::lround(
                      step > 0 ? std::clamp((x - data.low[d]) / step, 0.0, 65535.0) : 0.0)));
       }
-    for (const auto& plane : frame.planes)
-      for (const auto* vector : {&plane.point, &plane.normal})
+    for (const auto& plane : frame.planes) {
+      // In two dimensions, a third component of the normal is the radius of a circle.
+      const auto normal = plane.is_curved() ? particles::Vector{0, 0, plane.radius} : plane.normal;
+      for (const auto* vector : {&plane.point, &normal})
         for (const double x : *vector) append(planes, static_cast<float>(x));
+    }
   }
   data.blocks = {{"radii", radii}};
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);

@@ -46,11 +46,18 @@ double size_of(const ViewBox& box, int dimension) {
 /// Extends the box to a plane that is near it, so that particles are seen to lie on the plane.
 void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
   constexpr double kNear = 0.5;  // largest distance, in sizes of the box
+  const double size = size_of(box, dimension);
+  if (plane.is_curved())
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+      const double low = plane.point[d] - plane.radius, high = plane.point[d] + plane.radius;
+      if (box.low[d] - low <= kNear * size) box.low[d] = std::min(box.low[d], low);
+      if (high - box.high[d] <= kNear * size) box.high[d] = std::max(box.high[d], high);
+    }
   double distance = 0;
   for (std::size_t d = 0; d < 3; ++d)
     distance +=
         plane.normal[d] * ((plane.normal[d] > 0 ? box.low[d] : box.high[d]) - plane.point[d]);
-  if (distance <= 0 || distance > kNear * size_of(box, dimension)) return;
+  if (distance <= 0 || distance > kNear * size) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
     const double shift = -plane.normal[d] * distance;
     (shift < 0 ? box.low[d] : box.high[d]) += shift;

@@ -34,7 +34,9 @@
   const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
   const positions = new Float32Array(count * dim);  // at the present time
-  let planes = [];                                  // at the present time: {point, normal}
+  // At the present time: {point, normal, radius}. With a radius > 0 it is a circle about `point`, whose
+  // normal is 0.
+  let planes = [];
   const lines = {frame: -1, count: 0, pair: new Int32Array(pairs.length / 2), level: new Uint8Array(pairs.length / 2)};
 
   /** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
@@ -59,8 +61,8 @@
     planes = [];
     for (let i = 0; i < m; i += 6) {
       const x = [0, 1, 2, 3, 4, 5].map(j => (1 - share) * planeNumbers[fromPlane + i + j] + share * planeNumbers[toPlane + i + j]);
-      const length = Math.hypot(x[3], x[4], x[5]) || 1;
-      planes.push({point: x.slice(0, 3), normal: x.slice(3).map(v => v / length)});
+      const length = Math.hypot(x[3], x[4], x[5]) || 1, radius = dim === 2 ? x[5] : 0;
+      planes.push({point: x.slice(0, 3), normal: x.slice(3).map(v => (radius ? 0 : v / length)), radius});
     }
     readContacts(Math.min(frames - 1, frame + Math.round(share)));
   }
@@ -234,13 +236,24 @@
     return [at(0, 0), at(canvas.width, 0), at(canvas.width, canvas.height), at(0, canvas.height)];
   }
 
+  function traceCircle(point, radius) {
+    const p = project(...point);
+    pen.moveTo(p.x + radius * view.scale, p.y);
+    pen.arc(p.x, p.y, radius * view.scale, 0, 2 * Math.PI);
+  }
+
   function drawSolids() {
     const all = seen();
     pen.fillStyle = theme.solid;
-    for (const {point, normal} of planes) {
+    for (const {point, normal, radius} of planes) {
       pen.beginPath();
-      trace(clip(all, point, normal.map(v => -v)));
-      pen.fill();
+      if (radius) {
+        trace([...all, all[0]]);
+        traceCircle(point, radius);
+      } else {
+        trace(clip(all, point, normal.map(v => -v)));
+      }
+      pen.fill('evenodd');
     }
   }
 
@@ -248,7 +261,13 @@
     const all = seen(), far = corner => Math.hypot(...plus(corner, -1, middle));
     pen.strokeStyle = theme.edge;
     pen.lineWidth = 2 * dots;
-    planes.forEach(({point, normal}, i) => {
+    planes.forEach(({point, normal, radius}, i) => {
+      if (radius) {
+        pen.beginPath();
+        traceCircle(point, radius);
+        pen.stroke();
+        return;
+      }
       const reach = Math.max(...all.map(far)) + Math.hypot(...plus(point, -1, middle)), along = [-normal[1], normal[0], 0];
       pen.beginPath();
       trace(clipByPlanes([plus(point, -reach, along), plus(point, reach, along)], i));
@@ -328,9 +347,10 @@
   function traceContact(i) {
     const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
     if (first < 0) {
-      const {point, normal} = planes[-1 - first];
-      const x = [0, 1, 2].map(d => (d < dim ? positions[second * dim + d] : 0));
-      const p = project(...plus(x, -dot(normal, plus(x, -1, point)), normal));
+      const {point, normal, radius} = planes[-1 - first];
+      const x = [0, 1, 2].map(d => (d < dim ? positions[second * dim + d] : 0)), from = plus(x, -1, point);
+      const foot = radius ? plus(point, radius / (Math.hypot(...from) || 1), from) : plus(x, -dot(normal, from), normal);
+      const p = project(...foot);
       pen.moveTo(p.x, p.y);
     } else {
       pen.moveTo(pageX[first], pageY[first]);
