@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/case_file/arrangement_section.hpp"
 #include "viscontact/case_file/particles_start.hpp"
+#include "viscontact/case_file/particles_template.hpp"
 #include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -232,22 +234,35 @@ std::vector<int> read_particles(const TomlSection& root, ParticlesCase& c) {
       if (!c.particles.ids.empty()) add_id(c.particles, section);
       section.finish();
     }
+  if (root.has("arrangement")) {
+    const auto given = c.particles.count();
+    read_arrangement(root.section("arrangement"), c.setting.domain, c.setting.fluid.has_value(),
+                     c.particles);
+    c.arranged = c.particles.count() - given;
+  }
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");
   if (c.particles.count() == 0)
     throw_bad_input({c.path.string()},
-                    "has no particle; name a file in [particles] or add a [[particle]]");
+                    "has no particle; name a file in [particles], or add a [[particle]] or an "
+                    "[arrangement]");
   return lines;
 }
 
 }  // namespace
 
 ParticlesCase read_particles_case(const std::filesystem::path& path) {
+  std::string text = read_file(path);
+  const auto root = TomlSection::parse(text, path.string());
+  return read_particles_case(root, std::move(text), path);
+}
+
+ParticlesCase read_particles_case(const TomlSection& root, std::string text,
+                                  const std::filesystem::path& path) {
   ParticlesCase c;
   c.path = path;
-  c.text = read_file(path);
-  const auto root = TomlSection::parse(c.text, path.string());
+  c.text = std::move(text);
   c.title = root.text("title");
 
   const auto space = root.section("space");
@@ -270,6 +285,7 @@ ParticlesCase read_particles_case(const std::filesystem::path& path) {
 
   const auto lines = read_particles(root, c);
   if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
+  if (root.has("sweep")) c.sweep = read_particles_sweep(root.section("sweep"));
   root.finish();
   check_start(c, lines);
   return c;

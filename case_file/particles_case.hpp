@@ -2,12 +2,24 @@
 // are in any one consistent system of units.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::case_file {
+
+/// What `viscontact sweep` varies in a case of particles. Options on its command line replace these
+/// values.
+struct ParticlesSweepRequest {
+  std::vector<std::string> vary;  ///< "KEY=RANGE" each, as on the command line; may be empty
+  std::uint64_t samples = 0;      ///< number of random samples; 0: the whole grid
+  std::uint64_t draws = 0;        ///< number of arrangements at each point; 0: that of the case
+};
 
 /// Content of a case file of many particles.
 struct ParticlesCase {
@@ -15,11 +27,15 @@ struct ParticlesCase {
   std::string text;  ///< content of the file
   std::string title;
   particles::Setting setting;
-  /// The particles of the CSV file, followed by those of the tables [[particle]].
+  /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random
+  /// discs of [arrangement].
   particles::Particles particles;
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< [T], > 0
   double frame_interval = 0;             ///< [T], > 0
+  /// Number of discs of [arrangement]; they are the last particles.
+  std::size_t arranged = 0;
+  std::optional<ParticlesSweepRequest> sweep;
 };
 
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
@@ -28,5 +44,9 @@ struct ParticlesCase {
 /// if a radius is less than a hundred times that length; or if a particle is further from the
 /// origin than particles::largest_resolved_distance.
 ParticlesCase read_particles_case(const std::filesystem::path& path);
+
+/// The same for a file that is already parsed: `root` is its root table and `text` its content.
+ParticlesCase read_particles_case(const TomlSection& root, std::string text,
+                                  const std::filesystem::path& path);
 
 }  // namespace viscontact::case_file

@@ -24,10 +24,18 @@ class TomlSection {
   static TomlSection parse(const std::string& text, const std::string& file);
 
   /// A copy of this root table with other numbers, each at a path such as
-  /// "motion.external_force[0].value". Only the last key of a path need not exist yet. Throws
+  /// "motion.external_force[0].value". Only the last key of a path need not exist yet. A number
+  /// without a fraction is stored as an integer, unless it replaces a decimal number. Throws
   /// Error(kBadInput) if another part of a path does not exist, or if the value at a path is not a
   /// number.
   TomlSection with_numbers(std::span<const std::pair<std::string, double>> numbers) const;
+
+  /// A copy of this root table with other texts, each at a path at which there is a text.
+  TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
+
+  /// This root table as TOML, without the comments of the file and with its keys in alphabetical
+  /// order. Tables with equal keys and values give equal texts. Numbers read back to the same value.
+  std::string as_toml() const;
 
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
