@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
 // The longest delay until a stop is noticed.
-constexpr int kMilliseconds = 100;
+constexpr int kLongestWait = 100;
 
 constexpr std::size_t kBufferSize = 1 << 16;
 
@@ -126,7 +126,7 @@ ChildProcess::Reading ChildProcess::more_or(Clock::time_point deadline, std::siz
   const auto now = Clock::now();
   if (now >= deadline) return {State::kTimedOut, {}};
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - now).count();
-  exchange(left < kMilliseconds ? static_cast<int>(left) : kMilliseconds);
+  exchange(left < kLongestWait ? static_cast<int>(left) : kLongestWait);
   return {};
 }
 

@@ -1,0 +1,74 @@
+// The command line and the environment of FreeFEM processes (freefem_command.hpp).
+#include "viscontact/freefem/freefem_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::freefem {
+namespace {
+
+// The packages of Debian 12 (FreeFEM 4.11) and 13 (4.15) look for their own files in folders that
+// do not exist (/etc/freefem++.pref names them). Viscontact therefore names the folders in which
+// Debian installs these files.
+constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
+constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
+
+}  // namespace
+
+std::string executable_of_user() {
+  const char* named = std::getenv("VISCONTACT_FREEFEM");
+  return named != nullptr && *named != '\0' ? named : "FreeFem++-nw";
+}
+
+std::optional<std::chrono::seconds> time_limit_of_user() {
+  constexpr int kLongest = 10'000'000;  // four months
+  const char* text = std::getenv(kTimeLimit);
+  if (text == nullptr || *text == '\0') return {};
+  const std::string_view word = text;
+  int seconds = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
+  if (error != std::errc() || end != word.data() + word.size() || seconds < 1 || seconds > kLongest)
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("{} is '{}'; it must be a whole number of seconds from 1 to {}",
+                            kTimeLimit, word, kLongest));
+  return std::chrono::seconds(seconds);
+}
+
+std::filesystem::path find_script_folder(std::string_view part, std::string_view script) {
+  const auto program_folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const auto* up : {".", ".."}) {
+    auto folder = (program_folder / up / "share/viscontact" / part).lexically_normal();
+    if (std::filesystem::exists(folder / script)) return folder;
+  }
+  throw Error(ErrorKind::kExternalProgram,
+              fmt::format("the FreeFEM scripts are not in share/viscontact/{} beside {}; build or "
+                          "install again",
+                          part, program_folder.string()));
+}
+
+Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
+                     std::string_view script, const std::vector<std::string>& arguments) {
+  const auto scripts = std::filesystem::absolute(script_folder);
+  // A name with a slash is a path relative to the working folder of Viscontact. It is made
+  // absolute, because FreeFEM runs in another folder.
+  const bool is_path = executable.find('/') != std::string::npos;
+  Command command;
+  command.arguments = {is_path ? std::filesystem::absolute(executable).string() : executable, "-nw",
+                       "-v", "0", (scripts / script).string()};
+  command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+  // Several processes, one for each row or case, already use all cores, so that further threads in
+  // a process would only slow down the others.
+  command.environment = {fmt::format("FF_INCLUDEPATH={};{}", scripts.string(), kIncludeFolder),
+                         fmt::format("FF_LOADPATH={}", kLoadFolder), "OMP_NUM_THREADS=1",
+                         "OPENBLAS_NUM_THREADS=1", "LC_ALL=C"};
+  // The working folder is that of the scripts, because FreeFEM looks for includes there first, and
+  // a user's folder may contain files with the same names.
+  command.folder = scripts.string();
+  return command;
+}
+
+}  // namespace viscontact::freefem

@@ -1,0 +1,45 @@
+// How a FreeFEM process is started: which program, where its scripts are, with which arguments and
+// surroundings. Times are in seconds. A change must keep each process on one thread.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace viscontact::freefem {
+
+/// Name of the environment variable that sets the time limit of FreeFEM.
+inline constexpr const char* kTimeLimit = "VISCONTACT_FREEFEM_TIME_LIMIT";
+
+/// The value of the environment variable VISCONTACT_FREEFEM if it is set, else FreeFem++-nw: a name
+/// to look for on PATH, or a path.
+std::string executable_of_user();
+
+/// The value of VISCONTACT_FREEFEM_TIME_LIMIT in seconds, or nothing if it is not set. Throws
+/// Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
+std::optional<std::chrono::seconds> time_limit_of_user();
+
+/// The folder share/viscontact/PART in the folder of this program (build tree) or in the one above
+/// it (installed), if `script` is in it. Throws Error(kExternalProgram) if there is no such folder.
+std::filesystem::path find_script_folder(std::string_view part, std::string_view script);
+
+/// How a process of FreeFEM is started.
+struct Command {
+  std::vector<std::string> arguments;    ///< the program and its arguments
+  std::vector<std::string> environment;  ///< "NAME=value" each, for this process only
+  std::string folder;                    ///< working folder
+};
+
+/// FreeFEM with a script of `script_folder`, without graphics and on one thread. `arguments` are
+/// those of the script, "-name value".
+Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
+                     std::string_view script, const std::vector<std::string>& arguments);
+
+/// What to do if FreeFEM cannot be run, for an error message.
+inline constexpr std::string_view kHowToInstall =
+    "install FreeFEM (apt-get install freefem++) or set VISCONTACT_FREEFEM to it";
+
+}  // namespace viscontact::freefem

@@ -1,0 +1,67 @@
+// A fluid solver that is a process of its own, FreeFEM or a program of the user's, asked by the
+// protocol of docs/fluid-solver.md. Lengths, masses and times are in the units of the case. A change
+// of the protocol must change its version and that page.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/solver_command.hpp"
+#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::freefem_flow {
+
+class SolverDialogue;
+
+/// Makes the boundary of the mesh around particles. It is called only for solvers that ask for a
+/// boundary.
+using MeshBoundaryMaker = std::function<MeshBoundary(const particles::FluidParticles&)>;
+
+/// Conditions on which the process of a solver is killed.
+struct SolverLimits {
+  /// The longest time for one answer, > 0. A step of 1024 discs takes a quarter of a minute.
+  std::chrono::milliseconds answer = std::chrono::minutes(30);
+  /// If it requests a stop, the solver is killed and Error(kInterrupted) is thrown.
+  StopToken stop{};
+};
+
+/// The process starts with the object and ends with it. It also ends with the thread that made the
+/// object, so that this thread must live as long as the object. Functions of the base class throw
+/// Error(kExternalProgram), which names the solver, the request and the solver's last lines, if the
+/// solver ends, is silent beyond the limit, reports an error, or answers with anything but the
+/// finite numbers that the protocol asks for. They throw Error(kNotConverged) if a number that the
+/// solver would get is not finite. After an error of the solver the object cannot be used any more.
+class FlowProcess : public particles::FluidSolver {
+ public:
+  /// Starts the solver and waits until it is ready. `dimension`: 2 for discs in the plane, 1 for
+  /// spheres on the axis of a cylinder. `radii`: of all particles [L], > 0. Throws Error(kBadInput)
+  /// if `domain` does not fit the dimension or the velocities of the boundary, and
+  /// Error(kExternalProgram) if the solver cannot be run or is not ready in time.
+  FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
+              std::span<const double> radii, int dimension, const SolverCommand& command,
+              MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});
+  ~FlowProcess() override;
+
+  void place(const particles::FluidParticles& bodies) override;
+  std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  particles::FlowQuantities quantities() override;
+  particles::EstimatedVelocities estimate(std::span<const double> forces) override;
+  particles::FlowField flow() override;
+  std::size_t unknowns() const override { return unknowns_; }
+
+ private:
+  int dimension_;
+  std::size_t components_;  ///< of the motions of all particles
+  MeshBoundaryMaker make_boundary_;
+  std::unique_ptr<SolverDialogue> solver_;
+  bool wants_boundary_ = false;
+  std::size_t unknowns_ = 0;
+};
+
+}  // namespace viscontact::freefem_flow

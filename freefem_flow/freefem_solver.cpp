@@ -1,0 +1,49 @@
+// The commands of fluid solvers (freefem_solver.hpp).
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "viscontact/freefem/freefem_command.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+constexpr std::string_view kScript = "flow.edp";
+
+}  // namespace
+
+SolverCommand solver_command(const particles::Fluid& fluid) {
+  const std::string silent =
+      fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
+  if (!fluid.solver.empty()) {
+    SolverCommand own;
+    own.arguments = fluid.solver;
+    own.remedy_if_missing = "the first word of the fluid's solver must be a program";
+    own.remedy_if_silent = silent;
+    return own;
+  }
+  auto command =
+      freefem::make_command(freefem::executable_of_user(),
+                            freefem::find_script_folder("freefem_flow", kScript), kScript, {});
+  return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
+          std::string(freefem::kHowToInstall),
+          "too little memory can make FreeFEM hang (ulimit -v); " + silent};
+}
+
+SolverLimits solver_limits(const StopToken& stop) {
+  SolverLimits limits;
+  limits.stop = stop;
+  if (const auto limit = freefem::time_limit_of_user()) limits.answer = *limit;
+  return limits;
+}
+
+std::unique_ptr<particles::FluidSolver> start_fluid_solver(
+    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
+    int dimension, MeshBoundaryMaker make_boundary, const StopToken& stop) {
+  return std::make_unique<FlowProcess>(fluid, domain, radii, dimension, solver_command(fluid),
+                                       std::move(make_boundary), solver_limits(stop));
+}
+
+}  // namespace viscontact::freefem_flow

@@ -1,0 +1,29 @@
+// Starts the process of a fluid solver: FreeFEM with the scripts of this part, or a program of the
+// user's own.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "viscontact/freefem_flow/flow_process.hpp"
+
+namespace viscontact::freefem_flow {
+
+/// The command of the solver of `fluid`: that of the user's own if there is one, else FreeFEM with
+/// the script flow.edp of share/viscontact/freefem_flow, which is in the folder of this program or
+/// in the one above it. VISCONTACT_FREEFEM, if set, is the FreeFEM to run. Throws
+/// Error(kExternalProgram) if there is no such script.
+SolverCommand solver_command(const particles::Fluid& fluid);
+
+/// The limit of an answer is VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of
+/// the user's own as well. Throws Error(kWrongUsage) if it is not a whole number from 1 to 10
+/// million.
+SolverLimits solver_limits(const StopToken& stop = {});
+
+/// Starts the solver of `fluid`, and waits until it is ready. Parameters and errors are those of
+/// FlowProcess and of the functions above.
+std::unique_ptr<particles::FluidSolver> start_fluid_solver(
+    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
+    int dimension, MeshBoundaryMaker make_boundary, const StopToken& stop = {});
+
+}  // namespace viscontact::freefem_flow

@@ -1,0 +1,121 @@
+// Writes the opening of the protocol (docs/fluid-solver.md, which a change must follow). Numbers
+// are written so that they read back to the same double.
+#include "viscontact/freefem_flow/opening.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using particles::BoxDomain;
+using particles::CylinderDomain;
+using particles::DiscDomain;
+using particles::WallVelocity;
+
+std::string words_of(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += ' ' + format_number(value);
+  return text;
+}
+
+std::string domain_line(const particles::Domain& domain) {
+  if (const auto* disc = std::get_if<DiscDomain>(&domain))
+    return "domain disc" + words_of(std::array{disc->centre[0], disc->centre[1], disc->radius});
+  if (const auto* box = std::get_if<BoxDomain>(&domain))
+    return "domain box" + words_of(std::array{box->from[0], box->from[1], box->to[0], box->to[1]}) +
+           (box->periodic[0] ? " 1" : " 0") + (box->periodic[1] ? " 1" : " 0");
+  const auto& cylinder = std::get<CylinderDomain>(domain);
+  return "domain cylinder" + words_of(std::array{cylinder.radius, cylinder.height});
+}
+
+/// The labels of the walls; sides of a box that are periodic are no walls.
+std::vector<int> walls_of(const particles::Domain& domain) {
+  if (std::holds_alternative<DiscDomain>(domain)) return {1};
+  if (std::holds_alternative<CylinderDomain>(domain)) return {1, 2, 3};
+  const auto& box = std::get<BoxDomain>(domain);
+  std::vector<int> labels;
+  if (!box.periodic[0]) labels = {1, 2};
+  if (!box.periodic[1]) labels.insert(labels.end(), {3, 4});
+  return labels;
+}
+
+/// The coefficients a0 ax ay b0 bx by p q of a moving wall.
+using WallCoefficients = std::array<double, 8>;
+
+std::string wall_line(int label, const char* kind, const WallCoefficients& coefficients) {
+  return fmt::format("{} {}{}\n", label, kind, words_of(coefficients));
+}
+
+std::string side_line(int label, const WallVelocity& velocity) {
+  switch (velocity.kind) {
+    case WallVelocity::Kind::kConstant:
+      return wall_line(label, "moving", {velocity.value[0], 0, 0, velocity.value[1]});
+    case WallVelocity::Kind::kOpen:
+      return wall_line(label, "open", {});
+    case WallVelocity::Kind::kParabolic:
+      break;
+  }
+  const double speed = velocity.value[0];  // along the inward normal
+  const bool inward_is_positive = label == 1 || label == 3;
+  WallCoefficients coefficients{};
+  coefficients[label <= 2 ? 6 : 7] = inward_is_positive ? speed : -speed;
+  return wall_line(label, "moving", coefficients);
+}
+
+void check_domain(const particles::Fluid& fluid, const particles::Domain& domain, int dimension) {
+  const bool on_axis = std::holds_alternative<CylinderDomain>(domain);
+  if (std::holds_alternative<std::monostate>(domain))
+    throw Error(ErrorKind::kBadInput,
+                "the fluid has no domain; it must be a disc, a box or a "
+                "cylinder");
+  if (on_axis != (dimension == 1))
+    throw Error(ErrorKind::kBadInput,
+                "the domain of the fluid must be a cylinder if the particles "
+                "are on an axis, and a disc or a box in the plane");
+  if (std::holds_alternative<particles::SideVelocities>(fluid.boundary) &&
+      !std::holds_alternative<BoxDomain>(domain))
+    throw Error(ErrorKind::kBadInput,
+                "velocities of single sides of the domain are given; the "
+                "domain must be a box");
+}
+
+}  // namespace
+
+std::string opening(const particles::Fluid& fluid, const particles::Domain& domain,
+                    std::span<const double> radii, int dimension) {
+  check_domain(fluid, domain, dimension);
+  const bool penalty = fluid.constraint == particles::RigidConstraint::kPenalty;
+  std::string text = fmt::format(
+      "viscontact-fluid 1\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
+      dimension, format_number(fluid.viscosity),
+      penalty ? "penalty " + format_number(fluid.penalty) : "rigid 0",
+      fluid.mesh == particles::FluidMesh::kFitted ? "fitted" : "fixed", fluid.edges_per_particle);
+  text += domain_line(domain) + '\n';
+
+  const auto labels = walls_of(domain);
+  const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary);
+  text += fmt::format("walls {}\n", labels.size());
+  for (const int label : labels) {
+    if (flow == nullptr) {
+      const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
+      text += side_line(label, sides[static_cast<std::size_t>(label - 1)]);
+    } else {
+      const auto& g = flow->gradient;
+      text += wall_line(label, "moving", {0, g[0], g[1], 0, g[2], g[3], 0, 0});
+    }
+  }
+  // The gradient of a domain with walls is in their velocities.
+  const bool mean_gradient = flow != nullptr && labels.empty();
+  text += "gradient" + words_of(mean_gradient ? flow->gradient : std::array<double, 4>{}) + '\n';
+  text += fmt::format("particles {}\n", radii.size());
+  for (const double radius : radii) text += format_number(radius) + '\n';
+  return text;
+}
+
+}  // namespace viscontact::freefem_flow
