@@ -66,7 +66,7 @@ DryRun dry_run(const sweep::Sweep& sweep, const std::string& output, const StopT
   const auto start = std::chrono::steady_clock::now();
   for (const auto index : sample) (void)sweep.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  return {output, size, sweep::finished_rows(sweep, output, VISCONTACT_VERSION),
+  return {output, size, sweep::finished_rows(sweep::rows_of(sweep, VISCONTACT_VERSION), output),
           spent.count() / static_cast<double>(sample.size()),
           fmt::format("{} of its rows, just computed", sample.size())};
 }

@@ -1,6 +1,5 @@
-// Plans, checks and computes the rows of a sweep (sweep.hpp). Threads compute rows in any order,
-// but the rows must be passed on in order, so that the file does not depend on the number of
-// threads.
+// Plans, checks and computes the rows of a sweep (sweep.hpp). Everything that determines the rows
+// must go into identity_of, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -8,19 +7,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <condition_variable>
 #include <iterator>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <thread>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::sweep {
 namespace {
@@ -35,13 +33,6 @@ constexpr std::array kModelColumns = {"minimal_gap",
                                       "l1_velocity_distance",
                                       "film_ratio",
                                       "steps"};
-
-/// The text as a single field of a CSV file.
-std::string as_field(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return c == ',' || c == '\n' || c == '\r'; }, ';');
-  return text;
-}
 
 double thinnest(const reduced_model::ModelComparison& model) {
   return model.recovered_minimal_gap.value_or(model.minimal_gap);
@@ -96,6 +87,22 @@ void refuse_useless(const std::string& key, const std::vector<std::string>& mode
                 fmt::format("{} cannot be varied, because none of the models that are run depends "
                             "on it ({}); leave it out, or add a model that depends on it",
                             key, fmt::join(models, ", ")));
+}
+
+/// Hash of everything that determines the rows of a sweep.
+std::string identity_of(const SweepPlan& plan) {
+  std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
+  // The files from which the case reads an external force.
+  for (const auto& file : case_file::read_case(plan.case_path).force_files) text += read_file(file);
+  for (const auto& v : plan.variations) {
+    text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
+                        v.logarithmic, v.count);
+    for (const double value : v.values) text += format_number(value) + ",";
+  }
+  return sha256(fmt::format("{}{}{}{}{}{}{}", text, plan.samples, plan.samples > 0 ? plan.seed : 0,
+                            fmt::join(plan.models, ","), plan.reference,
+                            static_cast<int>(plan.outside.below),
+                            static_cast<int>(plan.outside.above)));
 }
 
 }  // namespace
@@ -232,59 +239,22 @@ std::string Sweep::row(std::uint64_t index, const StopToken& stop) const {
   return fmt::format("{},{}\n", text, as_field(failure));
 }
 
-std::uint64_t run_sweep(
-    const Sweep& sweep, std::uint64_t begin, int jobs,
-    const std::function<void(std::uint64_t index, const std::string& row)>& take,
-    const StopToken& stop) {
-  const std::uint64_t size = sweep_size(sweep.plan());
-  // At most so many rows are begun and not yet taken. This limits the memory.
-  const std::uint64_t window = 32 * static_cast<std::uint64_t>(jobs);
-  std::mutex mutex;
-  std::condition_variable row_taken;
-  std::map<std::uint64_t, std::string> finished;
-  std::uint64_t next = begin, taken = begin;
-  std::exception_ptr error;
-  const auto work = [&] {
-    std::unique_lock lock(mutex);
-    for (;;) {
-      row_taken.wait(lock, [&] { return error || next >= size || next < taken + window; });
-      if (error || next >= size || stop.stop_requested()) return;
-      const std::uint64_t index = next++;
-      lock.unlock();
-      std::string row;
-      std::exception_ptr thrown;
-      try {
-        row = sweep.row(index, stop);
-      } catch (...) {
-        thrown = std::current_exception();
-      }
-      lock.lock();
-      if (thrown && stop.stop_requested()) return;  // the stop came while a row was computed
-      if (thrown) {
-        error = thrown;
-        row_taken.notify_all();
-        return;
-      }
-      finished.emplace(index, std::move(row));
-      try {
-        for (auto first = finished.begin();
-             first != finished.end() && first->first == taken && !error;
-             first = finished.erase(first)) {
-          take(taken, first->second);
-          ++taken;
-        }
-      } catch (...) {
-        error = std::current_exception();
-      }
-      row_taken.notify_all();
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < jobs; ++i) threads.emplace_back(work);
-  }
-  if (error) std::rethrow_exception(error);
-  return taken;
+Rows rows_of(const Sweep& sweep, const std::string& version) {
+  const auto& plan = sweep.plan();
+  return {.size = sweep_size(plan),
+          .columns = sweep_columns(plan),
+          .keys = plan.variations.size(),
+          .comments = {{"viscontact", "sweep"},
+                       {"case", sha256(read_file(plan.case_path))},
+                       {"fit", sha256(lubrication::write_fit(plan.fit))},
+                       {"reference", plan.reference},
+                       {"revision of the models", std::to_string(reduced_model::kModelsRevision)},
+                       {"rows", std::to_string(sweep_size(plan))},
+                       {"sweep", identity_of(plan)},
+                       {"version of Viscontact", version}},
+          .key_fields = [&sweep](std::uint64_t index) { return sweep.key_fields(index); },
+          .row = [&sweep](std::uint64_t index,
+                          const StopToken& stop) { return sweep.row(index, stop); }};
 }
 
 }  // namespace viscontact::sweep

@@ -5,13 +5,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/sweep/rows.hpp"
 #include "viscontact/sweep/variation.hpp"
 
 namespace viscontact::sweep {
@@ -75,13 +75,8 @@ class Sweep {
   case_file::CaseTemplate case_;
 };
 
-/// Computes the rows from `begin` on with `jobs` >= 1 threads and passes them to `take` in order.
-/// Ends early if `stop` requests it, or if `take` throws; then throws the same exception. The
-/// memory that it needs does not grow with the number of rows. Returns the index of the last row
-/// taken plus 1, or `begin` if none was taken.
-std::uint64_t run_sweep(
-    const Sweep& sweep, std::uint64_t begin, int jobs,
-    const std::function<void(std::uint64_t index, const std::string& row)>& take,
-    const StopToken& stop = {});
+/// The rows of a sweep, for its file. `version` is that of Viscontact. The sweep must outlive the
+/// result. Throws Error(kBadInput) if the case or one of its files cannot be read.
+Rows rows_of(const Sweep& sweep, const std::string& version);
 
 }  // namespace viscontact::sweep

@@ -1,5 +1,5 @@
-// Writes, continues and reads the file of a sweep (sweep_file.hpp). Everything that determines the
-// rows must go into identity_of, so that rows of another sweep are not kept.
+// Writes, continues and reads the file of a sweep (sweep_file.hpp). Rows of an earlier call are kept
+// only if its file has the same head, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>
@@ -15,43 +15,15 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_file.hpp"
-#include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/common/text/number.hpp"
-#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::sweep {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Hash of everything that determines the rows of a sweep.
-std::string identity_of(const SweepPlan& plan) {
-  std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
-  // The files from which the case reads an external force.
-  for (const auto& file : case_file::read_case(plan.case_path).force_files) text += read_file(file);
-  for (const auto& v : plan.variations) {
-    text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
-                        v.logarithmic, v.count);
-    for (const double value : v.values) text += format_number(value) + ",";
-  }
-  return sha256(fmt::format("{}{}{}{}{}{}{}", text, plan.samples, plan.samples > 0 ? plan.seed : 0,
-                            fmt::join(plan.models, ","), plan.reference,
-                            static_cast<int>(plan.outside.below),
-                            static_cast<int>(plan.outside.above)));
-}
-
-std::string header_of(const SweepPlan& plan, const std::string& version) {
-  return write_csv_comments(
-             {{"viscontact", "sweep"},
-              {"case", sha256(read_file(plan.case_path))},
-              {"fit", sha256(lubrication::write_fit(plan.fit))},
-              {"reference", plan.reference},
-              {"revision of the models", std::to_string(reduced_model::kModelsRevision)},
-              {"rows", std::to_string(sweep_size(plan))},
-              {"sweep", identity_of(plan)},
-              {"version of Viscontact", version}}) +
-         fmt::format("{}\n", fmt::join(sweep_columns(plan), ","));
+std::string header_of(const Rows& rows) {
+  return write_csv_comments(rows.comments) + fmt::format("{}\n", fmt::join(rows.columns, ","));
 }
 
 constexpr std::string_view kHowMade = "# provenance: ";
@@ -61,7 +33,7 @@ constexpr std::string_view kHowMade = "# provenance: ";
 struct Kept {
   std::uint64_t rows = 0, bytes = 0;
 };
-std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Sweep& sweep) {
+std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, const Rows& rows) {
   std::ifstream file(path, std::ios::binary);
   // The provenance line may differ, because it does not influence the rows.
   std::string first;
@@ -74,14 +46,13 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
   std::string begin(header.size(), '\0');
   if (!file.read(begin.data(), static_cast<std::streamsize>(begin.size())) || begin != header)
     return {};
-  const std::uint64_t size = sweep_size(sweep.plan());
-  const auto separators = static_cast<std::ptrdiff_t>(sweep_columns(sweep.plan()).size() - 1);
+  const auto separators = static_cast<std::ptrdiff_t>(rows.columns.size() - 1);
   Kept kept{0, header_at + header.size()};
   std::string line;
   // After a power cut a file may contain anything after the last row that was flushed to disk.
   // Reading therefore stops at the first line that is not a row of this sweep.
-  while (kept.rows < size && std::getline(file, line) && !file.eof() &&
-         line.starts_with(sweep.key_fields(kept.rows) + ",") &&
+  while (kept.rows < rows.size && std::getline(file, line) && !file.eof() &&
+         line.starts_with(rows.key_fields(kept.rows) + ",") &&
          std::ranges::count(line, ',') == separators) {
     ++kept.rows;
     kept.bytes += line.size() + 1;
@@ -92,13 +63,12 @@ std::optional<Kept> kept_rows(const fs::path& path, const std::string& header, c
 }  // namespace
 
 std::uint64_t write_sweep(
-    const Sweep& sweep, const fs::path& path, int jobs, const std::string& version,
-    const std::string& how_made,
+    const Rows& rows, const fs::path& path, int jobs, const std::string& how_made,
     const std::function<void(std::uint64_t done, std::uint64_t size)>& progress,
     const StopToken& stop) {
-  const std::uint64_t size = sweep_size(sweep.plan());
-  const std::string header = header_of(sweep.plan(), version);
-  if (const auto finished = kept_rows(path, header, sweep); finished && finished->rows == size)
+  const std::uint64_t size = rows.size;
+  const std::string header = header_of(rows);
+  if (const auto finished = kept_rows(path, header, rows); finished && finished->rows == size)
     return 0;
   const fs::path target = check_output_file(path);
   fs::path part = target;
@@ -108,7 +78,7 @@ std::uint64_t write_sweep(
       part,
       "is locked by another sweep that writes the same file; wait until it has ended, or write "
       "elsewhere");
-  auto kept = kept_rows(part, header, sweep);
+  auto kept = kept_rows(part, header, rows);
   // Removes an incomplete last row, or all rows of another plan.
   if (::ftruncate(file.get(), kept ? static_cast<off_t>(kept->bytes) : 0) != 0)
     throw_bad_input({part.string()}, fmt::format("cannot be written ({})", std::strerror(errno)));
@@ -135,7 +105,7 @@ std::uint64_t write_sweep(
   };
   std::uint64_t taken = 0;
   try {
-    taken = run_sweep(sweep, kept->rows, jobs, take, stop);
+    taken = run_rows(rows, kept->rows, jobs, take, stop);
   } catch (...) {
     write();  // finished rows are kept, whatever error ended the sweep
     throw;
@@ -156,7 +126,7 @@ std::uint64_t write_sweep(
   return size - kept->rows;
 }
 
-SweepOutcome read_outcome(const SweepPlan& plan, const fs::path& path) {
+SweepOutcome read_outcome(const Rows& rows, const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw_bad_input({path.string()}, "cannot be read");
   SweepOutcome outcome;
@@ -173,7 +143,7 @@ SweepOutcome read_outcome(const SweepPlan& plan, const fs::path& path) {
     if (failure.empty()) continue;
     if (outcome.first_failure.empty()) outcome.first_failure = failure;
     std::size_t end_of_keys = 0;  // the comma after the fields of the varied keys
-    for (std::size_t key = 0; key < plan.variations.size(); ++key)
+    for (std::size_t key = 0; key < rows.keys; ++key)
       end_of_keys = line.find(',', end_of_keys + (key > 0 ? 1 : 0));
     const bool has_result = line.find_first_not_of(',', end_of_keys) < last_comma;
     ++(has_result ? outcome.with_some_results : outcome.without_result);
@@ -181,12 +151,12 @@ SweepOutcome read_outcome(const SweepPlan& plan, const fs::path& path) {
   return outcome;
 }
 
-std::uint64_t finished_rows(const Sweep& sweep, const fs::path& path, const std::string& version) {
-  const std::string header = header_of(sweep.plan(), version);
+std::uint64_t finished_rows(const Rows& rows, const fs::path& path) {
+  const std::string header = header_of(rows);
   fs::path part = check_output_file(path);
   part += ".part";
-  const auto whole = kept_rows(path, header, sweep);
-  const auto begun = kept_rows(part, header, sweep);
+  const auto whole = kept_rows(path, header, rows);
+  const auto begun = kept_rows(part, header, rows);
   return std::max(whole ? whole->rows : 0, begun ? begun->rows : 0);
 }
 

@@ -190,8 +190,9 @@ void run(const SweepOptions& o) {
 
   Remaining remaining;
   terminal::ProgressTimer progress;
+  const auto rows = sweep::rows_of(sweep, VISCONTACT_VERSION);
   const auto computed = sweep::write_sweep(
-      sweep, o.output, o.jobs, VISCONTACT_VERSION,
+      rows, o.output, o.jobs,
       results::output_text(o.output, TextKind::kHashComment, "", provenance),
       [&](std::uint64_t done, std::uint64_t size) {
         if (!progress.is_due()) return;
@@ -201,7 +202,7 @@ void run(const SweepOptions& o) {
       interrupt_token());
   terminal::clear_progress();
   const auto size = sweep::sweep_size(sweep.plan());
-  const auto outcome = sweep::read_outcome(sweep.plan(), o.output);
+  const auto outcome = sweep::read_outcome(rows, o.output);
   terminal::say((computed == 0
                      ? fmt::format("sweep: {} is up to date", o.output)
                      : fmt::format("sweep: {} rows in {}{}", size, o.output,

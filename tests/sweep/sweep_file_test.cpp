@@ -47,7 +47,7 @@ class SweepFile : public ::testing::Test {
 
   std::uint64_t write(const std::string& name, int jobs = 2) {
     calls_ = 0;
-    return write_sweep(Sweep(plan_), path(name), jobs, version_, "",
+    return write_sweep(rows_of(Sweep(plan_), version_), path(name), jobs, "",
                        [&](std::uint64_t done, std::uint64_t size) {
                          ++calls_;
                          EXPECT_LE(done, size);
@@ -124,7 +124,7 @@ TEST_F(SweepFile, KeepsItsRowsWhenSomethingElseEndsIt) {
   const auto stop = [](std::uint64_t done, std::uint64_t) {
     if (done == 13) throw std::domain_error("the end");
   };
-  EXPECT_THROW(write_sweep(Sweep(plan_), path("table.csv"), 2, version_, "", stop),
+  EXPECT_THROW(write_sweep(rows_of(Sweep(plan_), version_), path("table.csv"), 2, "", stop),
                std::domain_error);
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   EXPECT_EQ(write("table.csv"), kRows - 13);

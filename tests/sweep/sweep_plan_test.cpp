@@ -96,8 +96,8 @@ class RunSweep : public ::testing::Test {
       varied(shipped("time_step.toml"), {"viscous_contact.time_step=1e-3:1e-1:log:200"})};
   Taken run(std::uint64_t begin, int jobs) const {
     Taken taken;
-    const auto end = run_sweep(
-        sweep_, begin, jobs,
+    const auto end = run_rows(
+        rows_of(sweep_, ""), begin, jobs,
         [&](std::uint64_t index, const std::string& row) { taken.emplace_back(index, row); });
     EXPECT_EQ(end, 200U);
     return taken;
@@ -129,7 +129,7 @@ TEST_F(RunSweep, StopsWhenARowIsNotTaken) {
       offered.push_back(index);
       if (index == 5) throw std::domain_error("full");
     };
-    EXPECT_THROW(run_sweep(sweep_, 0, jobs, take), std::domain_error) << jobs;
+    EXPECT_THROW(run_rows(rows_of(sweep_, ""), 0, jobs, take), std::domain_error) << jobs;
     EXPECT_THAT(offered, ElementsAre(0, 1, 2, 3, 4, 5)) << jobs;
   }
 }
@@ -139,7 +139,7 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
   const auto take = [&](std::uint64_t index, const std::string&) {
     if (index == 5) flag = true;
   };
-  EXPECT_THAT(run_sweep(sweep_, 0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
+  EXPECT_THAT(run_rows(rows_of(sweep_, ""), 0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
   EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
               HasSubstr("interrupted; everything finished so far is kept"));
 }

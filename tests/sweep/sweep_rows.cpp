@@ -75,7 +75,7 @@ double number(const std::map<std::string, std::string>& fields, const std::strin
 
 std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan) {
   std::vector<std::map<std::string, std::string>> rows;
-  run_sweep(Sweep(plan), 0, 2, [&](std::uint64_t, const std::string& row) {
+  run_rows(rows_of(Sweep(plan), ""), 0, 2, [&](std::uint64_t, const std::string& row) {
     rows.push_back(fields_of(plan, row));
     EXPECT_EQ(rows.back().at("failure"), "");
   });
