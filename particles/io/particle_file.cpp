@@ -5,35 +5,59 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kColumns = 9, kId = 8;
+constexpr std::size_t kColumns = 11, kId = 8, kAngle = 9, kAngularVelocity = 10;
 using Row = CsvRow<kColumns>;
 using Names = std::array<std::string, kColumns>;
 
-// Columns for discs and spheres. The required columns come first, as read_csv expects: position,
-// radius, mass. The velocity and the id follow.
-const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id"};
-const Names kSpheres = {"x", "y", "z", "radius", "mass", "vx", "vy", "vz", "id"};
+// Columns for discs, for spheres, and for spheres on an axis. The required columns come first, as
+// read_csv expects: position, radius, mass. The velocity, columns of other dimensions, the id and
+// the rotation follow.
+const Names kDiscs = {"x",  "y",     "radius",          "mass", "vx", "vy", "z", "vz",
+                      "id", "angle", "angular_velocity"};
+const Names kSpheres = {"x",  "y",  "z",     "radius",          "mass", "vx", "vy",
+                        "vz", "id", "angle", "angular_velocity"};
+const Names kOnAxis = {"z",     "radius",          "mass", "vz", "x", "y", "vx", "vy", "id",
+                       "angle", "angular_velocity"};
 
-double allowed(const Row& row, const Names& names, std::size_t column, bool positive,
+// Columns that only files of particles in a fluid have. Forces of an earlier run are not used.
+constexpr std::array<std::string_view, 5> kOfDiscsInFluid = {
+    "angle", "angular_velocity", "fluid_force_x", "fluid_force_y", "fluid_torque"};
+constexpr std::array<std::string_view, 1> kOnAxisInFluid = {"fluid_force_z"};
+
+std::span<const std::string_view> fluid_columns(int dimension) {
+  if (dimension == 1) return kOnAxisInFluid;
+  if (dimension == 2) return kOfDiscsInFluid;
+  return {};
+}
+
+enum class Sign { kAny, kNotNegative, kPositive };
+
+double allowed(const Row& row, const Names& names, std::size_t column, Sign sign,
                const std::string& file) {
   const double value = required_field(row, names, column, file);
   // Squares and cubes of this number and of its inverse are finite and not 0.
   constexpr double kLargest = 1e100;
-  if (positive && !(value >= 1 / kLargest))
+  if (sign == Sign::kNotNegative && !(value == 0 || value >= 1 / kLargest))
+    throw_bad_input({file, row.line},
+                    fmt::format("{} is {}; it must be 0 or at least 1e-100", names[column], value));
+  if (sign == Sign::kPositive && !(value >= 1 / kLargest))
     throw_bad_input({file, row.line},
                     fmt::format("{} is {}; it must be > 0, at least 1e-100", names[column], value));
   if (!(std::abs(value) <= kLargest))
@@ -44,7 +68,10 @@ double allowed(const Row& row, const Names& names, std::size_t column, bool posi
 
 /// Throws Error(kBadInput) for unknown columns, which would otherwise be ignored (a misspelt
 /// velocity, for example), and for incomplete velocities.
-void check_header(const std::filesystem::path& path, bool discs) {
+void check_header(const std::filesystem::path& path, int dimension, bool in_fluid) {
+  // The first columns of kDiscs are those that each file may have, whatever its dimension.
+  const std::span known(kDiscs.begin(), kId + 1);
+  const auto of_fluid = in_fluid ? fluid_columns(dimension) : std::span<const std::string_view>{};
   std::ifstream file(path);
   std::string line;
   while (std::getline(file, line) && (line.empty() || line[0] == '#')) {
@@ -55,13 +82,16 @@ void check_header(const std::filesystem::path& path, bool discs) {
   for (std::string name; std::getline(columns, name, ',');) {
     const auto first = name.find_first_not_of(" \t\r"), last = name.find_last_not_of(" \t\r");
     name = first == std::string::npos ? "" : name.substr(first, last - first + 1);
-    if (std::ranges::find(kDiscs, name) == kDiscs.end())
-      throw_bad_input({path.string()}, "has a column '" + shortened(name) +
-                                           "', which is not known; the known columns are id, x, y, "
-                                           "z, vx, vy, vz, radius, mass");
+    if (std::ranges::find(known, name) == known.end() &&
+        std::ranges::find(of_fluid, name) == of_fluid.end())
+      throw_bad_input(
+          {path.string()},
+          fmt::format("has a column '{}', which is not known; the known columns are id, x, y, z, "
+                      "vx, vy, vz, radius, mass{}{}",
+                      shortened(name), of_fluid.empty() ? "" : ", ", fmt::join(of_fluid, ", ")));
     if (name.starts_with('v')) ++velocities;
   }
-  if (velocities != 0 && velocities != (discs ? 2U : 3U) && !(discs && velocities == 3))
+  if (velocities != 0 && velocities != 3 && velocities != static_cast<std::size_t>(dimension))
     throw_bad_input(
         {path.string()},
         "has some of the columns vx, vy, vz of the velocity, not all; it must have all of "
@@ -97,12 +127,12 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 
 }  // namespace
 
-ParticleFile read_particles(const std::filesystem::path& path, int dimension) {
-  const bool discs = dimension == 2;
-  const auto& names = discs ? kDiscs : kSpheres;
+ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
+  const bool rotate = in_fluid && dimension == 2;
+  const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
   const auto csv = read_csv(path, names, d + 2);
-  check_header(path, discs);
+  check_header(path, dimension, in_fluid);
   const std::string file = path.string();
   if (csv.rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", csv.rows.size(),
@@ -111,25 +141,41 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension) {
   auto& p = result.particles;
   p.dimension = dimension;
   for (const auto& row : csv.rows) {
-    if (discs && (row.fields[6] || row.fields[7]))
-      throw_bad_input(
-          {file, row.line},
-          "has a value in a column of the third dimension (z or vz); space.dimension is 2");
-    for (std::size_t i = 0; i < d; ++i) p.positions.push_back(allowed(row, names, i, false, file));
-    p.radii.push_back(allowed(row, names, d, true, file));
-    p.masses.push_back(allowed(row, names, d + 1, true, file));
-    for (std::size_t i = d + 2; i < 2 * d + 2; ++i)
-      p.velocities.push_back(row.fields[i] ? allowed(row, names, i, false, file) : 0.0);
+    const auto given_or_0 = [&](std::size_t i) {
+      return row.fields[i] ? allowed(row, names, i, Sign::kAny, file) : 0.0;
+    };
+    for (std::size_t i = 2 * d + 2; i < kId; ++i)
+      if (row.fields[i])
+        throw_bad_input({file, row.line},
+                        dimension == 2 ? "has a value in a column of the third dimension (z or "
+                                         "vz); space.dimension is 2"
+                                       : "has a value in a column of another dimension (x, y, vx "
+                                         "or vy); space.dimension is \"axisymmetric\"");
+    for (std::size_t i = 0; i < d; ++i)
+      p.positions.push_back(allowed(row, names, i, Sign::kAny, file));
+    p.radii.push_back(allowed(row, names, d, Sign::kPositive, file));
+    p.masses.push_back(
+        allowed(row, names, d + 1, in_fluid ? Sign::kNotNegative : Sign::kPositive, file));
+    for (std::size_t i = d + 2; i < 2 * d + 2; ++i) p.velocities.push_back(given_or_0(i));
+    if (rotate) {
+      p.angles.push_back(given_or_0(kAngle));
+      p.angular_velocities.push_back(given_or_0(kAngularVelocity));
+    }
     result.lines.push_back(row.line);
   }
   p.ids = read_ids(csv.rows, file);
   return result;
 }
 
-std::string write_particles(const Particles& particles) {
+std::string write_particles(const Particles& particles, std::span<const double> fluid_forces) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   std::string text = fmt::format("# rows: {}\n", particles.count());
-  text += d == 2 ? "id,x,y,vx,vy,radius,mass\n" : "id,x,y,z,vx,vy,vz,radius,mass\n";
+  text += d == 1   ? "id,z,vz,radius,mass"
+          : d == 2 ? "id,x,y,vx,vy,radius,mass"
+                   : "id,x,y,z,vx,vy,vz,radius,mass";
+  if (!fluid_forces.empty())
+    for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
+  text += '\n';
   for (std::size_t k = 0; k < particles.count(); ++k) {
     fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
     const auto add = [&](double value) { (text += ',') += format_number(value); };
@@ -137,6 +183,31 @@ std::string write_particles(const Particles& particles) {
     for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
     add(particles.radii[k]);
     add(particles.masses[k]);
+    if (!fluid_forces.empty()) {
+      if (d == 2) add(particles.angles[k]);
+      if (d == 2) add(particles.angular_velocities[k]);
+      const auto components = motion_components(particles.dimension);
+      for (std::size_t i = 0; i < components; ++i) add(fluid_forces[k * components + i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string motion_header(int dimension) {
+  return dimension == 1 ? "time,id,z,vz\n" : "time,id,x,y,angle,vx,vy,angular_velocity\n";
+}
+
+std::string motion_rows(double time, const Particles& particles) {
+  const auto d = static_cast<std::size_t>(particles.dimension);
+  std::string text;
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{},{}", format_number(time), particles.id(k));
+    const auto add = [&](double value) { (text += ',') += format_number(value); };
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.positions[i]);
+    if (d == 2) add(particles.angles[k]);
+    for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
+    if (d == 2) add(particles.angular_velocities[k]);
     text += '\n';
   }
   return text;

@@ -21,19 +21,35 @@ struct ParticleFile {
 /// the particles are at rest; without `id`, or with ids 0, 1, ..., particles.ids is empty. The file
 /// of final particles of a run can be read, too.
 ///
+/// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
+/// (`in_fluid`) discs may also have the columns angle and angular_velocity, which are 0 if they are
+/// missing, and the columns of the fluid's forces are accepted and not used. Moments of inertia are
+/// not set.
+///
 /// Throws Error(kBadInput) with file and line for what read_csv refuses; for a value in a column of
-/// the third dimension if dimension is 2; for any other column; if some but not all velocities are
-/// given; for a radius or mass below 1e-100 and any number above 1e100 in magnitude; for more than
-/// 2^31 - 1 particles; and for an id that is missing, occurs twice or is not a whole number from 0
-/// to 2^31 - 1.
-ParticleFile read_particles(const std::filesystem::path& path, int dimension);
+/// another dimension; for any other column; if some but not all velocities are given; for a radius
+/// or mass below 1e-100 (in a fluid a mass may be 0) and any number above 1e100 in magnitude; for
+/// more than 2^31 - 1 particles; and for an id that is missing, occurs twice or is not a whole
+/// number from 0 to 2^31 - 1.
+ParticleFile read_particles(const std::filesystem::path& path, int dimension,
+                            bool in_fluid = false);
 
-/// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass. The numbers read back to the same
-/// bits.
-std::string write_particles(const Particles& particles);
+/// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on an axis.
+/// The numbers read back to the same bits.
+///
+/// `fluid_forces` are the forces and torques of the fluid (FlowQuantities), empty without a fluid.
+/// With them, discs also have the columns
+/// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque, and spheres on an axis the
+/// column fluid_force_z.
+std::string write_particles(const Particles& particles, std::span<const double> fluid_forces = {});
+
+/// The line with the names of the columns of motion.csv, and the rows of all particles at `time` [T]:
+/// time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
+std::string motion_header(int dimension);
+std::string motion_rows(double time, const Particles& particles);
 
 /// CSV text with the columns i,j,gap,gamma,gamma_error. i and j are the ids of two particles; j is
-/// -1, -2, ... for the first, second plane.
+/// -1, -2, ... for the first, second obstacle.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 }  // namespace viscontact::particles

@@ -4,46 +4,32 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstdint>
 #include <vector>
 
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/io/appended_data.hpp"
 
 namespace viscontact::particles {
 namespace {
 
-/// Collects the <AppendedData> of a file and makes the elements that refer to it.
-class AppendedData {
- public:
-  template <class Number>
-  std::string array(const char* type, const char* name, int components,
-                    const std::vector<Number>& values) {
-    auto element = fmt::format(
-        R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
-        "\n",
-        type, name, components, bytes_.size());
-    const std::uint64_t size = values.size() * sizeof(Number);
-    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
-    return element;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
+/// Adds a vector to a list of numbers. On an axis the vector is along z.
+void append(std::vector<double>& values, const Vector& x, int dimension) {
+  if (dimension == 1)
+    values.insert(values.end(), {0, 0, x[0]});
+  else
+    values.insert(values.end(), x.begin(), x.end());
+}
 
 }  // namespace
 
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts) {
   std::vector<double> points, velocities, gaps, gammas;
-  std::vector<std::int32_t> ids, firsts, seconds;
+  std::vector<std::int32_t> ids, firsts, seconds, images;
   std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
   for (std::size_t k = 0; k < particles.count(); ++k) {
-    const auto x = particles.position(k), u = particles.velocity(k);
-    points.insert(points.end(), x.begin(), x.end());
-    velocities.insert(velocities.end(), u.begin(), u.end());
+    append(points, particles.position(k), particles.dimension);
+    append(velocities, particles.velocity(k), particles.dimension);
     ids.push_back(particles.id(k));
   }
   // VTK numbers vertices before lines, so contacts with planes come first.
@@ -62,12 +48,10 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
       const auto [first, second] = ids_of(particles, contact);
       firsts.push_back(first);
       seconds.push_back(second);
+      images.push_back(contact.image);
     }
   AppendedData data;
-  std::string text = "<?xml version=\"1.0\"?>\n";
-  text += fmt::format(
-      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n",
-      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  std::string text = AppendedData::opening("PolyData");
   text += fmt::format(
       "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
       particles.count(), vertex_ends.size(), line_ends.size());
@@ -75,11 +59,16 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   text += data.array("Float64", "radius", 1, particles.radii);
   text += data.array("Float64", "velocity", 3, velocities);
   text += data.array("Int32", "id", 1, ids);
+  if (!particles.angles.empty()) {
+    text += data.array("Float64", "angle", 1, particles.angles);
+    text += data.array("Float64", "angular_velocity", 1, particles.angular_velocities);
+  }
   text += "</PointData>\n<CellData Scalars=\"gamma\">\n";
   text += data.array("Float64", "gap", 1, gaps);
   text += data.array("Float64", "gamma", 1, gammas);
   text += data.array("Int32", "i", 1, firsts);
   text += data.array("Int32", "j", 1, seconds);
+  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, images);
   text += "</CellData>\n<Points>\n";
   text += data.array("Float64", "Points", 3, points);
   text += "</Points>\n<Verts>\n";
@@ -88,10 +77,8 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   text += "</Verts>\n<Lines>\n";
   text += data.array("Int64", "connectivity", 1, lines);
   text += data.array("Int64", "offsets", 1, line_ends);
-  text += "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  text += data.bytes();
-  text += "\n</AppendedData>\n</VTKFile>\n";
-  return text;
+  text += "</Lines>\n</Piece>\n</PolyData>\n";
+  return text + data.closing();
 }
 
 std::string write_pvd(std::span<const std::pair<double, std::string>> files) {

@@ -64,11 +64,12 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
   for (const auto& file : files) {
     files_.push_back(file);
     // Frames that are not kept are read, too, to check that their files exist and are complete.
-    auto [positions, contacts] = particles::read_vtp(folder_ / file.second, playback_.dimension);
-    if (positions.size() != playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
+    auto content = particles::read_vtp(folder_ / file.second, playback_.dimension);
+    if (content.positions.size() !=
+        playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
     if ((files_.size() - 1) % every_ == 0)
-      keep(frame_at(file.first, setting, positions, std::move(contacts)));
+      keep(frame_at(file.first, setting, content.positions, std::move(content.contacts)));
   }
 }
 

@@ -1,0 +1,120 @@
+// The arrays of a VTK XML file with appended raw data (VTK's file formats, "XML file formats"):
+// writes them, and reads what was written on a machine with the same byte order. Numbers are copied
+// without conversion.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::particles {
+
+/// Collects the <AppendedData> of a file and makes the elements that refer to it.
+class AppendedData {
+ public:
+  template <class Number>
+  std::string array(const char* type, const char* name, int components,
+                    const std::vector<Number>& values) {
+    auto element = fmt::format(
+        R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
+        "\n",
+        type, name, components, bytes_.size());
+    const std::uint64_t size = values.size() * sizeof(Number);
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+    return element;
+  }
+  /// The first lines of a file of type `type`, such as PolyData.
+  static std::string opening(std::string_view type) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n",
+        type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  }
+  /// The last lines of a file, with the data of all arrays.
+  std::string closing() const {
+    return "<AppendedData encoding=\"raw\">\n_" + bytes_ + "\n</AppendedData>\n</VTKFile>\n";
+  }
+
+ private:
+  std::string bytes_;
+};
+
+/// The text between `before` and the next `after`; nothing if one of them is missing.
+inline std::optional<std::string_view> between(std::string_view text, std::string_view before,
+                                               std::string_view after) {
+  const auto found = text.find(before);
+  if (found == std::string_view::npos) return {};
+  const auto begin = found + before.size();
+  const auto end = text.find(after, begin);
+  if (end == std::string_view::npos) return {};
+  return text.substr(begin, end - begin);
+}
+
+/// Reads the arrays of a file that AppendedData wrote. `text` must outlive this object.
+class AppendedReader {
+ public:
+  /// `what` names in messages what the file should be, such as "frame".
+  AppendedReader(std::string_view text, std::string file, std::string what)
+      : file_(std::move(file)), what_(std::move(what)) {
+    constexpr std::string_view kMark = "<AppendedData encoding=\"raw\">\n_";
+    const auto mark = text.find(kMark);
+    if (mark == std::string_view::npos) refuse();
+    head_ = text.substr(0, mark);
+    bytes_ = text.substr(mark + kMark.size());
+  }
+
+  /// True if the element <section> or <section ...> has the array `name`.
+  bool has_array(std::string_view section, std::string_view name) const {
+    return after_name(section, name).has_value();
+  }
+
+  /// The array `name` in the element <section> or <section ...>. Throws Error(kBadInput), which
+  /// names the file, if there is none or it is cut short.
+  template <class Number>
+  std::vector<Number> array(std::string_view section, std::string_view name) const {
+    const auto element = after_name(section, name);
+    const auto offset = element ? between(*element, "offset=\"", "\"") : std::nullopt;
+    std::uint64_t at = 0, size = 0;
+    if (!offset ||
+        std::from_chars(offset->data(), offset->data() + offset->size(), at).ec != std::errc())
+      refuse();
+    if (at > bytes_.size() || bytes_.size() - at < sizeof size) refuse();
+    std::memcpy(&size, bytes_.data() + at, sizeof size);
+    if (bytes_.size() - at - sizeof size < size || size % sizeof(Number) != 0) refuse();
+    std::vector<Number> values(size / sizeof(Number));
+    if (size > 0) std::memcpy(values.data(), bytes_.data() + at + sizeof size, size);
+    return values;
+  }
+
+  [[noreturn]] void refuse() const {
+    throw_bad_input({file_}, "is not a whole " + what_ + " that viscontact particles wrote");
+  }
+
+ private:
+  /// What follows the name of an array in its element and in the rest of the section.
+  std::optional<std::string_view> after_name(std::string_view section,
+                                             std::string_view name) const {
+    const auto begin = head_.find("<" + std::string(section));
+    if (begin == std::string_view::npos) return {};
+    const auto whole = head_.substr(begin, head_.find("\n</", begin) - begin);
+    const auto mark = fmt::format("Name=\"{}\"", name);
+    const auto at = whole.find(mark);
+    if (at == std::string_view::npos) return {};
+    return whole.substr(at + mark.size());
+  }
+
+  std::string file_, what_;
+  std::string_view head_, bytes_;
+};
+
+}  // namespace viscontact::particles
