@@ -11,7 +11,6 @@
 
 #include "viscontact/case_file/sections.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/arrangement.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -41,8 +40,8 @@ std::size_t read_count(const TomlSection& section, double radius, const particle
 
 }  // namespace
 
-void read_arrangement(const TomlSection& section, const particles::Domain& domain, bool has_fluid,
-                      particles::Particles& p) {
+particles::Arrangement read_arrangement(const TomlSection& section, const particles::Domain& domain,
+                                        bool has_fluid, particles::Particles& p) {
   if (p.dimension != 2)
     section.fail("radius", "belongs to an arrangement of discs; space.dimension must be 2");
   if (!std::holds_alternative<particles::DiscDomain>(domain) &&
@@ -81,6 +80,7 @@ void read_arrangement(const TomlSection& section, const particles::Domain& domai
     p.angular_velocities.push_back(0);
     p.inertias.push_back(mass * asked.radius * asked.radius / 2);
   }
+  return asked;
 }
 
 }  // namespace viscontact::case_file

@@ -234,12 +234,9 @@ std::vector<int> read_particles(const TomlSection& root, ParticlesCase& c) {
       if (!c.particles.ids.empty()) add_id(c.particles, section);
       section.finish();
     }
-  if (root.has("arrangement")) {
-    const auto given = c.particles.count();
-    read_arrangement(root.section("arrangement"), c.setting.domain, c.setting.fluid.has_value(),
-                     c.particles);
-    c.arranged = c.particles.count() - given;
-  }
+  if (root.has("arrangement"))
+    c.arrangement = read_arrangement(root.section("arrangement"), c.setting.domain,
+                                     c.setting.fluid.has_value(), c.particles);
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/particles/arrangement.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::case_file {
@@ -33,8 +34,8 @@ struct ParticlesCase {
   std::filesystem::path particles_file;  ///< the CSV file; empty if there is none
   double end_time = 0;                   ///< [T], > 0
   double frame_interval = 0;             ///< [T], > 0
-  /// Number of discs of [arrangement]; they are the last particles.
-  std::size_t arranged = 0;
+  /// What [arrangement] asks for; its discs are the last particles.
+  std::optional<particles::Arrangement> arrangement;
   std::optional<ParticlesSweepRequest> sweep;
 };
 

@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kEraseLine = "\r\033[K";
 
+thread_local int quiet_objects = 0;  // objects of QuietThread in this thread
+
 bool understands_escapes(int descriptor) {
   const char* terminal = std::getenv("TERM");
   return ::isatty(descriptor) != 0 && (terminal == nullptr || std::string_view(terminal) != "dumb");
@@ -21,7 +23,7 @@ bool understands_escapes(int descriptor) {
 }  // namespace
 
 void show_progress(const std::string& text) {
-  if (!understands_escapes(STDERR_FILENO)) return;
+  if (quiet_objects > 0 || !understands_escapes(STDERR_FILENO)) return;
   std::fputs((kEraseLine + text).c_str(), stderr);
   std::fflush(stderr);
 }
@@ -38,7 +40,9 @@ void clear_progress() { show_progress(""); }
 
 // Errors of fputs are ignored: if standard error is closed or full, the message is lost, but the
 // work continues.
-void say(const std::string& text) { std::fputs((text + "\n").c_str(), stderr); }
+void say(const std::string& text) {
+  if (quiet_objects == 0) std::fputs((text + "\n").c_str(), stderr);
+}
 
 void warn(const std::string& text) {
   constexpr std::string_view kWord = "warning:";
@@ -53,6 +57,9 @@ void complain(const std::string& text) {
   if (end == std::string::npos) return say(text);
   say(coloured(text.substr(0, end), Colour::kRed, STDERR_FILENO) + text.substr(end));
 }
+
+QuietThread::QuietThread() { ++quiet_objects; }
+QuietThread::~QuietThread() { --quiet_objects; }
 
 std::string coloured(std::string_view word, Colour colour, int descriptor) {
   const char* refused = std::getenv("NO_COLOR");

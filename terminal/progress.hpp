@@ -35,6 +35,16 @@ void warn(const std::string& text);
 /// Writes an error message to standard error, with its first word in red.
 void complain(const std::string& text);
 
+/// While an object of this class exists, nothing that its thread says or shows reaches the terminal.
+/// A sweep runs many simulations at once, whose messages would be mixed.
+class QuietThread {
+ public:
+  QuietThread();
+  ~QuietThread();
+  QuietThread(const QuietThread&) = delete;
+  QuietThread& operator=(const QuietThread&) = delete;
+};
+
 /// The values are the codes of ANSI escape sequences (SGR) for the colour of text.
 enum class Colour { kRed = 31, kGreen = 32, kYellow = 33 };
 
