@@ -2,6 +2,7 @@
 // must be kept, because the reader and users' pictures refer to them.
 #include "viscontact/particles/io/flow_vtk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,9 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kNodes = 6;  // of a quadratic triangle
+// A quadratic triangle: the number of its nodes, and VTK's number of this type of cell.
+constexpr std::size_t kNodes = 6;
+constexpr std::uint8_t kQuadraticTriangle = 22;
 
 /// Three numbers for each node: (a, b, 0) in the plane, (a, 0, b) in a half-plane through the axis.
 std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<double>& b,
@@ -44,7 +47,6 @@ std::string write_flow(const FlowField& flow, int dimension) {
     nodes.insert(nodes.end(), triangle.begin(), triangle.end());
     ends.push_back(std::ssize(nodes));
   }
-  constexpr std::uint8_t kQuadraticTriangle = 22;
   const std::vector<std::uint8_t> types(flow.triangles.size(), kQuadraticTriangle);
   AppendedData data;
   auto text = AppendedData::opening("UnstructuredGrid");
@@ -85,7 +87,10 @@ FlowField read_flow(const std::filesystem::path& path) {
   flow.velocity_x = component(velocities, 0);
   flow.velocity_y = component(velocities, second);
   const auto nodes = reader.array<std::int64_t>("Cells", "connectivity");
-  if (nodes.size() % kNodes != 0) reader.refuse();
+  const auto types = reader.array<std::uint8_t>("Cells", "types");
+  if (nodes.size() != kNodes * types.size() ||
+      std::ranges::any_of(types, [](auto type) { return type != kQuadraticTriangle; }))
+    reader.refuse();
   flow.triangles.resize(nodes.size() / kNodes);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n] < 0 || nodes[n] >= std::ssize(flow.x)) reader.refuse();

@@ -1,9 +1,10 @@
-// Restart files of this version and of the one before, and those that are refused.
+// Restart files of this version and of those before, and those that are refused.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -45,21 +46,94 @@ TEST_F(RestartFile, IsReadAsItWasWritten) {
   EXPECT_EQ(state.walls[0].gamma_error, 1e-9);
 }
 
-TEST_F(RestartFile, OfVersion1HasNoErrorsOfGamma) {
-  const auto text = write_restart(disc_on_plane(-0.75));
+/// A restart file of an earlier version: `change` makes its binary part from that of version 2.
+std::string of_version(int version, const State& state,
+                       const std::function<void(std::string&)>& change) {
+  const auto text = write_restart(state);
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
-  // The walls' films are followed by the lengths of two empty lists, 8 bytes each.
-  ASSERT_EQ(bytes.substr(bytes.size() - 16), std::string(16, '\0'));
-  bytes.erase(bytes.size() - 16 - sizeof(double), sizeof(double));
+  // Version 3 added the lengths of five lists, which are empty here, and a number.
+  EXPECT_EQ(bytes.substr(bytes.size() - 48), std::string(48, '\0'));
+  bytes.erase(bytes.size() - 48);
+  change(bytes);
   auto head = text.substr(0, first);
-  head.replace(head.find("version 2"), 9, "version 1");
-  const auto state = read(head + "# sha256 of the rest: " + sha256(bytes) + "\n" + bytes);
+  head.replace(head.find("version 3"), 9, "version " + std::to_string(version));
+  return head + "# sha256 of the rest: " + sha256(bytes) + "\n" + bytes;
+}
+
+TEST_F(RestartFile, OfVersion2HasNoRotation) {
+  const auto state = read(of_version(2, disc_on_plane(-0.75), [](std::string&) {}));
+  EXPECT_EQ(state.time, 3);
+  EXPECT_EQ(state.walls, disc_on_plane(-0.75).walls);
+  EXPECT_TRUE(state.particles.angles.empty());
+  EXPECT_TRUE(state.earlier_velocities.empty());
+  EXPECT_EQ(state.earlier_step, 0);
+}
+
+TEST_F(RestartFile, OfVersion1HasNoErrorsOfGamma) {
+  const auto state = read(of_version(1, disc_on_plane(-0.75), [](std::string& bytes) {
+    // The walls' films are followed by the lengths of two empty lists, 8 bytes each.
+    ASSERT_EQ(bytes.substr(bytes.size() - 16), std::string(16, '\0'));
+    bytes.erase(bytes.size() - 16 - sizeof(double), sizeof(double));
+  }));
   EXPECT_EQ(state.time, 3);
   ASSERT_EQ(state.walls.size(), 1U);
   EXPECT_EQ(state.walls[0].gamma, -0.75);
   EXPECT_EQ(state.walls[0].impulse, -0.25);
   EXPECT_EQ(state.walls[0].gamma_error, 0);
+}
+
+TEST_F(RestartFile, OfAFluidIsReadAsItWasWritten) {
+  State state = no_particles(2);
+  add_particle(state, {0, 1, 0}, 1, 2, {0.5, 0, 0});
+  add_particle(state, {3, 1, 0}, 1, 0);
+  state.particles.angles = {0.1, -2};
+  state.particles.angular_velocities = {3, 0.7};
+  state.particles.inertias = {1, 0};
+  state.pairs = {{0, 1, -0.5, 0.25, 0, 0}, {0, 1, -0.25, 0, 1e-9, -4}};
+  state.earlier_velocities = {1, 2, 3, 4, 5, 1.0 / 3};
+  state.earlier_step = 0.1;
+  const auto again = read(write_restart(state));
+  EXPECT_EQ(again.particles.angles, state.particles.angles);
+  EXPECT_EQ(again.particles.angular_velocities, state.particles.angular_velocities);
+  EXPECT_EQ(again.particles.inertias, state.particles.inertias);
+  EXPECT_EQ(again.pairs, state.pairs);
+  EXPECT_EQ(again.earlier_velocities, state.earlier_velocities);
+  EXPECT_EQ(again.earlier_step, 0.1);
+  EXPECT_EQ(write_restart(again), write_restart(state));
+}
+
+TEST_F(RestartFile, OnAnAxisHasOneNumberForEachParticle) {
+  State state = no_particles(1);
+  add_particle(state, {2, 0, 0}, 1, 0, {-1, 0, 0});
+  state.earlier_velocities = {0.5};
+  const auto again = read(write_restart(state));
+  EXPECT_EQ(again.particles.positions, std::vector<double>{2});
+  EXPECT_EQ(again.earlier_velocities, std::vector<double>{0.5});
+}
+
+TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
+  const auto refused = [&](const std::function<void(State&)>& change) {
+    State state = disc_on_plane(-0.5);
+    change(state);
+    EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
+                HasSubstr("is not a whole restart file"));
+  };
+  refused([](State& state) { state.particles.angles = {1, 2}; });
+  refused([](State& state) { state.particles.angles = {1}; });  // no angular velocity
+  refused([](State& state) { state.particles.inertias = {1, 2}; });
+  refused([](State& state) { state.earlier_velocities = {1, 2}; });
+  refused([](State& state) { state.earlier_step = -1; });
+  refused([](State& state) {
+    add_particle(state, {5, 5, 0}, 1, 1);
+    state.pairs = {{0, 1, 0, 0, 0, 5}};
+  });
+}
+
+TEST_F(RestartFile, OfALaterVersionIsRefused) {
+  auto text = write_restart(disc_on_plane(-0.5));
+  text.replace(text.find("version 3"), 9, "version 4");
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 3 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

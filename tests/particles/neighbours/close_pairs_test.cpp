@@ -63,7 +63,7 @@ Points random_points(int dimension, std::size_t count, double width, double deca
 }
 
 class Neighbours : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Dimensions, Neighbours, ::testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(Dimensions, Neighbours, ::testing::Values(1, 2, 3));
 
 TEST_P(Neighbours, AreFoundWhateverTheSpreadOfExtents) {
   Random random(1);

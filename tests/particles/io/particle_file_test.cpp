@@ -1,0 +1,112 @@
+// Particles in a fluid and on an axis as CSV files: columns, numbers that read back, and refusals.
+#include "viscontact/particles/io/particle_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using ::testing::HasSubstr;
+
+Particles discs_in_fluid() {
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 0.5, 0, {-0.1, 1.0 / 3, 0});
+  add_particle(state, {4, 5, 0}, 0.25, 3);
+  state.particles.angles = {0.7, -1};
+  state.particles.angular_velocities = {2, 1.0 / 7};
+  return state.particles;
+}
+
+class FluidParticleFile : public ::testing::Test {
+ protected:
+  Particles read(const std::string& text, int dimension, bool in_fluid) const {
+    return read_particles(folder_.file("particles.csv", text), dimension, in_fluid).particles;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(FluidParticleFile, OfDiscsHasRotationAndForces) {
+  const auto p = discs_in_fluid();
+  const auto text = write_particles(p, std::vector<double>{10, 20, 30, 40, 50, 60.5});
+  EXPECT_EQ(text,
+            "# rows: 2\n"
+            "id,x,y,vx,vy,radius,mass,angle,angular_velocity,fluid_force_x,fluid_force_y,"
+            "fluid_torque\n"
+            "0,1,2,-0.1,0.3333333333333333,0.5,0,0.7,2,10,20,30\n"
+            "1,4,5,0,0,0.25,3,-1,0.14285714285714285,40,50,60.5\n");
+  const auto again = read(text, 2, true);
+  EXPECT_EQ(again.positions, p.positions);
+  EXPECT_EQ(again.velocities, p.velocities);
+  EXPECT_EQ(again.masses, p.masses);
+  EXPECT_EQ(again.angles, p.angles);
+  EXPECT_EQ(again.angular_velocities, p.angular_velocities);
+  EXPECT_TRUE(again.inertias.empty());
+}
+
+TEST_F(FluidParticleFile, OfSpheresOnAnAxisHasOneComponent) {
+  State state = no_particles(1);
+  add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
+  const auto text = write_particles(state.particles, std::vector<double>{-9});
+  EXPECT_EQ(text, "# rows: 1\nid,z,vz,radius,mass,fluid_force_z\n0,3,-0.5,1,0,-9\n");
+  const auto again = read(text, 1, true);
+  EXPECT_EQ(again.dimension, 1);
+  EXPECT_EQ(again.positions, std::vector<double>{3});
+  EXPECT_EQ(again.velocities, std::vector<double>{-0.5});
+  EXPECT_EQ(again.masses, std::vector<double>{0});
+  EXPECT_TRUE(again.angles.empty());
+}
+
+TEST_F(FluidParticleFile, WithoutRotationBeginsAtAngle0) {
+  const auto p = read("x,y,radius,mass\n1,2,1,0\n", 2, true);
+  EXPECT_EQ(p.angles, std::vector<double>{0});
+  EXPECT_EQ(p.angular_velocities, std::vector<double>{0});
+}
+
+TEST_F(FluidParticleFile, StaysAsItWasWithoutAFluid) {
+  auto p = discs_in_fluid();
+  p.angles = p.angular_velocities = {};
+  EXPECT_EQ(write_particles(p),
+            "# rows: 2\nid,x,y,vx,vy,radius,mass\n"
+            "0,1,2,-0.1,0.3333333333333333,0.5,0\n1,4,5,0,0,0.25,3\n");
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass,angle\n1,2,1,1,0\n", 2, false); }),
+              HasSubstr("has a column 'angle', which is not known; the known columns are id, x, y, "
+                        "z, vx, vy, vz, radius, mass"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,0\n", 2, false); }),
+              HasSubstr("mass is 0; it must be > 0"));
+}
+
+TEST_F(FluidParticleFile, IsRefusedWithTheLine) {
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,-1\n", 2, true); }),
+              HasSubstr("particles.csv:2: mass is -1; it must be 0 or at least 1e-100"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,0,1\n", 2, true); }),
+              HasSubstr("radius is 0; it must be > 0"));
+  EXPECT_THAT(bad_input([&] { read("z,x,radius,mass\n1,2,1,1\n", 1, true); }),
+              HasSubstr("particles.csv:2: has a value in a column of another dimension"));
+  EXPECT_THAT(bad_input([&] { read("z,radius,mass,spin\n1,2,1,1\n", 1, true); }),
+              HasSubstr("radius, mass, fluid_force_z"));
+  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass,fluid_force_z\n1,2,1,1,0\n", 2, true); }),
+              HasSubstr("angle, angular_velocity, fluid_force_x"));
+}
+
+TEST_F(FluidParticleFile, OfTheMotionHasARowForEachParticle) {
+  auto p = discs_in_fluid();
+  p.ids = {7, 3};
+  EXPECT_EQ(motion_header(2) + motion_rows(0.1, p),
+            "time,id,x,y,angle,vx,vy,angular_velocity\n"
+            "0.1,7,1,2,0.7,-0.1,0.3333333333333333,2\n"
+            "0.1,3,4,5,-1,0,0,0.14285714285714285\n");
+  State state = no_particles(1);
+  add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
+  EXPECT_EQ(motion_header(1) + motion_rows(2, state.particles), "time,id,z,vz\n2,0,3,-0.5\n");
+}
+
+}  // namespace
+}  // namespace viscontact::particles
