@@ -3,18 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 #include "viscontact/freefem/freefem_command.hpp"
 
 namespace viscontact::freefem_flow {
-namespace {
 
-constexpr std::string_view kScript = "flow.edp";
-
-}  // namespace
-
-SolverCommand solver_command(const particles::Fluid& fluid) {
+SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   const std::string silent =
       fmt::format("on a slow machine set {} to more seconds", freefem::kTimeLimit);
   if (!fluid.solver.empty()) {
@@ -24,9 +20,9 @@ SolverCommand solver_command(const particles::Fluid& fluid) {
     own.remedy_if_silent = silent;
     return own;
   }
-  auto command =
-      freefem::make_command(freefem::executable_of_user(),
-                            freefem::find_script_folder("freefem_flow", kScript), kScript, {});
+  const std::string_view script = dimension == 1 ? "spheres.edp" : "discs.edp";
+  const auto folder = freefem::find_script_folder("freefem_flow", script);
+  auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
           std::string(freefem::kHowToInstall),
           "too little memory can make FreeFEM hang (ulimit -v); " + silent};
@@ -42,8 +38,9 @@ SolverLimits solver_limits(const StopToken& stop) {
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(
     const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
     int dimension, MeshBoundaryMaker make_boundary, const StopToken& stop) {
-  return std::make_unique<FlowProcess>(fluid, domain, radii, dimension, solver_command(fluid),
-                                       std::move(make_boundary), solver_limits(stop));
+  return std::make_unique<FlowProcess>(fluid, domain, radii, dimension,
+                                       solver_command(fluid, dimension), std::move(make_boundary),
+                                       solver_limits(stop));
 }
 
 }  // namespace viscontact::freefem_flow

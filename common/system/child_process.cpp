@@ -47,7 +47,9 @@ void LastLines::add(Stream stream, std::string_view text) {
 }
 
 void LastLines::complete(std::string& line) {
-  if (line.find_first_not_of(kWhiteSpace) != std::string::npos) lines_.push_back(line);
+  const auto first = line.find_first_not_of(kWhiteSpace);
+  if (first != std::string::npos)
+    lines_.push_back(line.substr(first, line.find_last_not_of(kWhiteSpace) + 1 - first));
   line.clear();
   if (lines_.size() > kLines) lines_.pop_front();
 }

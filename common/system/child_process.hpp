@@ -16,7 +16,7 @@
 namespace viscontact {
 
 /// The last lines of two streams, in the order in which the lines were completed. Blank lines are
-/// left out, and the rest of a line beyond kLongest bytes is lost.
+/// left out, so is the white space at the ends of a line, and what is beyond kLongest bytes of it.
 class LastLines {
  public:
   static constexpr std::size_t kLines = 20, kLongest = 1000;

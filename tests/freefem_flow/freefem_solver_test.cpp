@@ -1,0 +1,119 @@
+// How FreeFEM and the solvers of users are started, with a shell script in FreeFEM's place.
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+/// Sets a variable of the environment as long as the object lives.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) {
+    ::setenv(name, value.c_str(), 1);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() { ::unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+particles::Fluid fluid_of_solver(std::vector<std::string> solver) {
+  particles::Fluid fluid;
+  fluid.viscosity = 1;
+  fluid.solver = std::move(solver);
+  return fluid;
+}
+
+TEST(SolverCommand, OfAUserIsTakenAsItIs) {
+  const auto command = solver_command(fluid_of_solver({"python3", "my solver.py"}), 2);
+  EXPECT_THAT(command.arguments, ::testing::ElementsAre("python3", "my solver.py"));
+  EXPECT_TRUE(command.environment.empty());
+  EXPECT_TRUE(command.folder.empty());
+}
+
+TEST(SolverLimits, AreThoseOfTheEnvironment) {
+  EXPECT_EQ(solver_limits().answer, 30min);
+  {
+    const Variable limit("VISCONTACT_FREEFEM_TIME_LIMIT", "5");
+    EXPECT_EQ(solver_limits().answer, 5s);
+  }
+  const Variable wrong("VISCONTACT_FREEFEM_TIME_LIMIT", "5 s");
+  EXPECT_THAT(failure(ErrorKind::kWrongUsage, [] { solver_limits(); }),
+              HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT is '5 s'"));
+}
+
+TEST(StartFluidSolver, StartsTheSolverOfAUser) {
+  const auto fluid =
+      fluid_of_solver({"python3", VISCONTACT_SOURCE_FOLDER "/examples/stokes_drag.py"});
+  const auto solver =
+      start_fluid_solver(fluid, particles::CylinderDomain{5, 10}, std::vector{1.0}, 1, {});
+  particles::Particles sphere;
+  sphere.dimension = 1;
+  sphere.positions = {5};
+  sphere.radii = {1};
+  solver->place({&sphere, {}, {}, {}});
+  EXPECT_NEAR(solver->velocities(std::vector{-1.0}, true).at(0), -0.0530516476972984451, 1e-16);
+}
+
+struct ScriptOfDimension {
+  int dimension;
+  std::string script;
+  particles::Domain domain;
+};
+
+TEST(StartFluidSolver, RunsFreeFemWithTheScriptOfTheDimension) {
+  for (const auto& [dimension, script, domain] :
+       {ScriptOfDimension{2, "discs.edp", particles::DiscDomain{{}, 8}},
+        ScriptOfDimension{1, "spheres.edp", particles::CylinderDomain{5, 10}}}) {
+    const TemporaryFolder folder;
+    const auto fake =
+        folder.file("fake", "#!/bin/sh\nprintf '%s|' \"$@\" \"$OMP_NUM_THREADS\" > " +
+                                (folder.path() / "asked").string() +
+                                "\nbasename \"$FF_INCLUDEPATH\"\necho ready places\n");
+    make_executable(fake);
+    const Variable freefem("VISCONTACT_FREEFEM", fake.string());
+    start_fluid_solver(fluid_of_solver({}), domain, {}, dimension, {});
+    const auto asked = read_file(folder.path() / "asked");
+    EXPECT_EQ(asked.substr(0, asked.find('/')), "-nw|-v|0|");
+    EXPECT_THAT(asked, EndsWith("/share/viscontact/freefem_flow/" + script + "|1|"));
+  }
+}
+
+TEST(StartFluidSolver, SaysHowToInstallFreeFem) {
+  const Variable freefem("VISCONTACT_FREEFEM", "no-such-freefem");
+  EXPECT_THAT(
+      failure(ErrorKind::kExternalProgram,
+              [] {
+                start_fluid_solver(fluid_of_solver({}), particles::DiscDomain{{}, 1}, {}, 2, {});
+              }),
+      AllOf(HasSubstr("no-such-freefem cannot be run"), HasSubstr("apt-get install"),
+            HasSubstr("VISCONTACT_FREEFEM")));
+}
+
+TEST(StartFluidSolver, SaysWhatToDoWithoutAProgram) {
+  const auto fluid = fluid_of_solver({"viscontact-no-such-solver"});
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
+                      [&] {
+                        start_fluid_solver(fluid, particles::DiscDomain{{}, 1}, {}, 2, {});
+                      }),
+              AllOf(HasSubstr("viscontact-no-such-solver cannot be run"),
+                    HasSubstr("first word of the fluid's solver")));
+}
+
+}  // namespace
+}  // namespace viscontact::freefem_flow
