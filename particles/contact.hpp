@@ -35,7 +35,8 @@ struct Contact {
   std::int32_t image = 0;  ///< Pair::image
 };
 
-/// Vector from the centre of particle `first` to that of the image `image` of particle `second` [L].
+/// Vector from the centre of particle `first` to that of the image `image` of particle `second`
+/// [L].
 template <int D>
 std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
                                  std::int32_t image) {
@@ -61,8 +62,8 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
 }
 
 /// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); obstacles are at
-/// `places`. D is 1, 2 or 3. If both centres coincide, the normal is the first axis, because every direction
-/// separates them.
+/// `places`. D is 1, 2 or 3. If both centres coincide, the normal is the first axis, because every
+/// direction separates them.
 template <int D>
 Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
   if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
@@ -160,8 +161,8 @@ std::array<double, D> relative_displacement(const Contact<D>& contact,
 }
 
 /// True if particle `contact.second` turns about particle `contact.first` by more than kLargestTurn
-/// in the step. Always false for a plane, whose linearised gap is exact, and for a circle, of which the
-/// projection takes the tangent where the free motion ends.
+/// in the step. Always false for a plane, whose linearised gap is exact, and for a circle, of which
+/// the projection takes the tangent where the free motion ends.
 template <int D>
 bool turns_too_far(const Particles& p, const Contact<D>& contact,
                    std::span<const double> displacements) {

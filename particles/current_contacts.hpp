@@ -32,8 +32,8 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
 /// Largest Pair::gamma_error of all pairs [M L/T].
 double largest_gamma_error(const State& state);
 
-/// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius; 0 if
-/// nothing overlaps. It checks all particles, not only the pairs in the neighbour list.
+/// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius;
+/// 0 if nothing overlaps. It checks all particles, not only the pairs in the neighbour list.
 double largest_overlap(const Setting& setting, const State& state);
 
 }  // namespace viscontact::particles

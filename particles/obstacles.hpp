@@ -1,5 +1,5 @@
-// The obstacles of the particles: the walls of the domain, then the planes of the case. Files number
-// them -1, -2, ... in this order. Lengths are in the unit of the case.
+// The obstacles of the particles: the walls of the domain, then the planes of the case. Files
+// number them -1, -2, ... in this order. Lengths are in the unit of the case.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace viscontact::particles {
 struct Setting;
 
 /// The walls of a domain, at rest, in the order that domain.hpp gives. The wall of a disc is a
-/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the particles:
-/// its gap is the distance from it, and its normal has no component along the axis.
+/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the
+/// particles: its gap is the distance from it, and its normal has no component along the axis.
 std::vector<Plane> obstacles_of(const Domain& domain);
 
 /// All obstacles of a case: the walls of its domain, then its planes.

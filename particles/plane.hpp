@@ -36,15 +36,16 @@ struct Plane {
 /// Positions of all planes at time t [T], in the order of `planes`.
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t);
 
-/// Gap D between a sphere and a plane, or a circle around it [L], docs/physics.md (5.1); < 0 if they
-/// overlap.
+/// Gap D between a sphere and a plane, or a circle around it [L], docs/physics.md (5.1); < 0 if
+/// they overlap.
 inline double gap(const PlanePosition& plane, const Vector& centre, double radius) {
   if (plane.is_curved()) return plane.radius - norm(centre - plane.point) - radius;
   return dot(plane.normal, centre - plane.point) - radius;
 }
 
-/// Unit normal, into the free side, at the point of the plane or circle that is nearest to `centre`.
-/// In the centre of a circle, where all its points are nearest, the normal is the first axis.
+/// Unit normal, into the free side, at the point of the plane or circle that is nearest to
+/// `centre`. In the centre of a circle, where all its points are nearest, the normal is the first
+/// axis.
 inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane.normal;
   const Vector inward = plane.point - centre;
@@ -52,8 +53,8 @@ inline Vector normal_at(const PlanePosition& plane, const Vector& centre) {
   return distance > 0 ? (1 / distance) * inward : Vector{1, 0, 0};
 }
 
-/// The plane that touches the circle at its point nearest to `centre`; a plane is returned as it is.
-/// The inside of the circle lies in its free side.
+/// The plane that touches the circle at its point nearest to `centre`; a plane is returned as it
+/// is. The inside of the circle lies in its free side.
 inline PlanePosition tangent_at(const PlanePosition& plane, const Vector& centre) {
   if (!plane.is_curved()) return plane;
   const Vector normal = normal_at(plane, centre);

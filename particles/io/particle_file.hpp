@@ -43,8 +43,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
 /// column fluid_force_z.
 std::string write_particles(const Particles& particles, std::span<const double> fluid_forces = {});
 
-/// The line with the names of the columns of motion.csv, and the rows of all particles at `time` [T]:
-/// time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
+/// The line with the names of the columns of motion.csv, and the rows of all particles at `time`
+/// [T]: time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
 std::string motion_header(int dimension);
 std::string motion_rows(double time, const Particles& particles);
 

@@ -29,8 +29,8 @@ struct StoredPair {
   double gamma, impulse, gamma_error;
 };
 
-/// Calls `field` for each stored field, in the order of a file of version `version`, for writing and
-/// for reading.
+/// Calls `field` for each stored field, in the order of a file of version `version`, for writing
+/// and for reading.
 template <class State, class Images, class Field>
 void for_fields(State& state, Images& images, int version, Field&& field) {
   auto& p = state.particles;

@@ -14,10 +14,10 @@ namespace viscontact::particles {
 
 /// Content of a VTK XML PolyData file (VTK's file formats, "XML file formats"; appended raw data).
 /// Each particle is a point with radius, velocity and id. Each contact of two particles is a line,
-/// and each contact with an obstacle a vertex at the particle; both have gap, gamma and the ids of both
-/// bodies (-1, -2, ... for obstacles), and in a periodic domain the image of the second particle. In
-/// two dimensions z = 0. The spheres of dimension 1 are on the axis z. In a fluid the points also
-/// have angle and angular velocity.
+/// and each contact with an obstacle a vertex at the particle; both have gap, gamma and the ids of
+/// both bodies (-1, -2, ... for obstacles), and in a periodic domain the image of the second
+/// particle. In two dimensions z = 0. The spheres of dimension 1 are on the axis z. In a fluid the
+/// points also have angle and angular velocity.
 std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts);
 
 /// What read_vtp reads from the file of a frame.

@@ -11,9 +11,9 @@
 
 namespace viscontact::particles {
 
-/// Brings all positions into the cell of a periodic domain (Particles::cell). Pairs keep their memory,
-/// their images and the list stay valid, and velocities do not change. Does nothing if the domain
-/// has no period.
+/// Brings all positions into the cell of a periodic domain (Particles::cell). Pairs keep their
+/// memory, their images and the list stay valid, and velocities do not change. Does nothing if the
+/// domain has no period.
 void wrap_into_cell(State& state);
 
 /// True as long as no pair outside state.pairs can touch after the particles have moved by
@@ -30,8 +30,8 @@ bool neighbour_list_is_valid(const State& state, std::span<const double> displac
 /// displacement, without the mean displacement, exceeds this length.
 void rebuild_neighbour_list(State& state, std::span<const double> displacements, ThreadPool& pool);
 
-/// Makes state.walls again: the particles closer than `margin` [L] to an obstacle, and those that are
-/// glued to it. `planes` are positions at the end of the step. Pairs keep their memory.
+/// Makes state.walls again: the particles closer than `margin` [L] to an obstacle, and those that
+/// are glued to it. `planes` are positions at the end of the step. Pairs keep their memory.
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,
                        ThreadPool& pool);
 
