@@ -28,7 +28,7 @@ std::string command_in_words(const std::vector<std::string>& arguments) {
 }
 
 /// A word of the solver for a message, in which a long one would hide the rest.
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   return word.size() <= kLongest ? fmt::format("'{}'", word)
                                  : fmt::format("'{}...'", word.substr(0, kLongest));
@@ -92,13 +92,14 @@ void SolverDialogue::expect(std::string_view word, bool skip_lines) {
   constexpr int kMostLines = 1000;
   for (int i = 0; i < kMostLines; ++i) {
     if (next_word() == word) return;
-    if (!skip_lines) refuse(quoted(word));
+    if (!skip_lines) refuse(in_quotes(word));
     process_->put_word_back();
     const auto line = process_->read_line(asked_at_ + time_limit_);
     process_->keep(line.text);
     if (line.state != ChildProcess::State::kRead) fail_without_answer(line.state);
   }
-  fail(fmt::format("it wrote {} other lines and not {}", kMostLines, quoted(word)), kGraceOfFailed);
+  fail(fmt::format("it wrote {} other lines and not {}", kMostLines, in_quotes(word)),
+       kGraceOfFailed);
 }
 
 std::string SolverDialogue::word() { return std::string(next_word()); }
@@ -134,7 +135,7 @@ void SolverDialogue::refuse(std::string_view needed) {
   process_->put_word_back();
   const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
   process_->put_word_back();  // so that the whole line is among the last lines
-  fail(fmt::format("it answered {} in place of {}", quoted(word), needed), kGraceOfFailed);
+  fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
 }
 
 void SolverDialogue::fail_as_solver_says() {
