@@ -1,0 +1,112 @@
+// The lengths of edges (edge_lengths.hpp), from distances to particles and walls. Lengths are in the
+// unit of the case.
+#include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
+
+#include <limits>
+#include <numbers>
+
+namespace viscontact::freefem_flow {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Edges across a gap follow the accuracy that is asked: with 24 edges on the smallest particle, an
+/// edge is at most this fraction of the gap.
+constexpr double kOfGapAt24Edges = 0.4;
+/// With fewer edges on the particle a gap still gets this many across, because a film with one edge
+/// across it is 7 % too stiff.
+constexpr double kLargestOfGap = 0.5;
+/// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
+/// proportional to the edge length, so that all lengths of a mesh shrink together.
+constexpr double kGrowthAt24Edges = 0.1;
+
+}  // namespace
+
+double size_of(const particles::Domain& domain) {
+  if (const auto* disc = std::get_if<particles::DiscDomain>(&domain)) return 2 * disc->radius;
+  if (const auto* cylinder = std::get_if<particles::CylinderDomain>(&domain))
+    return std::min(2 * cylinder->radius, cylinder->height);
+  const auto& box = std::get<particles::BoxDomain>(domain);
+  return std::min(box.to[0] - box.from[0], box.to[1] - box.from[1]);
+}
+
+double distance_to(const Circle& circle, const Point& x) {
+  return std::hypot(x[0] - circle.centre[0], x[1] - circle.centre[1]) - circle.radius;
+}
+
+EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
+                         const particles::FluidParticles& bodies)
+    : domain_(domain) {
+  const auto& p = *bodies.particles;
+  const double ratio = 24.0 / fluid.edges_per_particle;
+  double smallest = kFar;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto x = p.position(k);
+    circles_.push_back({p.dimension == 1 ? Point{0, x[0]} : Point{x[0], x[1]}, p.radii[k]});
+    smallest = std::min(smallest, p.radii[k]);
+  }
+  constexpr double kEdgesOfAWall = 6;  // at least, so that the flow in an empty domain is resolved
+  cap_ = size_of(domain) / kEdgesOfAWall;
+  longest_ = std::min(2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
+  growth_ = kGrowthAt24Edges * ratio;
+  of_gap_ = std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
+  const auto periods = particles::periods_of(domain);
+  const auto shifts = [](double period) { return period > 0 ? 1 : 0; };
+  for (int i = -shifts(periods[0]); i <= shifts(periods[0]); ++i)
+    for (int j = -shifts(periods[1]); j <= shifts(periods[1]); ++j)
+      for (const auto& circle : circles_)
+        images_.push_back(
+            {{circle.centre[0] + i * periods[0], circle.centre[1] + j * periods[1]},
+             circle.radius});
+  // Further neighbours leave the edges as long as they are.
+  const double reach = longest_ / of_gap_;
+  for (const auto& circle : circles_) {
+    auto& neighbours = neighbours_.emplace_back();
+    for (const auto& other : images_)
+      if (const double gap = distance_to(other, circle.centre) - circle.radius;
+          gap < reach && other.centre != circle.centre)
+        neighbours.push_back(other);
+  }
+}
+
+double EdgeLengths::distance_to_wall(const Point& x) const {
+  if (const auto* disc = std::get_if<particles::DiscDomain>(&domain_))
+    return disc->radius - std::hypot(x[0] - disc->centre[0], x[1] - disc->centre[1]);
+  if (const auto* cylinder = std::get_if<particles::CylinderDomain>(&domain_))
+    return std::min({cylinder->radius - x[0], x[1], cylinder->height - x[1]});
+  double distance = kFar;
+  if (const auto* box = std::get_if<particles::BoxDomain>(&domain_))
+    for (std::size_t d = 0; d < 2; ++d)
+      if (!box->periodic[d]) distance = std::min({distance, x[d] - box->from[d], box->to[d] - x[d]});
+  return distance;
+}
+
+std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const {
+  double nearest = kFar, second = kFar;
+  for (const auto& circle : images_) {
+    const double distance = distance_to(circle, x);
+    second = std::min(second, std::max(nearest, distance));
+    nearest = std::min(nearest, distance);
+  }
+  return {nearest, second};
+}
+
+double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
+  double distance = distance_to_wall(x);
+  for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
+  return std::min(longest_, of_gap_ * distance);
+}
+
+double EdgeLengths::on_wall(const Point& x) const {
+  const double distance = distances_to_particles(x)[0];
+  return std::min({longest_ + growth_ * distance, of_gap_ * distance, cap_});
+}
+
+double EdgeLengths::in_fluid(const Point& x) const {
+  const auto [nearest, second] = distances_to_particles(x);
+  const double wall = distance_to_wall(x);
+  const double gap = std::min({nearest + second, nearest + wall});
+  return std::min({longest_ + growth_ * nearest, of_gap_ * gap, cap_});
+}
+
+}  // namespace viscontact::freefem_flow

@@ -1,0 +1,95 @@
+// How long the edges of the mesh are at a point of the boundary. Lengths are in the unit of the
+// case. bench/README.md has the errors of velocities that the constants give.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::freefem_flow {
+
+using Point = std::array<double, 2>;
+
+/// A particle or its image, with the point (0, z) for a sphere on the axis.
+struct Circle {
+  Point centre;
+  double radius;
+};
+
+/// The smallest extent of the domain [L].
+double size_of(const particles::Domain& domain);
+
+/// Distance of a point from the surface of the circle; < 0 inside.
+double distance_to(const Circle& circle, const Point& x);
+
+/// Edge lengths on surfaces, walls, the axis and periodic sides.
+class EdgeLengths {
+ public:
+  EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
+              const particles::FluidParticles& bodies);
+
+  /// At a point on the surface of particle k: the length that `edges_per_particle` gives, and at
+  /// most a fraction of the distance to the nearest other surface.
+  double on_particle(std::size_t k, const Point& x) const;
+
+  /// At a point on a wall: longer the further the nearest particle is, and at most a fraction of the
+  /// distance to it.
+  double on_wall(const Point& x) const;
+
+  /// At a point on the axis or on a periodic side, in the gap between the two nearest surfaces.
+  double in_fluid(const Point& x) const;
+
+  /// On a mesh that does not know the particles: the same length everywhere.
+  double uniform() const { return longest_; }
+
+  const std::vector<Circle>& circles() const { return circles_; }
+
+ private:
+  double distance_to_wall(const Point& x) const;
+  /// Distances to the nearest and the second nearest particle or image.
+  std::array<double, 2> distances_to_particles(const Point& x) const;
+
+  particles::Domain domain_;
+  double longest_, growth_, of_gap_;
+  double cap_;  // no edge is longer
+  std::vector<Circle> circles_;  // of the particles
+  std::vector<Circle> images_;   // of the particles and, in a period, of their images
+  std::vector<std::vector<Circle>> neighbours_;  // of each particle: those that shorten its edges
+};
+
+/// Cuts a curve of this length into edges and returns their ends, as distances along the curve from
+/// 0 to `length`. `edge_length(s)` > 0 is the wanted length at s. All edges are shorter than wanted
+/// by the same factor, so that a whole number of them fits; there are at least `least` edges.
+template <class EdgeLength>
+std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength& edge_length) {
+  // cost[i]: number of edges, not rounded, from 0 to place[i].
+  std::vector<double> place = {0}, cost = {0};
+  constexpr double kSamplesPerEdge = 8;
+  while (place.back() < length) {
+    const double s = place.back();
+    const double wanted = edge_length(s);
+    const double step = wanted / kSamplesPerEdge;
+    const double next = s + step < length * (1 - 1e-12) ? s + step : length;
+    cost.push_back(cost.back() + 2 * (next - s) / (wanted + edge_length(next)));
+    place.push_back(next);
+  }
+  const auto edges = std::max(least, static_cast<std::size_t>(std::ceil(cost.back() - 1e-9)));
+  std::vector<double> ends = {0};
+  std::size_t i = 0;
+  for (std::size_t e = 1; e < edges; ++e) {
+    const double target = cost.back() * static_cast<double>(e) / static_cast<double>(edges);
+    while (cost[i + 1] < target) ++i;
+    ends.push_back(place[i] +
+                   (target - cost[i]) / (cost[i + 1] - cost[i]) * (place[i + 1] - place[i]));
+  }
+  ends.push_back(length);
+  return ends;
+}
+
+}  // namespace viscontact::freefem_flow

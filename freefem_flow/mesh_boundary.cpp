@@ -1,0 +1,202 @@
+// Puts the boundary of a mesh together from walls, periodic sides, the axis and the surfaces of the
+// particles (mesh_boundary.hpp). Lengths are in the unit of the case.
+#include "viscontact/freefem_flow/mesh_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+
+#include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
+#include "viscontact/freefem_flow/boundary/periodic_cells.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+constexpr std::size_t kLeastOnCircle = 6;
+
+class BoundaryMaker {
+ public:
+  BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
+                const particles::FluidParticles& bodies)
+      : fitted_(fluid.mesh == particles::FluidMesh::kFitted),
+        has_holes_(fluid.constraint == particles::RigidConstraint::kRigid),
+        lengths_(fluid, domain, bodies) {}
+
+  MeshBoundary of(const particles::DiscDomain& disc) {
+    add_circle({{disc.centre[0], disc.centre[1]}, disc.radius}, 1, false,
+               [&](const Point& x) { return on_wall(x); });
+    add_particles();
+    return std::move(boundary_);
+  }
+
+  MeshBoundary of(const particles::BoxDomain& box) {
+    const bool is_periodic = box.periodic[0] || box.periodic[1];
+    if (fitted_ && is_periodic && !lengths_.circles().empty())
+      add_cells(box);
+    else
+      add_sides(box);
+    add_particles();
+    return std::move(boundary_);
+  }
+
+  MeshBoundary of(const particles::CylinderDomain& cylinder) {
+    const double radius = cylinder.radius, height = cylinder.height;
+    const auto wall = [&](const Point& x) { return on_wall(x); };
+    add_line({0, 0}, {radius, 0}, 2, wall);
+    add_line({radius, 0}, {radius, height}, 1, wall);
+    add_line({radius, height}, {0, height}, 3, wall);
+    add_axis(height);
+    return std::move(boundary_);
+  }
+
+  MeshBoundary of(const std::monostate&) { return {}; }
+
+ private:
+  double on_wall(const Point& x) const {
+    return fitted_ ? lengths_.on_wall(x) : lengths_.uniform();
+  }
+  double in_fluid(const Point& x) const {
+    return fitted_ ? lengths_.in_fluid(x) : lengths_.uniform();
+  }
+
+  void add_curve(const std::vector<Point>& points, int label) {
+    boundary_.curves.push_back({static_cast<int>(boundary_.points.size()),
+                                static_cast<int>(points.size()) - 1, label});
+    boundary_.points.insert(boundary_.points.end(), points.begin(), points.end());
+  }
+
+  template <class EdgeLength>
+  static std::vector<Point> line(const Point& from, const Point& to, const EdgeLength& edge_length) {
+    const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+    const auto at = [&](double s) {
+      return Point{from[0] + s / length * (to[0] - from[0]),
+                   from[1] + s / length * (to[1] - from[1])};
+    };
+    std::vector<Point> points;
+    for (const double s : cut_curve(length, 1, [&](double t) { return edge_length(at(t)); }))
+      points.push_back(at(s));
+    points.front() = from;
+    points.back() = to;
+    return points;
+  }
+
+  template <class EdgeLength>
+  void add_line(const Point& from, const Point& to, int label, const EdgeLength& edge_length) {
+    add_curve(line(from, to, edge_length), label);
+  }
+
+  template <class EdgeLength>
+  void add_circle(const Circle& circle, int label, bool is_hole, const EdgeLength& edge_length) {
+    const auto at = [&](double s) {
+      const double angle = s / circle.radius;
+      return Point{circle.centre[0] + circle.radius * std::cos(angle),
+                   circle.centre[1] + circle.radius * std::sin(angle)};
+    };
+    std::vector<Point> points;
+    for (const double s : cut_curve(2 * std::numbers::pi * circle.radius, kLeastOnCircle,
+                                    [&](double t) { return edge_length(at(t)); }))
+      points.push_back(at(s));
+    points.back() = points.front();
+    if (is_hole) std::ranges::reverse(points);
+    add_curve(points, label);
+  }
+
+  void add_particles() {
+    if (!fitted_) return;
+    for (std::size_t k = 0; k < lengths_.circles().size(); ++k)
+      add_circle(lengths_.circles()[k], kFirstParticleLabel + static_cast<int>(k), has_holes_,
+                 [&](const Point& x) { return lengths_.on_particle(k, x); });
+  }
+
+  /// The four sides of a box. Opposite sides that are periodic get the same points.
+  void add_sides(const particles::BoxDomain& box) {
+    const auto& a = box.from;
+    const auto& b = box.to;
+    const auto wall = [&](const Point& x) { return on_wall(x); };
+    const auto uniform = [&](const Point&) { return lengths_.uniform(); };
+    const auto side = [&](const Point& from, const Point& to, int label, bool is_periodic) {
+      if (is_periodic)
+        add_line(from, to, kPeriodicLabel, uniform);
+      else
+        add_line(from, to, label, wall);
+    };
+    side({a[0], a[1]}, {b[0], a[1]}, 3, box.periodic[1]);
+    side({b[0], a[1]}, {b[0], b[1]}, 2, box.periodic[0]);
+    side({b[0], b[1]}, {a[0], b[1]}, 4, box.periodic[1]);
+    side({a[0], b[1]}, {a[0], a[1]}, 1, box.periodic[0]);
+  }
+
+  void add_cells(const particles::BoxDomain& box) {
+    const auto edges = periodic_cells(box, lengths_.circles());
+    std::vector<std::vector<Point>> points(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto& edge = edges[e];
+      const auto partner = static_cast<std::size_t>(std::max(edge.partner, 0));
+      if (edge.partner < 0 || partner > e) {
+        points[e] = line(edge.from, edge.to, [&](const Point& x) {
+          return edge.partner < 0 ? on_wall(x) : in_fluid(x);
+        });
+      } else {
+        // The same points as those of the partner, in the opposite order, shifted by the period.
+        const Point shift = {edge.from[0] - edges[partner].to[0],
+                             edge.from[1] - edges[partner].to[1]};
+        points[e] = points[partner];
+        std::ranges::reverse(points[e]);
+        for (auto& x : points[e]) x = {x[0] + shift[0], x[1] + shift[1]};
+        points[e].front() = edge.from;
+        points[e].back() = edge.to;
+      }
+      add_curve(points[e], edge.label);
+    }
+  }
+
+  /// The axis from the lid to the floor, and the half circles of the spheres on it.
+  void add_axis(double height) {
+    const auto& circles = lengths_.circles();
+    std::vector<std::size_t> order(fitted_ ? circles.size() : 0);
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+      return circles[a].centre[1] > circles[b].centre[1];
+    });
+    const auto fluid = [&](const Point& x) { return in_fluid(x); };
+    double z = height;
+    for (const auto k : order) {
+      const auto& circle = circles[k];
+      const double top = circle.centre[1] + circle.radius, bottom = top - 2 * circle.radius;
+      add_line({0, z}, {0, top}, kAxisLabel, fluid);
+      const auto at = [&](double s) {
+        const double angle = s / circle.radius;
+        return Point{circle.radius * std::sin(angle),
+                     circle.centre[1] + circle.radius * std::cos(angle)};
+      };
+      std::vector<Point> points;
+      for (const double s : cut_curve(std::numbers::pi * circle.radius, kLeastOnCircle / 2,
+                                      [&](double t) { return lengths_.on_particle(k, at(t)); }))
+        points.push_back(at(s));
+      points.front() = {0, top};
+      points.back() = {0, bottom};
+      add_curve(points, kFirstParticleLabel + static_cast<int>(k));
+      if (!has_holes_)
+        add_line({0, top}, {0, bottom}, kAxisLabel,
+                 [&](const Point&) { return lengths_.uniform(); });
+      z = bottom;
+    }
+    add_line({0, z}, {0, 0}, kAxisLabel, fluid);
+  }
+
+  bool fitted_, has_holes_;
+  EdgeLengths lengths_;
+  MeshBoundary boundary_;
+};
+
+}  // namespace
+
+MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
+                           const particles::FluidParticles& bodies) {
+  BoundaryMaker maker(fluid, domain, bodies);
+  return std::visit([&](const auto& shape) { return maker.of(shape); }, domain);
+}
+
+}  // namespace viscontact::freefem_flow

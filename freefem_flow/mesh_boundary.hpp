@@ -1,0 +1,37 @@
+// The boundary of a mesh, as the fluid solver gets it (docs/fluid-solver.md). Lengths are in the
+// unit of the case.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::freefem_flow {
+
+/// Labels of curves. Walls have those of the protocol: a box 1 left, 2 right, 3 bottom, 4 top; a
+/// disc 1; a cylinder 1 side, 2 floor, 3 lid.
+inline constexpr int kAxisLabel = 5, kPeriodicLabel = 9, kFirstParticleLabel = 100;
+
+/// Curves, each a chain of straight edges. The fluid is on the left of each outer curve.
+struct MeshBoundary {
+  struct Curve {
+    int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
+    int edges = 0;
+    int label = 0;
+  };
+  std::vector<std::array<double, 2>> points;
+  std::vector<Curve> curves;
+};
+
+/// The boundary of a mesh for these particles, whose gaps must be greater than 0. With a fitted
+/// mesh, edges get shorter where a gap is narrow (boundary/edge_lengths.hpp), and the particles'
+/// surfaces are curves: holes of the mesh if the rigid motions are unknowns, else lines inside it.
+/// Where the domain is periodic, a fitted mesh does not end at straight sides, which would cut
+/// particles, but halfway between neighbours (boundary/periodic_cells.hpp).
+MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
+                           const particles::FluidParticles& bodies);
+
+}  // namespace viscontact::freefem_flow
