@@ -3,12 +3,20 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "viscontact/freefem/freefem_command.hpp"
 
 namespace viscontact::freefem_flow {
+namespace {
+
+std::string script_of(particles::FluidMesh mesh, int dimension) {
+  const std::string bodies = dimension == 1 ? "spheres" : "discs";
+  return bodies + (mesh == particles::FluidMesh::kFixed ? "_on_fixed_mesh.edp" : ".edp");
+}
+
+}  // namespace
 
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   const std::string silent =
@@ -20,7 +28,7 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
     own.remedy_if_silent = silent;
     return own;
   }
-  const std::string_view script = dimension == 1 ? "spheres.edp" : "discs.edp";
+  const std::string script = script_of(fluid.mesh, dimension);
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),

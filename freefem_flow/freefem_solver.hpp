@@ -10,9 +10,10 @@
 namespace viscontact::freefem_flow {
 
 /// The command of the solver of `fluid`: that of the user's own if there is one, else FreeFEM with
-/// the script discs.edp (dimension 2) or spheres.edp (dimension 1) of share/viscontact/freefem_flow,
-/// which is in the folder of this program or in the one above it. VISCONTACT_FREEFEM, if set, is the
-/// FreeFEM to run. Throws Error(kExternalProgram) if there is no such script.
+/// a script of share/viscontact/freefem_flow, which is in the folder of this program or in the one
+/// above it: discs.edp (dimension 2) or spheres.edp (dimension 1), or with a fixed mesh
+/// discs_on_fixed_mesh.edp or spheres_on_fixed_mesh.edp. VISCONTACT_FREEFEM, if set, is the FreeFEM
+/// to run. Throws Error(kExternalProgram) if there is no such script.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
 /// The limit of an answer is VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of

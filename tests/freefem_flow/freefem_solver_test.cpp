@@ -70,16 +70,22 @@ TEST(StartFluidSolver, StartsTheSolverOfAUser) {
   EXPECT_NEAR(solver->velocities(std::vector{-1.0}, true).at(0), -0.0530516476972984451, 1e-16);
 }
 
-struct ScriptOfDimension {
+struct ExpectedScript {
   int dimension;
+  particles::FluidMesh mesh;
   std::string script;
   particles::Domain domain;
 };
 
-TEST(StartFluidSolver, RunsFreeFemWithTheScriptOfTheDimension) {
-  for (const auto& [dimension, script, domain] :
-       {ScriptOfDimension{2, "discs.edp", particles::DiscDomain{{}, 8}},
-        ScriptOfDimension{1, "spheres.edp", particles::CylinderDomain{5, 10}}}) {
+TEST(StartFluidSolver, RunsFreeFemWithTheScriptOfTheDimensionAndMesh) {
+  using enum particles::FluidMesh;
+  const particles::DiscDomain disc = {{}, 8};
+  const particles::CylinderDomain cylinder = {5, 10};
+  for (const auto& [dimension, mesh, script, domain] :
+       {ExpectedScript{2, kFitted, "discs.edp", disc},
+        ExpectedScript{2, kFixed, "discs_on_fixed_mesh.edp", disc},
+        ExpectedScript{1, kFitted, "spheres.edp", cylinder},
+        ExpectedScript{1, kFixed, "spheres_on_fixed_mesh.edp", cylinder}}) {
     const TemporaryFolder folder;
     const auto fake =
         folder.file("fake", "#!/bin/sh\nprintf '%s|' \"$@\" \"$OMP_NUM_THREADS\" > " +
@@ -87,7 +93,9 @@ TEST(StartFluidSolver, RunsFreeFemWithTheScriptOfTheDimension) {
                                 "\nbasename \"$FF_INCLUDEPATH\"\necho ready places\n");
     make_executable(fake);
     const Variable freefem("VISCONTACT_FREEFEM", fake.string());
-    start_fluid_solver(fluid_of_solver({}), domain, {}, dimension, {});
+    auto fluid = fluid_of_solver({});
+    fluid.mesh = mesh;
+    start_fluid_solver(fluid, domain, {}, dimension, {});
     const auto asked = read_file(folder.path() / "asked");
     EXPECT_EQ(asked.substr(0, asked.find('/')), "-nw|-v|0|");
     EXPECT_THAT(asked, EndsWith("/share/viscontact/freefem_flow/" + script + "|1|"));
