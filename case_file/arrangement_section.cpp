@@ -15,12 +15,12 @@
 namespace viscontact::case_file {
 namespace {
 
-constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
+constexpr Allowed kAreaFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
 // Squares of these numbers and of their inverses are finite and not 0.
-constexpr Allowed kSize = {[](double v) { return v >= 1e-100 && v <= 1e100; },
-                           "from 1e-100 to 1e100"};
-constexpr Allowed kMass = {[](double v) { return v == 0 || (v >= 1e-100 && v <= 1e100); },
-                           "0, or from 1e-100 to 1e100"};
+constexpr Allowed kDiscSize = {[](double v) { return v >= 1e-100 && v <= 1e100; },
+                               "from 1e-100 to 1e100"};
+constexpr Allowed kDiscMass = {[](double v) { return v == 0 || (v >= 1e-100 && v <= 1e100); },
+                               "0, or from 1e-100 to 1e100"};
 constexpr int kMostDiscs = 1000000;
 
 /// Reads `count`, or computes the count from `area_fraction`.
@@ -30,7 +30,7 @@ std::size_t read_count(const TomlSection& section, double radius, const particle
     section.fail("count", "must be left out, because area_fraction is given");
   if (!has_fraction) return static_cast<std::size_t>(section.count("count", 1, kMostDiscs));
   const auto count =
-      particles::count_of(section.number("area_fraction", kFraction), radius, domain);
+      particles::count_of(section.number("area_fraction", kAreaFraction), radius, domain);
   if (count > static_cast<std::size_t>(kMostDiscs))
     section.fail("area_fraction", fmt::format("makes {} discs of this radius; at most {} are "
                                               "allowed",
@@ -49,7 +49,7 @@ particles::Arrangement read_arrangement(const TomlSection& section, const partic
     section.fail("radius",
                  "belongs to an arrangement, which needs a section [domain] with a disc or a box");
   particles::Arrangement asked;
-  asked.radius = section.number("radius", kSize);
+  asked.radius = section.number("radius", kDiscSize);
   asked.count = read_count(section, asked.radius, domain);
   constexpr double kGapInRadii = 0.05;
   asked.smallest_gap = section.has("smallest_gap") ? section.number("smallest_gap", kNotNegative)
@@ -58,7 +58,7 @@ particles::Arrangement read_arrangement(const TomlSection& section, const partic
     asked.seed =
         static_cast<std::uint64_t>(section.count("seed", 0, std::numeric_limits<int>::max()));
   const bool needs_mass = !has_fluid || section.has("mass");
-  const double mass = needs_mass ? section.number("mass", has_fluid ? kMass : kSize) : 0;
+  const double mass = needs_mass ? section.number("mass", has_fluid ? kDiscMass : kDiscSize) : 0;
   section.finish();
   const std::string_view key = section.has("count") ? "count" : "area_fraction";
   const auto centres = at_key(section, key, [&] { return particles::arrange(asked, domain, p); });

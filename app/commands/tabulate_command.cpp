@@ -3,14 +3,12 @@
 // pipeline/tabulate/ does the work.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "viscontact/app/arguments/array_options.hpp"
 #include "viscontact/app/arguments/command_options.hpp"
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/interrupt.hpp"
@@ -18,7 +16,7 @@
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/pipeline/tabulate/picture_stage.hpp"
-#include "viscontact/pipeline/tabulate/slurm.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_job.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 
 namespace viscontact::app {
@@ -27,26 +25,13 @@ namespace {
 
 struct TabulateOptions {
   std::vector<std::string> case_files;
-  std::string output, launcher = "local", slurm_options, task, plot;
+  std::string output, plot;
+  ArrayOptions array;
   int jobs = default_jobs();
-  std::size_t tasks = 0;
-  bool gather = false, dry_run = false, json = false;
+  bool dry_run = false, json = false;
   /// CLI11's objects of --jobs and --plot, which tell whether an option was given.
   const CLI::Option *jobs_option = nullptr, *plot_option = nullptr;
 };
-
-/// Reads the K/T of --task. Throws Error(kWrongUsage) unless these are integers with 0 <= K < T.
-pipeline::Share read_share(const std::string& text) {
-  pipeline::Share share;
-  const char* const end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, share.number);
-  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
-    const auto count = std::from_chars(number.ptr + 1, end, share.count);
-    if (count.ec == std::errc() && count.ptr == end && share.number < share.count) return share;
-  }
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--task is '{}'; it must be K/T with 0 <= K < T", text));
-}
 
 /// Reads the gaps of --plot. Throws Error(kWrongUsage) for a word that is not a number.
 std::vector<double> read_gaps(const std::string& text) {
@@ -64,25 +49,9 @@ std::vector<double> read_gaps(const std::string& text) {
   return gaps;
 }
 
-/// Calls `call`. The message of an Error for missing rows or of Slurm is followed by `remedy`,
-/// which names the options that help.
-template <class Call>
-void with_remedy(std::string_view remedy, const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kNotConverged && error.kind() != ErrorKind::kExternalProgram)
-      throw;
-    throw Error(error.kind(), fmt::format("{}; {}", error.what(), remedy));
-  }
-}
-
 void tabulate_cases(const TabulateOptions& o) {
-  const bool slurm = o.launcher == "slurm";
-  if (!slurm && (o.tasks > 0 || !o.slurm_options.empty()))
-    throw Error(ErrorKind::kWrongUsage, "--tasks and --slurm-options need --launcher slurm");
+  check_array_options(o.array);
   check_outputs({o.output});
-  const auto share = o.task.empty() ? pipeline::Share() : read_share(o.task);
   const auto gaps = read_gaps(o.plot);
   const auto tables = pipeline::read_case_tables(o.case_files, o.output);
   for (const auto& one : tables)
@@ -101,22 +70,16 @@ void tabulate_cases(const TabulateOptions& o) {
     fmt::print("{}", pipeline::dry_run_text(runs, o.jobs, o.json));
     return;
   }
-  if (slurm)
-    with_remedy("see --slurm-options, --tasks, or leave out --launcher slurm", [&] {
-      pipeline::submit_to_slurm(tables,
-                                {o.output, o.tasks > 0 ? std::optional(o.tasks) : std::nullopt,
-                                 o.jobs_option->count() > 0 ? std::optional(o.jobs) : std::nullopt,
-                                 o.slurm_options, interrupt_token()});
+  if (o.array.is_slurm())
+    with_remedy(kRemedyOfSlurm, [&] {
+      pipeline::submit_to_slurm(tables, array_request(o.array, o.output, *o.jobs_option, o.jobs));
     });
-  else if (o.gather)
-    with_remedy(
-        "the same command without --gather computes the missing rows here, or with --launcher "
-        "slurm or --task elsewhere",
-        [&] {
-          pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
-        });
-  else if (!o.task.empty())
-    pipeline::share_stage(tables, share, o.jobs, interrupt_token());
+  else if (o.array.gather)
+    with_remedy(kRemedyOfGather, [&] {
+      pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
+    });
+  else if (!o.array.task.empty())
+    pipeline::share_stage(tables, share_of(o.array), o.jobs, interrupt_token());
   else
     pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
@@ -137,21 +100,7 @@ void add_tabulate(CLI::App& app) {
       ->required();
   o->jobs_option = add_jobs(*command, o->jobs,
                             "number of FreeFEM processes at once; default in each Slurm task: 1");
-  auto* launcher = add_value(*command, "--launcher", o->launcher, "local|slurm",
-                             "local: compute here; slurm: submit an array job")
-                       ->check(one_of({"local", "slurm"}))
-                       ->capture_default_str();
-  command
-      ->add_option("--tasks", o->tasks,
-                   "tasks of the array job; default: one for each row, at most 1000")
-      ->check(CLI::Range(1, 4000000));
-  add_value(*command, "--slurm-options", o->slurm_options, "OPTIONS",
-            "more options for sbatch, in one argument");
-  auto* gather = command->add_flag(
-      "--gather", o->gather, "write the tables from the rows of an array job, and compute no row");
-  auto* task = command->add_option("--task", o->task,
-                                   "K/T: compute only the rows K, K+T, ..., and write no table (as "
-                                   "each task of the array job does)");
+  add_array_options(*command, o->array, "the tables");
   auto* plot =
       add_value(
           *command, "--plot", o->plot, "[GAP,GAP,...]",
@@ -162,11 +111,12 @@ void add_tabulate(CLI::App& app) {
                                 "print how many rows there are and about how long they take");
   auto* json = add_json(*command, o->json);
   json->needs(dry);
-  dry->excludes(launcher)->excludes(gather)->excludes(task)->excludes(plot);
-  gather->excludes(launcher);
-  plot->excludes(launcher);
+  for (auto* option : {o->array.launcher_option, o->array.gather_option, o->array.task_option})
+    dry->excludes(option);
+  dry->excludes(plot);
+  plot->excludes(o->array.launcher_option);
   o->plot_option = plot;
-  task->excludes(launcher)->excludes(gather)->excludes(plot);
+  o->array.task_option->excludes(plot);
   command->callback([o] { tabulate_cases(*o); });
 }
 

@@ -9,6 +9,7 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/pipeline/array_job.hpp"
 
 namespace viscontact::pipeline {
 
@@ -27,13 +28,8 @@ struct CaseTable {
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const std::filesystem::path& output);
 
-/// The rows that task `number` of `count` tasks computes. The rows of all tables are numbered in
-/// one sequence from 0; the task computes those whose number modulo `count` is `number`.
-struct Share {
-  std::size_t number = 0, count = 1;
-};
-
-/// The points of each table's grid that belong to the share.
+/// The points of each table's grid that belong to the share. The rows of all tables are numbered in
+/// one sequence from 0.
 std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
                                                            const Share& share);
 
@@ -50,7 +46,7 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
 
 /// Writes the tables from finished rows and computes none. If rows are missing, throws at the end
 /// an error that names them: Error(kExternalProgram) if some of them failed, else
-/// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (slurm.hpp).
+/// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (array_job.hpp).
 void gather_stage(const std::vector<CaseTable>& tables, const std::filesystem::path& slurm_folder,
                   const StopToken& stop);
 

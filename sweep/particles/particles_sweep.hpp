@@ -66,6 +66,12 @@ class ParticlesSweep {
   /// have the same text.
   std::string case_text(std::uint64_t index) const;
 
+  /// The text of the case with no number changed, which may be in any folder.
+  std::string base_text() const { return case_.text_with({}); }
+
+  /// The CSV file of particles that the case names; empty if there is none.
+  const std::filesystem::path& particles_file() const { return particles_file_; }
+
   /// Hash of everything that determines the results of row `index`, with this version of Viscontact.
   std::string identity(std::uint64_t index, const std::string& version) const;
 

@@ -1,6 +1,6 @@
-// The array job of a tabulation: its tasks, its script and the calls of squeue and sbatch. Each
-// task runs `viscontact tabulate --task K/T`, where K is the number of the task.
-#include "viscontact/pipeline/tabulate/slurm.hpp"
+// An array job: its tasks, its script and the calls of squeue and sbatch. Each task runs `viscontact
+// COMMAND --task K/T`, where K is the number of the task.
+#include "viscontact/pipeline/array_job.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,8 @@ std::string job_name(const fs::path& output) {
 
 /// Runs a program of Slurm and returns its output without the last newline. Throws
 /// Error(kExternalProgram) if the program cannot be run or fails.
-std::string ask_slurm(const std::vector<std::string>& command, const StopToken& stop) {
+std::string ask_slurm(const std::vector<std::string>& command, const std::string& here,
+                      const StopToken& stop) {
   auto result = run_process(command, {}, {}, {}, {}, stop);
   while (!result.output.empty() && result.output.back() == '\n') result.output.pop_back();
   std::string said;
@@ -44,44 +45,13 @@ std::string ask_slurm(const std::vector<std::string>& command, const StopToken& 
   if (!result.started)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} cannot be run ({}); submit where Slurm is installed (apt-get "
-                            "install slurm-client), or tabulate here",
-                            command.front(), said));
+                            "install slurm-client), or {} here",
+                            command.front(), said, here));
   if (result.exit_status != 0)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} failed (exit status {}): {}; nothing was submitted",
                             command.front(), result.exit_status, said));
   return result.output;
-}
-
-/// Throws Error(kBadInput) if Slurm has a job for this output that is not over.
-void refuse_second_job(const fs::path& output, const StopToken& stop) {
-  std::string jobs = ask_slurm({"squeue", "--noheader", "--format=%F",
-                                "--states=PENDING,RUNNING,SUSPENDED", "--name=" + job_name(output)},
-                               stop);
-  if (jobs.empty()) return;
-  const std::string job = jobs.substr(0, jobs.find('\n'));
-  throw_bad_input({output.string()},
-                  fmt::format("is being tabulated by Slurm job {0}; wait until it "
-                              "is over (squeue -j {0}), or end it (scancel {0})",
-                              job));
-}
-
-/// The numbers of the tasks that have rows to compute.
-std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, std::size_t count) {
-  std::vector<freefem_axi::RowRecord> records;
-  records.reserve(tables.size());
-  for (const auto& one : tables)
-    records.push_back(freefem_axi::read_row_record(one.table, one.hash()));
-  std::vector<std::size_t> tasks;
-  for (std::size_t task = 0; task < count; ++task) {
-    const auto points = points_of(tables, {task, count});
-    for (std::size_t i = 0; i < tables.size(); ++i)
-      if (!freefem_axi::missing_points(records[i], points[i]).empty()) {
-        tasks.push_back(task);
-        break;
-      }
-  }
-  return tasks;
 }
 
 /// The numbers of the tasks as sbatch --array reads them, for example "0-3,7". Runs of numbers are
@@ -96,18 +66,24 @@ std::string array_of(const std::vector<std::size_t>& tasks) {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += " " + shell_word(word);
+  return text;
+}
+
 /// The script of a task. It runs this program with the copies of the cases that were made when the
 /// job was submitted.
-std::string task_script(const std::vector<CaseTable>& tables, const SlurmRequest& request,
-                        std::size_t count) {
-  std::string command = shell_word(fs::read_symlink("/proc/self/exe").string()) + " tabulate";
-  for (const auto& one : tables)
-    command += " " + shell_word((slurm_folder(request.output) / one.c.path.filename()).string());
+std::string task_script(const ArrayJob& job, const ArrayRequest& request) {
+  std::vector<std::string> copies;
+  for (const auto& [name, text] : job.copies)
+    copies.push_back((slurm_folder(request.output) / name).string());
   return fmt::format(
-      "#!/bin/sh\n# One task of the array; made by viscontact.\nexec {} -o {} --jobs {} --task "
-      "\"$SLURM_ARRAY_TASK_ID/{}\"\n",
-      command, shell_word(absolute_output(request.output).string()), request.jobs.value_or(1),
-      count);
+      "#!/bin/sh\n# One task of the array; made by viscontact.\nexec {} {}{} -o {}{} --jobs {} "
+      "--task \"$SLURM_ARRAY_TASK_ID/{}\"\n",
+      shell_word(fs::read_symlink("/proc/self/exe").string()), job.command, joined(copies),
+      shell_word(absolute_output(request.output).string()), joined(job.options),
+      request.jobs.value_or(1), job.count);
 }
 
 /// The names of the logs, in which sbatch replaces %A by the job's number and %a by the task's. A %
@@ -119,57 +95,65 @@ std::string log_pattern(const fs::path& folder) {
   return pattern + "/%A_%a.log";
 }
 
-/// The command, for the user, that puts the tables together after the job is over.
-std::string gather_command(const std::vector<CaseTable>& tables, const fs::path& output) {
-  std::string command = "viscontact tabulate";
-  for (const auto& one : tables) command += " " + shell_word(one.c.path.string());
-  return command + " -o " + shell_word(output.string()) + " --gather";
+/// The command, for the user, that puts the results together after the job is over.
+std::string gather_command(const ArrayJob& job, const ArrayRequest& request) {
+  return fmt::format("viscontact {}{} -o {}{} --gather", job.command, joined(job.cases),
+                     shell_word(request.output.string()), joined(job.options));
 }
 
 }  // namespace
+
+std::size_t task_count(const ArrayRequest& request, std::size_t rows) {
+  return request.tasks.value_or(std::min(rows, kMostTasks));
+}
 
 fs::path slurm_folder(const fs::path& output) {
   return absolute_output(output).string() + ".slurm";
 }
 
-void submit_to_slurm(const std::vector<CaseTable>& tables, const SlurmRequest& request) {
-  std::size_t rows = 0;
-  for (const auto& one : tables) {
-    check_output_file(one.table);
-    rows += freefem_axi::grid_of(one.tabulation()).size();
-  }
-  const std::size_t count = request.tasks.value_or(std::min(rows, kMostTasks));
+void refuse_second_job(const ArrayJob& job, const ArrayRequest& request) {
+  std::string jobs =
+      ask_slurm({"squeue", "--noheader", "--format=%F", "--states=PENDING,RUNNING,SUSPENDED",
+                 "--name=" + job_name(request.output)},
+                job.command, request.stop);
+  if (jobs.empty()) return;
+  const std::string number = jobs.substr(0, jobs.find('\n'));
+  throw_bad_input({request.output.string()},
+                  fmt::format("{0} by Slurm job {1}; wait until it is over (squeue -j {1}), or end "
+                              "it (scancel {1})",
+                              job.is_running, number));
+}
+
+void submit(const ArrayJob& job, const ArrayRequest& request) {
   const auto options = split_words(request.options);
-  refuse_second_job(request.output, request.stop);
-  const auto tasks = tasks_with_rows(tables, count);
-  const std::string gather = gather_command(tables, request.output);
-  if (tasks.empty()) {
-    terminal::say(
-        fmt::format("tabulate: no row is missing; this command writes the tables: {}", gather));
+  const std::string gather = gather_command(job, request);
+  if (job.tasks.empty()) {
+    terminal::say(fmt::format("{}: no row is missing; this command writes {}: {}", job.command,
+                              job.results, gather));
     return;
   }
   const auto folder = slurm_folder(request.output);
-  for (const auto& one : tables) write_file(folder / one.c.path.filename(), one.c.text);
+  for (const auto& [name, text] : job.copies) write_file(folder / name, text);
   const auto script = folder / "task.sh";
-  write_file(script, task_script(tables, request, count));
+  write_file(script, task_script(job, request));
 
   // With --requeue, the tasks of a node that fails are run again. The user's options come later on
   // the command line and can change this.
   std::vector<std::string> command = {"sbatch", "--requeue"};
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--parsable", "--job-name=" + job_name(request.output),
-                                 "--array=" + array_of(tasks), "--open-mode=append",
+                                 "--array=" + array_of(job.tasks), "--open-mode=append",
                                  "--output=" + log_pattern(folder)});
   if (request.jobs) command.push_back(fmt::format("--cpus-per-task={}", *request.jobs));
   command.push_back(script.string());
-  std::string job = ask_slurm(command, request.stop);
+  std::string number = ask_slurm(command, job.command, request.stop);
   // If there are several clusters, sbatch prints "number;cluster".
-  job = job.substr(0, job.find(';'));
+  number = number.substr(0, number.find(';'));
   terminal::say(
-      fmt::format("tabulate: Slurm job {} with {} tasks is submitted; its logs are in {}; when it "
-                  "is over (squeue -j {}), run:\n  {}",
-                  job, tasks.size(), folder.string(), job, gather));
-  fmt::print("{}\n", job);
+      fmt::format("{}: Slurm job {} with {} tasks is submitted; its logs are in {}; when it is "
+                  "over (squeue -j {}), run:\n  {}",
+                  job.command, number, job.tasks.size(), folder.string(), number, gather));
+  fmt::print("{}\n", number);
 }
 
 }  // namespace viscontact::pipeline

@@ -1,0 +1,58 @@
+// The options of commands whose rows can be computed by an array job on a Slurm cluster
+// (docs/cluster.md): --launcher, --tasks, --slurm-options, --gather and --task.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/pipeline/array_job.hpp"
+
+namespace viscontact::app {
+
+struct ArrayOptions {
+  std::string launcher = "local", slurm_options, task;
+  std::size_t tasks = 0;
+  bool gather = false;
+  /// CLI11's objects of the options, for `excludes`.
+  CLI::Option *launcher_option = nullptr, *gather_option = nullptr, *task_option = nullptr;
+
+  bool is_slurm() const { return launcher == "slurm"; }
+};
+
+/// Adds the options. `results` says in --help what is written from the rows: "the tables".
+void add_array_options(CLI::App& command, ArrayOptions& o, const std::string& results);
+
+/// Throws Error(kWrongUsage) if options are given that only --launcher slurm uses, or if --task is
+/// not K/T with 0 <= K < T.
+void check_array_options(const ArrayOptions& o);
+
+/// The share of --task; the whole if the option is not given.
+pipeline::Share share_of(const ArrayOptions& o);
+
+/// What is asked of an array job. `jobs_option` is CLI11's object of --jobs, with the value `jobs`.
+pipeline::ArrayRequest array_request(const ArrayOptions& o, const std::string& output,
+                                     const CLI::Option& jobs_option, int jobs);
+
+/// Calls `call`. The message of an Error for missing rows or of Slurm is followed by `remedy`,
+/// which names the options that help.
+template <class Call>
+void with_remedy(std::string_view remedy, const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kNotConverged && error.kind() != ErrorKind::kExternalProgram)
+      throw;
+    throw Error(error.kind(), std::string(error.what()) + "; " + std::string(remedy));
+  }
+}
+
+/// The remedies for the errors of a submission and of --gather.
+inline constexpr std::string_view kRemedyOfSlurm =
+    "see --slurm-options, --tasks, or leave out --launcher slurm";
+inline constexpr std::string_view kRemedyOfGather =
+    "the same command without --gather computes the missing rows here, or with --launcher slurm or "
+    "--task elsewhere";
+
+}  // namespace viscontact::app

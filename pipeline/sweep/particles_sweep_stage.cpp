@@ -1,0 +1,196 @@
+// Runs, shares, gathers and submits the rows of a sweep of particles (particles_sweep_stage.hpp).
+// Runs are kept in their folders until the user deletes them, so that adding draws runs the new ones
+// only.
+#include "viscontact/pipeline/sweep/particles_sweep_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <utility>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/pipeline/sweep/particles_run.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/sweep/particles/means.hpp"
+#include "viscontact/sweep/sweep_file.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using sweep::ParticlesSweep;
+
+/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; the results
+/// do not depend on their number.
+ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                      std::uint64_t rows) {
+  const auto runs_at_once =
+      std::clamp<std::uint64_t>(rows, 1, static_cast<std::uint64_t>(request.jobs));
+  return {sweep, request.output, VISCONTACT_VERSION, request.jobs / static_cast<int>(runs_at_once),
+          request.keep_all};
+}
+
+void show_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
+  if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
+}
+
+results::Provenance provenance_of(const ParticlesSweep& sweep) {
+  std::vector<fs::path> inputs = {sweep.plan().case_path};
+  if (!sweep.particles_file().empty()) inputs.push_back(sweep.particles_file());
+  return results::provenance_of({inputs, {}});
+}
+
+/// Writes the table of means, unless it is there.
+void write_means(const ParticlesSweep& sweep, const std::string& output) {
+  if (sweep.plan().draws == 0) return;
+  const auto path = sweep::path_of_means(output);
+  const auto table = sweep::table_of_means(sweep, output);
+  if (!results::has_content(path, table))
+    results::write_output(path, TextKind::kHashComment, table, provenance_of(sweep));
+  terminal::say(fmt::format("sweep: means over {} draws in {}", sweep.plan().draws, path.string()));
+}
+
+/// Says how the sweep ended. Throws Error(kNotConverged) if every run failed.
+void tell_outcome(const sweep::Rows& rows, const std::string& output, std::uint64_t computed) {
+  const auto outcome = sweep::read_outcome(rows, output);
+  const auto failed = outcome.without_result + outcome.with_some_results;
+  terminal::say((computed == 0 ? fmt::format("sweep: {} is up to date", output)
+                               : fmt::format("sweep: {} rows in {}", rows.size, output)) +
+                (failed == 0 ? ""
+                             : fmt::format("; {} run{} failed (the column 'failure' says why)",
+                                           failed, failed == 1 ? "" : "s")));
+  if (failed == outcome.points)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{}: every run failed; the column 'failure' says why, in the first "
+                            "row: {}",
+                            output, outcome.first_failure));
+}
+
+void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                  sweep::ParticlesRunner run) {
+  const auto rows = sweep::rows_of(sweep, VISCONTACT_VERSION, std::move(run));
+  terminal::ProgressTimer timer;
+  const auto computed = sweep::write_sweep(
+      rows, request.output, request.jobs,
+      results::output_text(request.output, TextKind::kHashComment, "", provenance_of(sweep)),
+      [&](std::uint64_t done, std::uint64_t size) { show_rows(timer, done, size); }, request.stop);
+  terminal::clear_progress();
+  write_means(sweep, request.output);
+  tell_outcome(rows, request.output, computed);
+}
+
+/// The numbers of the rows whose run has not ended; with `failed`, also of those that failed.
+std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const ParticlesRuns& runs,
+                                        bool failed) {
+  std::vector<std::uint64_t> missing;
+  for (std::uint64_t i = 0; i < sweep.size(); ++i)
+    if (failed ? !runs.has_succeeded(i) : !runs.ended(i)) missing.push_back(i);
+  return missing;
+}
+
+}  // namespace
+
+void sweep_particles(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
+  const auto runs = runs_of(sweep, request, sweep.size());
+  write_tables(sweep, request, [&](std::uint64_t index, const StopToken& stop) {
+    return runs.compute(index, stop);
+  });
+}
+
+void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                    const Share& share) {
+  if (share.number >= sweep.size()) return;
+  // Rows of which only the number counts: results are kept in the folders of the runs.
+  sweep::Rows rows;
+  rows.size = (sweep.size() - share.number + share.count - 1) / share.count;
+  const auto runs = runs_of(sweep, request, rows.size);
+  std::atomic<std::uint64_t> failed = 0;
+  rows.row = [&](std::uint64_t index, const StopToken& stop) {
+    if (!runs.compute(share.number + index * share.count, stop).failure.empty()) ++failed;
+    return std::string();
+  };
+  terminal::say(fmt::format("sweep: {} rows of {}", rows.size, request.output));
+  terminal::ProgressTimer timer;
+  const auto done = sweep::run_rows(
+      rows, 0, request.jobs,
+      [&](std::uint64_t index, const std::string&) { show_rows(timer, index + 1, rows.size); },
+      request.stop);
+  terminal::clear_progress();
+  if (done < rows.size)
+    throw Error(ErrorKind::kInterrupted,
+                fmt::format("interrupted; the runs are kept in {}; the same command continues them",
+                            runs.folder().string()));
+  if (failed == rows.size)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("{}: every run of this task failed; result.json in the folder of each "
+                            "run says why",
+                            runs.folder().string()));
+}
+
+void gather_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& request) {
+  const auto runs = runs_of(sweep, request, sweep.size());
+  const auto missing = missing_rows(sweep, runs, false);
+  if (!missing.empty()) {
+    std::string text = fmt::format(
+        "{}: {} of {} rows are missing (the first is row {}); the "
+        "finished ones are kept",
+        request.output, missing.size(), sweep.size(), missing[0] + 1);
+    const auto folder = slurm_folder(request.output);
+    if (fs::exists(folder)) text += fmt::format("; logs are in {}", folder.string());
+    if (const auto copy = folder / sweep.plan().case_path.filename();
+        fs::exists(copy) && read_file(copy) != sweep.base_text())
+      text += fmt::format("; the case was edited since {} was submitted", copy.string());
+    throw Error(ErrorKind::kNotConverged, text);
+  }
+  write_tables(sweep, request, [&](std::uint64_t index, const StopToken&) {
+    auto results = runs.ended(index);
+    if (!results)
+      throw_bad_input({runs.folder().string()},
+                      fmt::format("has lost the run of row {} while it was read", index + 1));
+    return *results;
+  });
+}
+
+void submit_sweep(const ParticlesSweep& sweep, const ArrayRequest& request,
+                  const std::vector<std::string>& options) {
+  check_output_file(request.output);
+  (void)split_words(request.options);  // throws if they are wrong, before Slurm is asked
+  ArrayJob job;
+  job.command = "sweep";
+  job.is_running = "is being computed";
+  job.results = "the tables";
+  job.cases = {sweep.plan().case_path.string()};
+  job.copies = {{sweep.plan().case_path.filename().string(), sweep.base_text()}};
+  job.options = options;
+  job.count = task_count(request, sweep.size());
+  refuse_second_job(job, request);
+  const ParticlesRuns runs(sweep, request.output, VISCONTACT_VERSION, 1, false);
+  std::vector<bool> has_rows(job.count);
+  for (const auto row : missing_rows(sweep, runs, true)) has_rows[row % job.count] = true;
+  for (std::size_t task = 0; task < job.count; ++task)
+    if (has_rows[task]) job.tasks.push_back(task);
+  submit(job, request);
+}
+
+DryRun dry_run(const ParticlesSweep& sweep, const std::string& output) {
+  const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false);
+  DryRun run{output, sweep.size(), 0, 0, "no row, because none is finished"};
+  double seconds = 0;
+  for (std::uint64_t i = 0; i < sweep.size(); ++i) {
+    if (!runs.has_succeeded(i)) continue;
+    ++run.finished;
+    seconds += runs.seconds(i);
+  }
+  if (run.finished > 0) {
+    run.seconds_per_row = seconds / static_cast<double>(run.finished);
+    run.basis = "its finished rows";
+  }
+  return run;
+}
+
+}  // namespace viscontact::pipeline

@@ -1,0 +1,50 @@
+// The stage of a sweep of particles: the rows and means of one case. This process computes the rows,
+// or each task of a job on a cluster computes a share of them; then gather_sweep puts the tables
+// together.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/pipeline/array_job.hpp"
+#include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/sweep/particles/particles_sweep.hpp"
+
+namespace viscontact::pipeline {
+
+/// What is asked of a sweep of particles, besides its plan.
+struct ParticlesSweepRequest {
+  std::string output;     ///< file of the rows
+  int jobs = 1;           ///< number of runs at once
+  bool keep_all = false;  ///< true: the files of finished runs are kept
+  StopToken stop{};
+};
+
+/// Computes the missing rows, and writes the file of the rows and, if there are draws, the table of
+/// means. A row that fails stops no other rows; column `failure` says why. Throws
+/// Error(kNotConverged) after all is written if every run failed, and Error(kInterrupted) if `stop`
+/// requests a stop; finished runs are kept.
+void sweep_particles(const sweep::ParticlesSweep& sweep, const ParticlesSweepRequest& request);
+
+/// Computes the rows of a task, those whose number modulo `share.count` is `share.number`, into
+/// their folders, and writes no table. Throws as sweep_particles does.
+void share_of_sweep(const sweep::ParticlesSweep& sweep, const ParticlesSweepRequest& request,
+                    const Share& share);
+
+/// Writes the tables from the runs that have ended, and runs nothing. Throws Error(kNotConverged),
+/// which names rows, if some are missing.
+void gather_sweep(const sweep::ParticlesSweep& sweep, const ParticlesSweepRequest& request);
+
+/// Submits the tasks that have rows to compute (array_job.hpp). `options` are the words of the
+/// command line that determine the rows, such as --draws and its number.
+void submit_sweep(const sweep::ParticlesSweep& sweep, const ArrayRequest& request,
+                  const std::vector<std::string>& options);
+
+/// The estimate for --dry-run. The time of a row is that of the runs that have ended; 0 if there are
+/// none.
+DryRun dry_run(const sweep::ParticlesSweep& sweep, const std::string& output);
+
+}  // namespace viscontact::pipeline
