@@ -43,6 +43,18 @@ Polygon circle_polygon(const particles::PlanePosition& place) {
   return polygon;
 }
 
+/// The part of a circle that the view shows.
+std::string circle_line(const PanelSettings& d, const particles::PlanePosition& place) {
+  const auto polygon = circle_polygon(place);
+  std::string path;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const auto side =
+        clipped_to_view({polygon[k], polygon[(k + 1) % polygon.size()]}, d.box, {}, 0, 2);
+    if (side.size() > 1) path += path_of(side, d.view);
+  }
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
+}
+
 std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
   const auto& [low, high] = d.box;
   const Polygon all = {
@@ -64,14 +76,12 @@ std::string plane_2d_solids(const PanelSettings& d, const Frame& frame) {
 std::string plane_2d_lines(const PanelSettings& d, const Frame& frame) {
   std::string text;
   for (std::size_t j = 0; j < frame.planes.size(); ++j) {
-    const auto& [point, normal, radius] = frame.planes[j];
-    if (radius > 0) {
-      text += fmt::format(
-          "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"none\" stroke=\"#333\" "
-          "stroke-width=\"1.5\"/>\n",
-          d.view.x(point), d.view.y(point), d.view.scale * radius);
+    if (frame.planes[j].is_curved()) {
+      text += circle_line(d, frame.planes[j]);
       continue;
     }
+    const auto& point = frame.planes[j].point;
+    const auto& normal = frame.planes[j].normal;
     const double far = norm(d.box.high - d.box.low) + norm(d.box.low - point);
     const Vector along = {-normal[1], normal[0], 0};
     const auto line =

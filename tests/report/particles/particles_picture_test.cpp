@@ -80,6 +80,43 @@ TEST(ParticlesPicture, OneThatHasFlownAwayDoesNotShrinkTheOthers) {
   EXPECT_LT(room.low[1], 0);
 }
 
+particles::Playback discs_in_a_circle(double radius) {
+  auto playback = falling_row(2, 3, 1);
+  playback.frames[0].planes = {{.point = {2, 1, 0}, .normal = {}, .radius = radius}};
+  playback.frames[0].contacts = {{-1, 0, 0, -1}};
+  return playback;
+}
+
+TEST(ParticlesPicture, ShowsARoundWallAroundTheParticles) {
+  const auto playback = discs_in_a_circle(4);
+  const auto box = view_box_of(playback, {0});
+  EXPECT_LT(box.low[0], -2);
+  EXPECT_GT(box.high[0], 6);
+  EXPECT_LT(box.low[1], -3);
+  EXPECT_GT(box.high[1], 5);
+  const auto svg = particles_picture(playback, "Circle", 1);
+  expect_well_formed(svg);
+  EXPECT_EQ(count_of("<circle ", svg), 3U);
+  EXPECT_EQ(count_of("fill-rule=\"evenodd\"", svg), 1U);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  // A wall far away does not make the particles small.
+  const auto far = view_box_of(discs_in_a_circle(1000), {0});
+  EXPECT_GT(far.low[0], -3);
+}
+
+TEST(ParticlesPicture, DrawsAContactAcrossAPeriodAtBothParticles) {
+  auto playback = falling_row(2, 2, 1);
+  playback.cell = {{-1, -10}, {4, 0}};
+  playback.frames[0].planes.clear();
+  // Without the image the line would go from x = 0 to x = 2.
+  playback.frames[0].contacts = {{0, 1, 0, -1, 0, -1}};
+  const auto across = particles_picture(playback, "Period", 1);
+  playback.frames[0].contacts = {{0, 1, 0, -1, 0, 0}};
+  const auto direct = particles_picture(playback, "Period", 1);
+  expect_well_formed(across);
+  EXPECT_EQ(count_of("M", across), count_of("M", direct) + 1);
+}
+
 TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
   const auto lightness = [](const std::string& colour) {
     double sum = 0;
