@@ -1,0 +1,74 @@
+// Simulates rigid particles in a fluid with viscous contact, docs/physics.md (6.1) to (6.5)
+// (Lefebvre 2007, "Fluid-particle simulations with FreeFem++"; Lefebvre 2009, "Numerical simulation
+// of gluey particles"). Lengths, masses and times are in one consistent system of units.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/fluid/contact_problem.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/state.hpp"
+
+namespace viscontact::particles {
+
+/// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
+/// particles take at their places under forces, torques and contact impulses, and moves them:
+///
+/// - coupling = constrained: the impulses are forces in the problem of the fluid;
+/// - coupling = splitting: the velocities of the fluid are projected in the norm of the masses.
+///
+/// Contact is made where a gap reaches threshold_gap. Masses enter by m (u^{n+1} - u^n)/h, implicit.
+/// Positions follow a formula of second order (Adams and Bashforth) for particles without inertia
+/// that are away from contact and whose forces do not jump, else x^{n+1} = x^n + h u^{n+1}.
+class FluidSimulation {
+ public:
+  /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only
+  /// the particles are set.
+  FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver);
+
+  /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
+  /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
+  /// velocities. Throws Error(kNotConverged) if no solution of the contacts is found, and the
+  /// errors of FluidSolver. The state is then that before the step.
+  StepReport step(double end);
+
+  const State& state() const { return state_; }
+  const Setting& setting() const { return setting_; }
+
+  /// The flow of the last step: where the particles were at the beginning of the step.
+  FlowField flow() { return solver_->flow(); }
+
+  /// Forces and torques of the fluid on the particles in the last step, motion_components() each;
+  /// empty before the first step.
+  const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
+
+  /// The particles with the velocities of the last step. If the error was estimated there, they are
+  /// those extrapolated from two meshes, which do not enter the next step.
+  Particles reported_particles() const;
+
+  std::size_t unknowns() const { return solver_->unknowns(); }
+
+ private:
+  struct Motion;
+  std::vector<double> external_forces(double from, double to) const;
+  FluidParticles bodies(double h, double next, std::vector<double>& inertia) const;
+  Motion solve(double h, double next, bool is_estimated);
+  void move(const Motion& motion, double h, double next, StepReport& report);
+  std::vector<double> displacements(const Motion& motion, double h) const;
+
+  Setting setting_;
+  State state_;
+  std::unique_ptr<FluidSolver> solver_;
+  MotionLayout layout_;
+  double mean_radius_;
+  ThreadPool pool_;
+  std::vector<Plane> obstacles_;
+  FlowQuantities quantities_;
+  std::vector<double> reported_;  // extrapolated velocities of the last step; empty: there are none
+};
+
+}  // namespace viscontact::particles
