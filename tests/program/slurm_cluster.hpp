@@ -1,0 +1,67 @@
+// A Slurm cluster of two nodes on this machine, for tests (tests/program/tabulate/slurm_cluster).
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/system/process.hpp"
+
+namespace viscontact {
+
+/// Two nodes of two processors. Fails, with the logs, where Slurm does not start.
+class Cluster {
+ public:
+  Cluster() {
+    const auto started = script({"start", folder(), std::to_string(::getpid())});
+    if (started.exit_status != 0) throw std::runtime_error(started.output);
+  }
+  Cluster(const Cluster&) = delete;
+  Cluster& operator=(const Cluster&) = delete;
+  ~Cluster() {
+    const auto stopped = script({"stop", folder()});
+    if (stopped.exit_status != 0) ADD_FAILURE() << stopped.output;
+  }
+
+  /// What its clients need in their environment.
+  std::string variable() const { return "SLURM_CONF=" + folder() + "/slurm.conf"; }
+
+  /// kill -9 of a node and of all that runs on it.
+  void kill_node(int number) const {
+    const auto killed = script({"kill-node", folder(), std::to_string(number)});
+    ASSERT_EQ(killed.exit_status, 0) << killed.output;
+  }
+
+  /// The jobs that are not over, a line each.
+  std::string jobs() const {
+    return run_process({"squeue", "--noheader", "--format=%i %t %R"}, {variable()}).output;
+  }
+
+ private:
+  std::string folder() const { return folder_.path().string(); }
+  static ProcessResult script(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     VISCONTACT_SOURCE_FOLDER "/tests/program/tabulate/slurm_cluster");
+    return run_process(arguments);
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Asks until it is so; fails after a minute.
+inline void wait_until(const std::function<bool()>& is_so, const Cluster& cluster) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!is_so()) {
+    if (std::chrono::steady_clock::now() > end) FAIL() << "after a minute:\n" << cluster.jobs();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+}  // namespace viscontact
