@@ -11,6 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/film.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/obstacles.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
@@ -19,9 +20,7 @@ namespace viscontact::particles {
 
 namespace {
 
-/// Sets gamma^{n+1} = gamma^n - h lambda of each pair in the projection, within [gamma_min, 0]. A
-/// gamma that is 0 within the rounding error of this difference is set to 0: its film has given
-/// back all that it had absorbed. Returns the number of glued pairs.
+/// Updates the gamma of each pair in the projection. Returns the number of glued pairs.
 std::size_t remember(const Particles& p, const ProjectionResult& projected, const ContactLaw& law) {
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
@@ -29,14 +28,8 @@ std::size_t remember(const Particles& p, const ProjectionResult& projected, cons
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
-    const double gamma = pair.gamma - pair.impulse;
-    const double rounding =
-        std::numeric_limits<double>::epsilon() * (std::abs(pair.gamma) + std::abs(pair.impulse));
-    const double error = pair.gamma_error + projected.impulse_errors[f] + rounding;
-    const bool spent = gamma >= -rounding;
-    const double bound = spent ? 0 : law.lower_bound(radius(pair.second), radius(pair.first));
-    pair.gamma = spent ? 0.0 : std::max(gamma, bound);
-    pair.gamma_error = spent || pair.gamma == bound ? 0 : error;
+    absorb_impulse(pair, projected.impulse_errors[f],
+                   law.lower_bound(radius(pair.second), radius(pair.first)));
     if (pair.gamma < 0) ++glued;
   }
   return glued;

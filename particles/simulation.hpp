@@ -47,6 +47,16 @@ struct Setting {
   std::map<std::int32_t, GivenMotion> given_motions;
 };
 
+/// What is recorded of one step in a fluid.
+struct FluidStepReport {
+  double dissipation = 0;         ///< of the flow [M L^2/T^3], in two dimensions per unit length
+  double apparent_viscosity = 0;  ///< over the fluid's; 0 if the boundary is at rest
+  double seconds = 0;             ///< computing time of the fluid solver [s]
+  /// Estimate of the relative error of the velocities, extrapolated and of one mesh; < 0 if it was
+  /// not made in this step.
+  double velocity_error = -1, velocity_error_of_one_mesh = -1;
+};
+
 /// What is recorded of one step.
 struct StepReport {
   double time = 0;           ///< at the end of the step [T]
@@ -64,6 +74,7 @@ struct StepReport {
   int parts = 0;  ///< number of parts that the step was divided into, 1 to 2^kMostHalvings
   /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
   std::size_t unresolved = 0;
+  FluidStepReport fluid{};  ///< zeros without a fluid
 };
 
 /// The lecture's problem for many particles, docs/physics.md (5.2) (Maury 2006, "A time-stepping

@@ -86,11 +86,11 @@ std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
     auto state = particles::read_restart(restart);
     check_same_particles(state, c, restart);
     state.particles.ids = c.particles.ids;
-    auto record = read_step_record(folder / "steps.csv", state.steps);
+    auto record = read_step_record(folder / "steps.csv", state.steps, c.setting.fluid.has_value());
     ParticleFrames frames(folder, provenance, state.particles);
     frames.resume(
         frames_until(folder / "particles.pvd", state.time, frame_times(c, record.first_time)),
-        c.setting);
+        c.setting, state.time);
     return EarlierRun{std::move(state), std::move(record), std::move(frames)};
   } catch (const Error& error) {
     terminal::say(
@@ -105,6 +105,7 @@ bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c, const
   if (run.state.time < c.end_time - frame_times(c, 0).tiny) return false;
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
   if (!std::ranges::all_of(kParticleResults, is_there)) return false;
+  if (c.setting.fluid && !std::ranges::all_of(kFluidResults, is_there)) return false;
   try {
     // run.json is the last file that a run writes.
     const auto record = nlohmann::json::parse(read_file(folder / "run.json"));

@@ -1,4 +1,4 @@
-// Recognises frames by their name, particles_NNNNN.vtp, and files that Viscontact wrote by their
+// Recognises frames by their names, particles_NNNNN.vtp and flow_NNNNN.vtu, and files that Viscontact wrote by their
 // provenance. The form of the name must agree with ParticleFrames::add.
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 
@@ -16,17 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// True for a file name of the form particles_NNNNN.vtp.
-bool is_named_as_frame(const fs::path& path) {
-  constexpr std::string_view kBegin = "particles_", kEnd = ".vtp";
-  constexpr std::size_t kDigits = 5;  // smallest number of digits
-  const std::string name = path.filename();
-  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) ||
-      name.size() < kBegin.size() + kDigits + kEnd.size())
+/// True if the name consists of `begin`, at least five digits, and `end`.
+bool is_numbered(std::string_view name, std::string_view begin, std::string_view end) {
+  constexpr std::size_t kDigits = 5;
+  if (!name.starts_with(begin) || !name.ends_with(end) ||
+      name.size() < begin.size() + kDigits + end.size())
     return false;
-  const auto digits =
-      std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  const auto digits = name.substr(begin.size(), name.size() - begin.size() - end.size());
   return std::ranges::all_of(digits, [](char d) { return d >= '0' && d <= '9'; });
+}
+
+bool is_named_as_frame(const fs::path& path) {
+  const std::string name = path.filename();
+  return is_numbered(name, "particles_", ".vtp") || is_numbered(name, "flow_", ".vtu");
 }
 
 /// The files in the folder that are named as frames.
@@ -37,10 +39,17 @@ std::vector<fs::path> frames_in(const fs::path& folder) {
   return frames;
 }
 
+template <class Visit>
+void for_each_result(const Visit& visit) {
+  for (const auto* name : kParticleResults) visit(name);
+  for (const auto* name : kFluidResults) visit(name);
+}
+
 }  // namespace
 
 void check_results(const fs::path& folder) {
-  for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
+  for_each_result(
+      [&](const char* name) { results::refuse_other_kind(folder / name, "", "result"); });
   for (const auto& frame : frames_in(folder)) results::refuse_other_kind(frame, "", "result");
 }
 
@@ -55,24 +64,28 @@ void check_inputs_stay(const case_file::ParticlesCase& c, const fs::path& restar
         "its own folder");
   for (const auto& input : {c.path, c.particles_file}) {
     if (input.empty()) continue;
-    for (const auto* output : kParticleResults) {
+    for_each_result([&](const char* output) {
       std::error_code ignored;
       if (fs::equivalent(input, folder / output, ignored))
         throw_bad_input({input.string()}, "would be overwritten by the run's " +
                                               std::string(output) + "; choose another folder");
-    }
+    });
   }
 }
 
 void remove_results(const fs::path& folder) {
-  for (const auto* name : kParticleResults) remove_file(folder / name);
+  for_each_result([&](const char* name) { remove_file(folder / name); });
   remove_other_frames({}, folder);
 }
 
 void remove_other_frames(const std::vector<FrameFile>& frames, const fs::path& folder) {
+  const auto belongs_to = [](const std::string& file) {
+    return [&file](const FrameFile& frame) {
+      return frame.second == file || flow_name(frame.second) == file;
+    };
+  };
   for (const auto& file : frames_in(folder))
-    if (std::ranges::find(frames, file.filename().string(), &FrameFile::second) == frames.end())
-      remove_file(file);
+    if (std::ranges::none_of(frames, belongs_to(file.filename().string()))) remove_file(file);
 }
 
 }  // namespace viscontact::pipeline

@@ -11,10 +11,13 @@
 
 namespace viscontact::pipeline {
 
-/// The names of all files of a run, except its frames.
+/// The names of all files of each run, except its frames.
 inline constexpr auto kParticleResults = std::to_array<const char*>(
     {"particles.pvd", "particles.html", "particles.svg", "final_particles.csv",
      "final_contacts.csv", "steps.csv", "restart.bin", "run.json"});
+
+/// Those that only a run with a fluid has.
+inline constexpr auto kFluidResults = std::to_array<const char*>({"motion.csv", "flow.pvd"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.
@@ -28,7 +31,7 @@ void check_inputs_stay(const case_file::ParticlesCase& c, const std::filesystem:
 /// Removes all results and frames, so that the folder never contains files of two runs.
 void remove_results(const std::filesystem::path& folder);
 
-/// Removes the frames in the folder that are not among `frames`.
+/// Removes the frames in the folder that are not among `frames`, and their flows.
 void remove_other_frames(const std::vector<FrameFile>& frames, const std::filesystem::path& folder);
 
 }  // namespace viscontact::pipeline

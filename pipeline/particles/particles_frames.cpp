@@ -5,12 +5,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <sstream>
+#include <string_view>
 #include <optional>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/particles/obstacles.hpp"
 
@@ -19,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using particles::Frame;
-using particles::Simulation;
 
 Frame frame_at(double time, const particles::Setting& setting, const std::vector<double>& positions,
                std::vector<particles::CurrentContact> contacts) {
@@ -45,21 +48,55 @@ ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& prove
   playback_.ids = particles.ids;
 }
 
-void ParticleFrames::add(const Simulation& simulation) {
-  const auto& state = simulation.state();
+std::string flow_name(const std::string& frame) {
+  constexpr std::string_view kBegin = "particles", kEnd = ".vtp";
+  return "flow" + frame.substr(kBegin.size(), frame.size() - kBegin.size() - kEnd.size()) + ".vtu";
+}
+
+void ParticleFrames::add(const particles::Setting& setting, const particles::State& state) {
   playback_.cell = state.particles.cell;
-  auto contacts = particles::contacts_of(simulation.setting(), state);
+  auto contacts = particles::contacts_of(setting, state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
   results::write_output(folder_ / name, TextKind::kXml,
                         particles::write_vtp(state.particles, contacts), provenance_);
   files_.emplace_back(state.time, name);
+  if (setting.fluid) {
+    if (motion_.empty()) motion_ = particles::motion_header(playback_.dimension);
+    motion_ += particles::motion_rows(state.time, state.particles);
+  }
   if ((files_.size() - 1) % every_ == 0)
-    keep(
-        frame_at(state.time, simulation.setting(), state.particles.positions, std::move(contacts)));
+    keep(frame_at(state.time, setting, state.particles.positions, std::move(contacts)));
+}
+
+void ParticleFrames::add_flow(const particles::FlowField& flow) {
+  const auto name = flow_name(files_.back().second);
+  results::write_output(folder_ / name, TextKind::kXml, particles::write_flow(flow), provenance_);
+  flows_.emplace_back(files_.back().first, name);
+}
+
+void ParticleFrames::resume_fluid(double time) {
+  // The flow of a frame at the present time belongs to the next step.
+  for (const auto& [frame_time, name] : files_)
+    if (frame_time < time) flows_.emplace_back(frame_time, flow_name(name));
+  for (const auto& flow : flows_)
+    if (!fs::is_regular_file(folder_ / flow.second))
+      throw_bad_input({(folder_ / flow.second).string()}, "is missing");
+  // motion.csv may have rows of later frames, because it is written before restart.bin.
+  const auto path = folder_ / "motion.csv";
+  std::istringstream lines(results::without_provenance(read_file(path)));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto row_time = parse_number(line.substr(0, line.find(',')));
+    if (row_time && *row_time > files_.back().first) break;
+    motion_ += line + "\n";
+    rows += row_time ? 1 : 0;
+  }
+  if (rows != files_.size() * playback_.radii.size())
+    throw_bad_input({path.string()}, "does not have one row for each particle and frame");
 }
 
 void ParticleFrames::resume(const std::vector<FrameFile>& files,
-                            const particles::Setting& setting) {
+                            const particles::Setting& setting, double time) {
   playback_.cell = particles::cell_of(setting.domain);
   for (const auto& file : files) {
     files_.push_back(file);
@@ -71,15 +108,15 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
     if ((files_.size() - 1) % every_ == 0)
       keep(frame_at(file.first, setting, content.positions, std::move(content.contacts)));
   }
+  if (setting.fluid) resume_fluid(time);
 }
 
-void ParticleFrames::end(const Simulation& simulation) {
+void ParticleFrames::end(const particles::Setting& setting, const particles::State& state) {
   if (files_.empty()) return;  // writing the first frame failed
-  const auto& state = simulation.state();
-  if (files_.back().first < state.time) add(simulation);
+  if (files_.back().first < state.time) add(setting, state);
   if (playback_.frames.back().time < state.time)
-    keep(frame_at(state.time, simulation.setting(), state.particles.positions,
-                  particles::contacts_of(simulation.setting(), state)));
+    keep(frame_at(state.time, setting, state.particles.positions,
+                  particles::contacts_of(setting, state)));
 }
 
 void ParticleFrames::keep(Frame frame) {

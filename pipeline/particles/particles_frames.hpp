@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -28,6 +29,10 @@ struct FrameTimes {
 /// The time of a frame [T] and the name of its file.
 using FrameFile = std::pair<double, std::string>;
 
+/// The name of the file of the flow of the frame in the file `frame`, particles_NNNNN.vtp:
+/// flow_NNNNN.vtu.
+std::string flow_name(const std::string& frame);
+
 /// Writes frames to files, and keeps those that the page and the picture draw. The memory for the
 /// kept frames is bounded: if there are too many, every second of them is dropped.
 class ParticleFrames {
@@ -36,28 +41,43 @@ class ParticleFrames {
   ParticleFrames(std::filesystem::path folder, const results::Provenance& provenance,
                  const particles::Particles& particles);
 
-  /// Writes a frame of the simulation's current state.
-  void add(const particles::Simulation& simulation);
+  /// Writes a frame of the state. With a fluid, motion_rows() gets its rows.
+  void add(const particles::Setting& setting, const particles::State& state);
 
-  /// Reads the frames that an interrupted run has written, so that they are not written again.
+  /// True if the fluid of the last frame has not been written. The flow around the particles of a
+  /// frame is known only in the next step.
+  bool lacks_flow(const particles::Setting& setting) const {
+    return setting.fluid.has_value() && flows_.size() < files_.size();
+  }
+  /// Writes the flow of the last frame.
+  void add_flow(const particles::FlowField& flow);
+
+  /// Reads the frames that an interrupted run has written until `time` [T], so that they are not
+  /// written again.
   /// Throws Error(kBadInput), which names the file, if a frame cannot be read or has other
   /// particles.
-  void resume(const std::vector<FrameFile>& files, const particles::Setting& setting);
+  void resume(const std::vector<FrameFile>& files, const particles::Setting& setting, double time);
 
   /// Adds a frame of the last state, unless the last frame shows it. Does nothing if no frame was
   /// written.
-  void end(const particles::Simulation& simulation);
+  void end(const particles::Setting& setting, const particles::State& state);
 
   const particles::Playback& playback() const { return playback_; }
   const std::vector<FrameFile>& files() const { return files_; }
+  /// The files of flows, in the order of their frames; empty without a fluid.
+  const std::vector<FrameFile>& flows() const { return flows_; }
+  /// The text of motion.csv; empty without a fluid.
+  const std::string& motion() const { return motion_; }
 
  private:
   void keep(particles::Frame frame);
+  void resume_fluid(double time);
 
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
   particles::Playback playback_;
-  std::vector<FrameFile> files_;
+  std::vector<FrameFile> files_, flows_;
+  std::string motion_;
   std::size_t every_ = 1, kept_bytes_ = 0;
 };
 

@@ -45,6 +45,13 @@ void for_each_sum(Totals& sums, const Visit& visit) {
   visit("unresolved", sums.unresolved);
   visit("seconds", sums.seconds);
   visit("peak_memory_mebibytes", sums.peak_memory_mebibytes);
+  if (!sums.has_fluid) return;
+  visit("fluid_seconds", sums.fluid_seconds);
+  visit("unknowns", sums.unknowns);
+  visit("first_velocity_error", sums.first_velocity_error);
+  visit("last_velocity_error", sums.last_velocity_error);
+  visit("first_error_of_one_mesh", sums.first_error_of_one_mesh);
+  visit("last_error_of_one_mesh", sums.last_error_of_one_mesh);
 }
 
 /// The header line of `text` and its rows up to the step `last_step`.
@@ -64,6 +71,14 @@ std::string rows_until(std::string_view text, std::string_view header, std::int6
 
 }  // namespace
 
+StepRecord::StepRecord(bool in_fluid) {
+  has_fluid = in_fluid;
+  rows =
+      "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
+      "parts,unresolved";
+  rows += has_fluid ? ",dissipation,apparent_viscosity,fluid_seconds\n" : "\n";
+}
+
 void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
   last_step = step;
   ++steps;
@@ -76,12 +91,26 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
   divided += report.parts > 1 ? 1 : 0;
   unresolved += static_cast<std::int64_t>(report.unresolved);
   last_time = report.time;
+  const auto& fluid = report.fluid;
+  fluid_seconds += fluid.seconds;
+  if (fluid.velocity_error >= 0) {
+    if (first_velocity_error < 0) {
+      first_velocity_error = fluid.velocity_error;
+      first_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
+    }
+    last_velocity_error = fluid.velocity_error;
+    last_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
+  }
   if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
-  fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}\n", step,
+  fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}", step,
                  format_number(report.time), report.contacts, report.glued, report.iterations,
                  format_number(report.residual), format_number(report.largest_overlap),
                  report.converged ? 1 : 0, format_number(report.impulse_residual), report.parts,
                  report.unresolved);
+  if (has_fluid)
+    fmt::format_to(std::back_inserter(rows), ",{},{},{:.3g}", format_number(fluid.dissipation),
+                   format_number(fluid.apparent_viscosity), fluid.seconds);
+  rows += '\n';
 }
 
 std::string record_comment(const StepTotals& sums) {
@@ -91,12 +120,12 @@ std::string record_comment(const StepTotals& sums) {
 }
 
 std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record,
-                     const particles::Simulation& simulation) {
+                     const particles::State& state) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(record.steps, 1));
   Json json;
   json["title"] = c.title;
-  json["particles"] = simulation.state().particles.count();
-  json["dimension"] = simulation.state().particles.dimension;
+  json["particles"] = state.particles.count();
+  json["dimension"] = state.particles.dimension;
   json["from_time"] = record.first_time;
   json["to_time"] = record.last_time;
   json["time_step"] = c.setting.time_step;
@@ -109,23 +138,36 @@ std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record
   json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
   json["largest_residual"] = record.largest_residual;
   json["largest_impulse_residual"] = record.largest_impulse_residual;
-  json["largest_gamma_error"] = particles::largest_gamma_error(simulation.state());
+  json["largest_gamma_error"] = particles::largest_gamma_error(state);
   json["divided_steps"] = record.divided;
   json["unresolved_contacts"] = record.unresolved;
   json["largest_overlap"] = record.largest_overlap;
-  json["final_overlap"] = particles::largest_overlap(simulation.setting(), simulation.state());
+  json["final_overlap"] = particles::largest_overlap(c.setting, state);
   json["seconds"] = record.seconds;
   json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
+  if (record.has_fluid) {
+    const auto estimates = [](double first, double last) {
+      const auto number = [](double error) { return error < 0 ? Json() : Json(error); };
+      return Json{{"first_step", number(first)}, {"last_step", number(last)}};
+    };
+    json["velocity_error_estimate"] =
+        estimates(record.first_velocity_error, record.last_velocity_error);
+    json["velocity_error_estimate_of_one_mesh"] =
+        estimates(record.first_error_of_one_mesh, record.last_error_of_one_mesh);
+    json["unknowns"] = record.unknowns;
+    json["fluid_seconds"] = record.fluid_seconds;
+  }
   return json.dump(2) + "\n";
 }
 
-StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step) {
+StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step,
+                            bool has_fluid) {
   const std::string text = read_file(path);
   const std::string begin = comment_begin(last_step);
   const auto at = text.find(begin);
   if (at == std::string::npos)
     throw_bad_input({path.string()}, fmt::format("has no record after step {}", last_step));
-  StepRecord record;
+  StepRecord record(has_fluid);
   record.last_step = last_step;
   const auto json_begin = at + begin.size();
   try {

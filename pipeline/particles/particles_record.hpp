@@ -26,13 +26,22 @@ struct StepTotals {
   std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
   double seconds = 0;                                ///< computing time of earlier calls [s]
   double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
+  // With a fluid only.
+  bool has_fluid = false;
+  double fluid_seconds = 0;  ///< computing time of the fluid solver [s]
+  std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
+  /// Estimates of the relative error of the velocities at the first and at the last step, < 0 if
+  /// there is none: extrapolated, and of one mesh.
+  double first_velocity_error = -1, last_velocity_error = -1;
+  double first_error_of_one_mesh = -1, last_error_of_one_mesh = -1;
 };
 
 /// The sums and the rows of steps.csv, which can be 50 MB long.
 struct StepRecord : StepTotals {
-  std::string rows =
-      "step,time,contacts,glued,iterations,residual,largest_overlap,converged,impulse_residual,"
-      "parts,unresolved\n";
+  /// `has_fluid`: whether the rows have the columns of a fluid.
+  explicit StepRecord(bool has_fluid = false);
+
+  std::string rows;
 
   /// Adds a step to the sums and, if steps.csv lists it, to the rows. After a million steps, only
   /// every thousandth step and the steps that did not converge are listed.
@@ -44,12 +53,13 @@ std::string record_comment(const StepTotals& sums);
 
 /// The text of run.json at the end of a run with these sums.
 std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record,
-                     const particles::Simulation& simulation);
+                     const particles::State& state);
 
 /// Reads from steps.csv the record as it was after the step `last_step` (0: before the first step).
 /// The file may contain later rows, because it is written before restart.bin; they are left out.
 /// Throws Error(kBadInput) if the file has no record of this step, or if the number of its rows
 /// differs from that in the record.
-StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step);
+StepRecord read_step_record(const std::filesystem::path& path, std::int64_t last_step,
+                            bool has_fluid);
 
 }  // namespace viscontact::pipeline

@@ -20,6 +20,7 @@
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
+#include "viscontact/pipeline/particles/particle_simulation.hpp"
 #include "viscontact/pipeline/particles/particles_earlier_run.hpp"
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 #include "viscontact/pipeline/particles/particles_frames.hpp"
@@ -69,7 +70,7 @@ particles::State first_state(const case_file::ParticlesCase& c, const std::strin
 class Run {
  public:
   /// `record` and `frames` are new ones, or those of the interrupted run that this one continues.
-  Run(const case_file::ParticlesCase& c, Simulation& simulation, fs::path folder,
+  Run(const case_file::ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
       const results::Provenance& provenance, StepRecord record, ParticleFrames frames,
       const StopToken& stop)
       : case_(c),
@@ -83,15 +84,19 @@ class Run {
 
   /// Computes steps until the end time, or until a stop is requested.
   void simulate() {
-    if (frames_.files().empty()) frames_.add(simulation_);
+    if (frames_.files().empty()) add_frame();
     save();
     const auto times = frame_times(case_, record_.first_time);
     double next_frame = times.after(frames_.files().back().first);
     while (simulation_.state().time < case_.end_time - times.tiny && !stop_.stop_requested()) {
       const auto report = simulation_.step(case_.end_time);
       record_.add(simulation_.state().steps, report);
+      if (simulation_.has_fluid()) {
+        record_.unknowns = simulation_.fluid().unknowns();
+        if (frames_.lacks_flow(case_.setting)) frames_.add_flow(simulation_.fluid().flow());
+      }
       if (report.time >= next_frame - times.tiny) {
-        frames_.add(simulation_);
+        add_frame();
         next_frame = times.after(report.time);
       }
       tell(report);
@@ -103,11 +108,10 @@ class Run {
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    frames_.end(simulation_);
+    frames_.end(case_.setting, simulation_.state());
     save();
     const auto& state = simulation_.state();
-    write("final_particles.csv", TextKind::kHashComment,
-          particles::write_particles(state.particles));
+    write("final_particles.csv", TextKind::kHashComment, final_particles());
     write("final_contacts.csv", TextKind::kHashComment,
           particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
     constexpr int kPanels = 4;  // states in the still picture
@@ -115,7 +119,7 @@ class Run {
           report::particles_page(frames_.playback(), case_.title));
     write("particles.svg", TextKind::kSvg,
           report::particles_picture(frames_.playback(), case_.title, kPanels));
-    auto json = run_json(case_, with_costs(), simulation_);
+    auto json = run_json(case_, with_costs(), state);
     write("run.json", TextKind::kJson, json);
     return json;
   }
@@ -128,6 +132,15 @@ class Run {
   }
   void write(const char* name, TextKind kind, const std::string& text) const {
     results::write_output(folder_ / name, kind, text, provenance_);
+  }
+
+  void add_frame() { frames_.add(case_.setting, simulation_.state()); }
+
+  std::string final_particles() {
+    if (!simulation_.has_fluid())
+      return particles::write_particles(simulation_.state().particles);
+    auto& fluid = simulation_.fluid();
+    return particles::write_particles(fluid.reported_particles(), fluid.fluid_forces());
   }
 
   /// The sums, with computing time and memory of this call and the calls before it.
@@ -148,6 +161,10 @@ class Run {
   void save() {
     const auto record = with_costs();
     write("particles.pvd", TextKind::kXml, particles::write_pvd(frames_.files()));
+    if (simulation_.has_fluid()) {
+      write("flow.pvd", TextKind::kXml, particles::write_pvd(frames_.flows()));
+      write("motion.csv", TextKind::kHashComment, frames_.motion());
+    }
     write("steps.csv", TextKind::kHashComment,
           (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
               record_comment(record) + record_.rows);
@@ -164,7 +181,7 @@ class Run {
   }
 
   const case_file::ParticlesCase& case_;
-  Simulation& simulation_;
+  ParticleSimulation& simulation_;
   fs::path folder_;
   const results::Provenance& provenance_;
   ParticleFrames frames_;
@@ -242,7 +259,7 @@ void run_particles(const ParticlesRequest& request) {
     tell_finished(c, *earlier, folder, request.json, request.stop);
     return;
   }
-  StepRecord record;
+  StepRecord record(c.setting.fluid.has_value());
   ParticleFrames frames(folder, provenance, c.particles);
   if (earlier) {
     // This removes frames that were written after the last restart.bin, and the frame that was
@@ -257,7 +274,7 @@ void run_particles(const ParticlesRequest& request) {
     record.first_time = record.last_time = state.time;
     record.last_step = state.steps;
   }
-  Simulation simulation(c.setting, std::move(state), request.threads);
+  ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.stop);
   Run run(c, simulation, folder, provenance, std::move(record),
           earlier ? std::move(earlier->frames) : std::move(frames), request.stop);
   try {

@@ -1,0 +1,36 @@
+// Chooses the simulation for a setting (particle_simulation.hpp), and starts the fluid solver.
+#include "viscontact/pipeline/particles/particle_simulation.hpp"
+
+#include <utility>
+
+#include "viscontact/freefem_flow/freefem_solver.hpp"
+#include "viscontact/freefem_flow/mesh_boundary.hpp"
+
+namespace viscontact::pipeline {
+
+ParticleSimulation::ParticleSimulation(const particles::Setting& setting, particles::State state,
+                                       int threads, const StopToken& stop) {
+  if (!setting.fluid) {
+    dry_ = std::make_unique<particles::Simulation>(setting, std::move(state), threads);
+    return;
+  }
+  const auto& fluid = *setting.fluid;
+  const auto& p = state.particles;
+  auto make_boundary = [fluid, domain = setting.domain](const particles::FluidParticles& bodies) {
+    return freefem_flow::mesh_boundary(fluid, domain, bodies);
+  };
+  auto solver = freefem_flow::start_fluid_solver(fluid, setting.domain, p.radii, p.dimension,
+                                                 make_boundary, stop);
+  in_fluid_ = std::make_unique<particles::FluidSimulation>(setting, std::move(state),
+                                                           std::move(solver));
+}
+
+particles::StepReport ParticleSimulation::step(double end) {
+  return in_fluid_ ? in_fluid_->step(end) : dry_->step(end);
+}
+
+const particles::State& ParticleSimulation::state() const {
+  return in_fluid_ ? in_fluid_->state() : dry_->state();
+}
+
+}  // namespace viscontact::pipeline

@@ -1,0 +1,35 @@
+// A simulation of many particles, with or without a fluid, as a run sees it. Lengths, masses and
+// times are in the units of the case.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/simulation.hpp"
+
+namespace viscontact::pipeline {
+
+/// A particles::FluidSimulation if the setting has a fluid, else a particles::Simulation.
+class ParticleSimulation {
+ public:
+  /// `threads` >= 1 is the number of threads without a fluid. With a fluid, its solver starts, and
+  /// errors are those of freefem_flow::start_fluid_solver.
+  ParticleSimulation(const particles::Setting& setting, particles::State state, int threads,
+                     const StopToken& stop);
+
+  /// See Simulation::step and FluidSimulation::step.
+  particles::StepReport step(double end);
+  const particles::State& state() const;
+
+  /// True if there is a fluid. The functions below need one.
+  bool has_fluid() const { return in_fluid_ != nullptr; }
+  particles::FluidSimulation& fluid() { return *in_fluid_; }
+
+ private:
+  std::unique_ptr<particles::Simulation> dry_;
+  std::unique_ptr<particles::FluidSimulation> in_fluid_;
+};
+
+}  // namespace viscontact::pipeline
