@@ -73,6 +73,8 @@ void add_sweep(CLI::App& app) {
     dry->excludes(option);
   command->callback([o] {
     check_array_options(o->array);
+    check_models("--models", o->models);
+    check_outputs(o->plot.empty() ? std::vector{o->output} : std::vector{o->output, o->plot});
     if (case_file::is_particles_case(o->case_file))
       sweep_many_particles(*o);
     else

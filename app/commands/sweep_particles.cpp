@@ -22,7 +22,6 @@ void sweep_many_particles(const SweepOptions& o) {
                 "--models, --reference, --fit and the options of pictures are for cases of one "
                 "sphere; leave them out");
   const auto means = sweep::path_of_means(o.output);
-  check_outputs({o.output});
   results::refuse_other_kind(o.output, "# viscontact: sweep of particles", "sweep of particles");
   results::refuse_other_kind(means, "# viscontact: means of a sweep", "table of means");
   auto plan = sweep::planned_particles(o.case_file);
@@ -30,6 +29,9 @@ void sweep_many_particles(const SweepOptions& o) {
   if (o.samples > 0) plan.samples = o.samples;
   if (o.draws > 0) plan.draws = o.draws;
   plan.seed = o.seed;
+  if (plan.variations.empty() && plan.draws == 0)
+    throw Error(ErrorKind::kWrongUsage,
+                "there is nothing to vary; give --vary KEY=FROM:TO:COUNT or --draws N");
   const sweep::ParticlesSweep sweep(std::move(plan));
   const pipeline::ParticlesSweepRequest request{o.output, o.jobs, o.keep_runs, interrupt_token()};
   if (o.dry_run) {

@@ -151,8 +151,6 @@ void sweep_sphere(const SweepOptions& o) {
     throw Error(ErrorKind::kWrongUsage,
                 "--launcher slurm, --gather, --task, --keep-runs and --draws are for cases of many "
                 "particles; a row of one sphere takes milliseconds");
-  check_models("--models", o.models);
-  check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   results::refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
   if (!o.plot.empty()) results::refuse_other_kind(o.plot, "<svg", "picture");
   const case_file::Case c = case_file::read_case(o.case_file);

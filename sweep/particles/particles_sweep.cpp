@@ -28,7 +28,7 @@ void check_keys(const ParticlesSweepPlan& plan) {
       throw Error(ErrorKind::kWrongUsage, fmt::format("the key {} is given twice", key));
     if (key == kSeed && plan.draws > 0)
       throw Error(ErrorKind::kWrongUsage,
-                  fmt::format("{} cannot be varied beside --draws, which varies it", key));
+                  fmt::format("{} cannot be varied beside draws, which vary it", key));
     const auto section = key.substr(0, key.find('.'));
     if (section == "sweep" || section == "output")
       throw Error(ErrorKind::kWrongUsage,
@@ -74,10 +74,10 @@ ParticlesSweepPlan planned_particles(const std::filesystem::path& case_path) {
 ParticlesSweep::ParticlesSweep(ParticlesSweepPlan plan)
     : plan_(std::move(plan)), case_(plan_.case_path) {
   if (plan_.variations.empty() && plan_.draws == 0)
-    throw Error(ErrorKind::kWrongUsage,
-                "there is nothing to vary; give --vary KEY=FROM:TO:COUNT or --draws N");
+    throw Error(ErrorKind::kWrongUsage, "the sweep varies no key and has no draws");
   if (plan_.variations.empty() && plan_.samples > 0)
-    throw Error(ErrorKind::kWrongUsage, "--samples needs --vary, which gives the ranges");
+    throw Error(ErrorKind::kWrongUsage,
+                "random samples need a varied key, which gives their range");
   check_keys(plan_);
   points_ = plan_.samples > 0 ? plan_.samples : grid_size(plan_.variations);
   constexpr std::uint64_t kMostRows = 1000000000000;
@@ -88,15 +88,16 @@ ParticlesSweep::ParticlesSweep(ParticlesSweepPlan plan)
   particles_file_ = base.particles_file;
   if (base.arrangement) first_seed_ = base.arrangement->seed;
   if (plan_.draws > 0 && !base.arrangement)
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("{} has no section [arrangement], of which --draws makes draws",
-                            plan_.case_path.string()));
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("{} has no section [arrangement], which draws need", plan_.case_path.string()));
   const auto last_seed = first_seed_ + plan_.draws;
   if (constexpr auto kMost = std::numeric_limits<int>::max();
       plan_.draws > 0 && last_seed - 1 > static_cast<std::uint64_t>(kMost))
-    throw Error(ErrorKind::kWrongUsage,
-                fmt::format("--draws is {}, but arrangement.seed begins at {} and is at most {}",
-                            plan_.draws, first_seed_, kMost));
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("there are {} draws, but arrangement.seed begins at {} and is at most {}",
+                    plan_.draws, first_seed_, kMost));
   result_columns_ = columns_of(base);
   for (const std::uint64_t index : {std::uint64_t{0}, size() - 1}) {
     try {

@@ -169,13 +169,13 @@ TEST_F(ParticlesSweepTest, WrongPlansAreRefused) {
   const auto good = plan_;
   plan_.variations.clear();
   plan_.draws = 0;
-  refused("nothing to vary");
+  refused("varies no key and has no draws");
   plan_ = good;
   plan_.variations.push_back(plan_.variations[0]);
   refused("arrangement.area_fraction is given twice");
   plan_ = good;
   plan_.variations = {parse_variation("arrangement.seed=1,2")};
-  refused("cannot be varied beside --draws");
+  refused("cannot be varied beside draws");
   plan_.variations = {parse_variation("output.every=1,2")};
   refused("changes no result");
   plan_ = good;
