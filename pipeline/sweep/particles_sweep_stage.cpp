@@ -35,7 +35,7 @@ ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& 
           request.keep_all};
 }
 
-void show_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
+void show_finished_rows(terminal::ProgressTimer& timer, std::uint64_t done, std::uint64_t size) {
   if (timer.is_due()) terminal::show_progress(fmt::format("sweep: {} of {} rows", done, size));
 }
 
@@ -78,7 +78,8 @@ void write_tables(const ParticlesSweep& sweep, const ParticlesSweepRequest& requ
   const auto computed = sweep::write_sweep(
       rows, request.output, request.jobs,
       results::output_text(request.output, TextKind::kHashComment, "", provenance_of(sweep)),
-      [&](std::uint64_t done, std::uint64_t size) { show_rows(timer, done, size); }, request.stop);
+      [&](std::uint64_t done, std::uint64_t size) { show_finished_rows(timer, done, size); },
+      request.stop);
   terminal::clear_progress();
   write_means(sweep, request.output);
   tell_outcome(rows, request.output, computed);
@@ -118,7 +119,9 @@ void share_of_sweep(const ParticlesSweep& sweep, const ParticlesSweepRequest& re
   terminal::ProgressTimer timer;
   const auto done = sweep::run_rows(
       rows, 0, request.jobs,
-      [&](std::uint64_t index, const std::string&) { show_rows(timer, index + 1, rows.size); },
+      [&](std::uint64_t index, const std::string&) {
+        show_finished_rows(timer, index + 1, rows.size);
+      },
       request.stop);
   terminal::clear_progress();
   if (done < rows.size)
