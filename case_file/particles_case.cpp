@@ -7,82 +7,43 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
-#include <unordered_map>
+#include <system_error>
 #include <utility>
-#include <vector>
 
-#include "viscontact/case_file/arrangement_section.hpp"
+#include "viscontact/case_file/domain_section.hpp"
+#include "viscontact/case_file/fluid_section.hpp"
+#include "viscontact/case_file/fluid_start.hpp"
+#include "viscontact/case_file/particle_tables.hpp"
 #include "viscontact/case_file/particles_start.hpp"
 #include "viscontact/case_file/particles_template.hpp"
 #include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/case_file/vector_values.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/io/particle_file.hpp"
 
 namespace viscontact::case_file {
 namespace {
 
-using particles::Particles;
-using particles::PiecewiseConstant;
 using particles::Vector;
 using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
-// Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
-constexpr double kLargest = 1e100;
-constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargest; },
-                               "at most 1e100 in magnitude"};
-constexpr Allowed kModeratelyPositive = {
-    [](double v) { return v >= 1 / kLargest && v <= kLargest; }, "from 1e-100 to 1e100"};
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
 
-/// Reads an array with one number for each dimension.
-Vector read_vector(const TomlSection& section, std::string_view key, int dimension) {
-  const auto numbers = section.numbers(key, kModerate);
-  if (numbers.size() != static_cast<std::size_t>(dimension))
-    section.fail(
-        key, fmt::format("contains {} numbers; it must contain {}, one for each dimension of space",
-                         numbers.size(), dimension));
-  return {numbers[0], numbers[1], dimension == 3 ? numbers[2] : 0.0};
+/// Reads space.dimension; 1 stands for "axisymmetric".
+int read_dimension(const TomlSection& space) {
+  if (!space.is_text("dimension")) return space.count("dimension", 2, 3);
+  if (const auto text = space.text("dimension"); text != "axisymmetric")
+    space.fail("dimension", fmt::format("is '{}'; it must be 2, 3 or \"axisymmetric\"", text));
+  return 1;
 }
 
-/// Reads a constant vector, or pieces { until, value } that must last until end_time [T].
-PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key, int dimension,
-                              double end_time) {
-  PiecewiseConstant function;
-  if (!section.is_array_of_tables(key)) {
-    if (section.has(key) && !section.is_array(key))
-      section.fail(
-          key, "is not a list; it must be a list of numbers, or a list of pieces { until, value }");
-    function.pieces.push_back(
-        {std::numeric_limits<double>::max(), read_vector(section, key, dimension)});
-    return function;
-  }
-  double before = 0;
-  for (const auto& piece : section.sections(key)) {
-    const double until = piece.number("until", kPositive);
-    if (!(until > before))
-      piece.fail("until",
-                 fmt::format("is {}; it must be greater than {}, where the piece before ends",
-                             until, before));
-    function.pieces.push_back({until, read_vector(piece, "value", dimension)});
-    piece.finish();
-    before = until;
-  }
-  if (before < end_time * (1 - 1e-9))
-    section.fail(key, fmt::format("ends at {}; it must reach viscous_contact.end_time, {}", before,
-                                  end_time));
-  // The last piece is extended beyond end_time, because rounding errors could put the end of the
-  // last time step after the end of this piece.
-  function.pieces.back().until = std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargest));
-  return function;
-}
-
-void read_law(const TomlSection& section, particles::ContactLaw& law) {
+/// Reads the contact law. In a fluid its viscosity is that of the fluid, unless it is given.
+void read_law(const TomlSection& section, const std::optional<particles::Fluid>& fluid,
+              particles::ContactLaw& law) {
   if (section.has("gamma_min")) law.gamma_min = section.number("gamma_min", kNotPositive);
   if (section.has("viscosity")) law.viscosity = section.number("viscosity", kModeratelyPositive);
   if (section.has("roughness")) law.roughness = section.number("roughness", kModeratelyPositive);
@@ -90,6 +51,11 @@ void read_law(const TomlSection& section, particles::ContactLaw& law) {
     section.fail(
         "viscosity",
         "must be left out, because gamma_min is given and would also follow from viscosity");
+  if (fluid && law.gamma_min && law.roughness)
+    section.fail("roughness",
+                 "must be left out, because gamma_min is given and would also follow from the "
+                 "roughness and the viscosity of the fluid");
+  if (fluid && law.roughness && !law.viscosity) law.viscosity = fluid->viscosity;
   if (law.viscosity.has_value() != law.roughness.has_value())
     section.fail(
         law.viscosity ? "roughness" : "viscosity",
@@ -108,6 +74,8 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
   plane.start.normal = (1 / length) * normal;
   if (section.has("velocity"))
     plane.velocity = read_pieces(section, "velocity", dimension, end_time);
+  if (dimension == 1 && section.has("angular_velocity"))
+    section.fail("angular_velocity", "must be left out, because a plane on an axis does not turn");
   if (section.has("angular_velocity"))
     plane.angular_velocity = dimension == 2
                                  ? Vector{0, 0, section.number("angular_velocity", kModerate)}
@@ -119,59 +87,18 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
   return plane;
 }
 
-void add(Particles& p, const Vector& centre, const Vector& velocity, double radius, double mass) {
-  for (int d = 0; d < p.dimension; ++d) {
-    p.positions.push_back(centre[static_cast<std::size_t>(d)]);
-    p.velocities.push_back(velocity[static_cast<std::size_t>(d)]);
-  }
-  p.radii.push_back(radius);
-  p.masses.push_back(mass);
-}
-
-/// Gives an id to a particle of a table [[particle]]: the largest id so far plus 1. Called only if
-/// the CSV file gives ids.
-void add_id(Particles& p, const TomlSection& section) {
-  const auto largest = std::ranges::max(p.ids);
-  if (largest == std::numeric_limits<std::int32_t>::max())
-    section.fail("centre", fmt::format("belongs to a particle that cannot get an id: it would be "
-                                       "the largest id so far plus 1, but {} is the largest id "
-                                       "that is possible",
-                                       largest));
-  p.ids.push_back(largest + 1);
-}
-
-/// A map from the id of each particle to its index.
-std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
-  std::unordered_map<std::int32_t, std::int32_t> places;
-  for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
-  return places;
-}
-
-/// Reads [[force]]: the same force on all particles whose ids it names.
-void read_forces_by_id(const TomlSection& root, int dimension, double end_time, ParticlesCase& c) {
-  const auto places = places_by_id(c.particles);
-  for (const auto& section : root.sections("force")) {
-    const auto function = read_pieces(section, "value", dimension, end_time);
-    for (const double id : section.numbers("particles", kNotNegative)) {
-      const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
-      const auto place = whole ? places.find(static_cast<std::int32_t>(id)) : places.end();
-      if (place == places.end())
-        section.fail("particles",
-                     c.particles.ids.empty()
-                         ? fmt::format("contains {}, which is not the number of a particle; the "
-                                       "particles are numbered from 0 to {}",
-                                       id, c.particles.count() - 1)
-                         : fmt::format("contains {}, which is not the id of a particle; {} "
-                                       "gives the ids",
-                                       id, c.particles_file.string()));
-      if (!c.setting.forces.emplace(place->second, function).second)
-        section.fail(
-            "particles",
-            fmt::format("contains particle {} a second time; each particle must have one force",
-                        id));
-    }
-    section.finish();
-  }
+/// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane would
+/// bound the particles and not their images.
+void check_periods_of_plane(const TomlSection& section, const particles::Plane& plane,
+                            const particles::Domain& domain) {
+  const auto periods = particles::periods_of(domain);
+  for (std::size_t d = 0; d < periods.size(); ++d)
+    if (periods[d] > 0 &&
+        (plane.start.normal[d] != 0 || particles::norm(plane.angular_velocity) > 0))
+      section.fail("normal", fmt::format("belongs to a plane that turns or is not parallel to the "
+                                         "period of the domain along {}; a plane in a periodic "
+                                         "domain must be parallel to its periods",
+                                         d == 0 ? "x" : "y"));
 }
 
 /// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
@@ -195,7 +122,7 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
         "time_step",
         fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
-  read_law(contact, c.setting.law);
+  read_law(contact, c.setting.fluid, c.setting.law);
   contact.finish();
 }
 
@@ -209,42 +136,36 @@ void read_solver(const TomlSection& solver, particles::SolverSettings& settings)
   solver.finish();
 }
 
-/// Reads the particles of the CSV file and of the tables [[particle]]. Returns the line number of
-/// each particle of the CSV file.
-std::vector<int> read_particles(const TomlSection& root, ParticlesCase& c) {
+/// Reads [domain] and [fluid]. Needs c.path and the dimension of the case.
+void read_domain_and_fluid(const TomlSection& root, ParticlesCase& c) {
   const int dimension = c.particles.dimension;
-  std::vector<int> lines;
-  if (root.has("particles")) {
-    const auto section = root.section("particles");
-    c.particles_file = c.path.parent_path() / section.text("file");
-    section.finish();
-    auto file = particles::read_particles(c.particles_file, dimension);
-    c.particles = std::move(file.particles);
-    lines = std::move(file.lines);
+  if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
+  if (!root.has("fluid")) {
+    if (dimension == 1)
+      root.section("space").fail(
+          "dimension",
+          "is \"axisymmetric\", which is for spheres in a fluid; the case must have "
+          "sections [fluid] and [domain]");
+    return;
   }
-  if (root.has("particle"))
-    for (const auto& section : root.sections("particle")) {
-      if (section.has("force"))
-        c.setting.forces[static_cast<std::int32_t>(c.particles.count())] =
-            read_pieces(section, "force", dimension, c.end_time);
-      add(c.particles, read_vector(section, "centre", dimension),
-          section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
-          section.number("radius", kModeratelyPositive),
-          section.number("mass", kModeratelyPositive));
-      if (!c.particles.ids.empty()) add_id(c.particles, section);
-      section.finish();
-    }
-  if (root.has("arrangement"))
-    c.arrangement = read_arrangement(root.section("arrangement"), c.setting.domain,
-                                     c.setting.fluid.has_value(), c.particles);
-  if (c.particles.count() == 0 && !c.particles_file.empty())
-    throw_bad_input({c.particles_file.string()},
-                    "has no particle; it must have a row for each particle after the header line");
-  if (c.particles.count() == 0)
-    throw_bad_input({c.path.string()},
-                    "has no particle; name a file in [particles], or add a [[particle]] or an "
-                    "[arrangement]");
-  return lines;
+  const auto section = root.section("fluid");
+  if (dimension == 3)
+    root.section("space").fail("dimension",
+                               "is 3; in a case with [fluid] it must be 2 or \"axisymmetric\"");
+  if (!root.has("domain"))
+    throw_bad_input({c.path.string(), section.line()},
+                    "section [fluid] belongs to a case without a section [domain]; the case must "
+                    "have one, because walls or periods must hold the fluid");
+  c.setting.fluid = read_fluid(section, c.setting.domain);
+  // Files of the command are relative to the case file, as all files of a case are.
+  for (auto& word : c.setting.fluid->solver) {
+    const bool is_name_of_program =
+        &word == &c.setting.fluid->solver.front() && word.find('/') == std::string::npos;
+    const auto file = std::filesystem::absolute(c.path).parent_path() / word;
+    std::error_code ignored;
+    if (!is_name_of_program && std::filesystem::is_regular_file(file, ignored))
+      word = file.lexically_normal().string();
+  }
 }
 
 }  // namespace
@@ -263,11 +184,12 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
   c.title = root.text("title");
 
   const auto space = root.section("space");
-  const int dimension = space.count("dimension", 2, 3);
+  const int dimension = read_dimension(space);
   c.particles.dimension = dimension;
   if (space.has("gravity")) c.setting.gravity = read_vector(space, "gravity", dimension);
   space.finish();
 
+  read_domain_and_fluid(root, c);
   read_contact(root.section("viscous_contact"), c);
   if (root.has("solver")) read_solver(root.section("solver"), c.setting.solver);
   c.frame_interval = c.end_time / 100;
@@ -277,14 +199,20 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
     output.finish();
   }
   if (root.has("plane"))
-    for (const auto& section : root.sections("plane"))
+    for (const auto& section : root.sections("plane")) {
       c.setting.planes.push_back(read_plane(section, dimension, c.end_time));
+      check_periods_of_plane(section, c.setting.planes.back(), c.setting.domain);
+    }
 
-  const auto lines = read_particles(root, c);
-  if (root.has("force")) read_forces_by_id(root, dimension, c.end_time, c);
+  const auto lines = read_particles_of_case(root, c);
+  read_forces_by_id(root, c);
   if (root.has("sweep")) c.sweep = read_particles_sweep(root.section("sweep"));
   root.finish();
   check_start(c, lines);
+  if (c.setting.fluid) {
+    if (!root.section("fluid").has("threshold_gap")) set_default_threshold_gap(c);
+    check_fluid_start(root, c, lines);
+  }
   return c;
 }
 

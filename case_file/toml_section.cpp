@@ -145,6 +145,16 @@ bool TomlSection::is_array(std::string_view key) const {
   return has(key) && node_->table->get(key)->is_array();
 }
 
+bool TomlSection::is_table(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_table();
+}
+
+int TomlSection::line() const { return line_of(*node_->table); }
+
+std::string TomlSection::shown(std::string_view key) const {
+  return has(key) ? show(*node_->table->get(key)) : "";
+}
+
 bool TomlSection::is_array_of_tables(std::string_view key) const {
   if (!is_array(key)) return false;
   const auto* array = node_->table->get(key)->as_array();
@@ -178,6 +188,26 @@ std::string TomlSection::text(std::string_view key) const {
   const auto value = node->is_string() ? node->value<std::string>() : std::nullopt;
   if (!value) fail(key, fmt::format("is {}; it must be a text in quotes", show(*node)));
   return *value;
+}
+
+bool TomlSection::truth(std::string_view key) const {
+  if (!has(key)) fail(key, "is missing; it must be true or false");
+  const auto value = node_->table->get(key)->value_exact<bool>();
+  if (!value) fail(key, fmt::format("is {}; it must be true or false", shown(key)));
+  return *value;
+}
+
+std::vector<bool> TomlSection::truths(std::string_view key, std::size_t count) const {
+  const auto allowed = fmt::format("it must be a list of {} values, each true or false", count);
+  if (!has(key)) fail(key, "is missing; " + allowed);
+  const auto* array = node_->table->get(key)->as_array();
+  std::vector<bool> values;
+  if (array != nullptr)
+    for (const auto& element : *array)
+      if (const auto value = element.value_exact<bool>()) values.push_back(*value);
+  if (array == nullptr || array->size() != count || values.size() != count)
+    fail(key, fmt::format("is {}; {}", shown(key), allowed));
+  return values;
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& allowed) const {

@@ -40,6 +40,7 @@ class TomlSection {
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
   bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
+  bool is_table(std::string_view key) const;  ///< the key exists and its value is a table
 
   /// True if the key exists and its value is an array whose first element is a table.
   bool is_array_of_tables(std::string_view key) const;
@@ -47,6 +48,9 @@ class TomlSection {
   double number(std::string_view key, const Allowed& allowed) const;
   int count(std::string_view key, int least, int most) const;  ///< an integer in [least, most]
   std::string text(std::string_view key) const;
+  bool truth(std::string_view key) const;  ///< true or false
+  /// An array of `count` values, each true or false.
+  std::vector<bool> truths(std::string_view key, std::size_t count) const;
   /// An array of at least one number.
   std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
@@ -57,6 +61,9 @@ class TomlSection {
   /// Throws Error(kBadInput) if this table has a key for which none of the functions above has been
   /// called.
   void finish() const;
+
+  int line() const;                               ///< line of this table in the file
+  std::string shown(std::string_view key) const;  ///< the value of an existing key, for a message
 
   /// Throws Error(kBadInput) with the message "section.key what" at the line of this key, or at the
   /// line of this table if the key does not exist.
