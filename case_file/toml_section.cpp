@@ -75,7 +75,7 @@ TomlSection TomlSection::with_numbers(
     const auto replace = [&](auto new_value) {
       const auto dot = path.rfind('.');
       const auto bracket = path.rfind('[');
-      if (bracket != std::string::npos && path.back() == ']') {
+      if (place != nullptr && bracket != std::string::npos && path.back() == ']') {
         auto* array = root->at_path(path.substr(0, bracket)).as_array();
         const auto index = static_cast<std::size_t>(std::stoul(path.substr(bracket + 1)));
         array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), new_value);

@@ -14,6 +14,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 namespace viscontact::sweep {
 namespace {

@@ -10,7 +10,7 @@ inline std::string small_particles_case(const std::string& more = "") {
   return R"(title = "Discs in a box"
 [space]
 dimension = 2
-gravity = [0.0, -1.0]
+gravity = [0.0, -20.0]
 [domain]
 box = { from = [0.0, 0.0], to = [10.0, 8.0], periodic = [true, false] }
 [viscous_contact]

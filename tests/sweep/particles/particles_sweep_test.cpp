@@ -81,6 +81,7 @@ TEST_F(ParticlesSweepTest, DrawsOfAPointFollowEachOtherWithSeedsFromThatOfTheCas
 TEST_F(ParticlesSweepTest, CaseOfARowIsReadAsTheCaseWithItsNumbers) {
   plan_.variations[1] = parse_variation("viscous_contact.time_step=0.033333333333333333,0.1");
   const ParticlesSweep sweep(plan_);
+  make_folder(path("elsewhere"));
   put_text(path("elsewhere/row.toml"), sweep.case_text(7));
   const auto row = case_file::read_particles_case(path("elsewhere/row.toml"));
   const auto c = case_file::ParticlesCaseTemplate(plan_.case_path).with(sweep.numbers(7));
@@ -97,6 +98,7 @@ TEST_F(ParticlesSweepTest, RowOfTheCaseThatATaskGetsHasTheSameIdentity) {
   const ParticlesSweep sweep(plan_);
   auto elsewhere = plan_;
   elsewhere.case_path = path("out.slurm/case.toml");
+  make_folder(path("out.slurm"));
   put_text(elsewhere.case_path, sweep.base_text());
   const ParticlesSweep copied(elsewhere);
   std::set<std::string> identities;
