@@ -1,6 +1,6 @@
-// Reads the particles of a case (particle_tables.hpp). Lengths, masses and times are in the units of
-// the case. A change must keep the keys and their defaults, because users have written cases with
-// them.
+// Reads the particles of a case (particle_tables.hpp). Lengths, masses and times are in the units
+// of the case. A change must keep the keys and their defaults, because users have written cases
+// with them.
 #include "viscontact/case_file/particle_tables.hpp"
 
 #include <fmt/format.h>

@@ -87,8 +87,8 @@ particles::Plane read_plane(const TomlSection& section, int dimension, double en
   return plane;
 }
 
-/// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane would
-/// bound the particles and not their images.
+/// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane
+/// would bound the particles and not their images.
 void check_periods_of_plane(const TomlSection& section, const particles::Plane& plane,
                             const particles::Domain& domain) {
   const auto periods = particles::periods_of(domain);
