@@ -9,8 +9,8 @@
 namespace viscontact::case_file {
 
 /// Sets the default of fluid.threshold_gap: 0.05 times the smallest radius, or half of the smallest
-/// gap at the start, also between a particle and its own image, if this is smaller. `c` has a fluid,
-/// and check_start() has accepted it.
+/// gap at the start, also between a particle and its own image, if this is smaller. `c` has a
+/// fluid, and check_start() has accepted it.
 void set_default_threshold_gap(ParticlesCase& c);
 
 /// Throws Error(kBadInput), with file and line, if the flow cannot be computed: no wall, period or
