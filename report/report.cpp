@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <future>
 
@@ -27,9 +28,9 @@
 namespace viscontact::report {
 namespace {
 
-constexpr std::string_view kPlotNames[] = {
-    "thinnest_film", "gap", "gap_logarithmic", "external_force", "gamma",
-    "solid_force",   "fit", "uncertainty"};
+constexpr auto kPlotNames =
+    std::to_array<std::string_view>({"thinnest_film", "gap", "gap_logarithmic", "external_force",
+                                     "gamma", "solid_force", "fit", "uncertainty"});
 
 struct Picture {
   Plot plot;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -29,11 +30,11 @@ struct PointName {
   int gnuplot;
   const char* page;
 };
-constexpr PointName kPointNames[] = {{PointKind::kNone, 0, ""},
-                                     {PointKind::kCircle, 6, "circle"},
-                                     {PointKind::kDisc, 7, "disc"},
-                                     {PointKind::kSquare, 4, "square"},
-                                     {PointKind::kCross, 2, "cross"}};
+constexpr auto kPointNames = std::to_array<PointName>({{PointKind::kNone, 0, ""},
+                                                       {PointKind::kCircle, 6, "circle"},
+                                                       {PointKind::kDisc, 7, "disc"},
+                                                       {PointKind::kSquare, 4, "square"},
+                                                       {PointKind::kCross, 2, "cross"}});
 
 const PointName& name_of(PointKind kind) { return kPointNames[static_cast<std::size_t>(kind)]; }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -157,8 +158,8 @@ void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
 /// the file in the folder.
 void add_other_origin(Warnings& warnings, const results::RunResults& run) {
   const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
-  const std::pair<std::string, std::string> inputs[] = {{"case", sha256(run.c.text)},
-                                                        {"fit", fit_hash}};
+  const std::array<std::pair<std::string, std::string>, 2> inputs = {
+      {{"case", sha256(run.c.text)}, {"fit", fit_hash}}};
   for (const auto& trajectory : run.trajectories)
     for (const auto& [key, hash] : inputs) {
       const auto found = trajectory.provenance.find(key);

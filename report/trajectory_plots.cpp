@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -29,9 +30,15 @@ CurveStyle line_style(std::string_view model, bool film = false) {
     double width;
     bool dashed = false;
   };
-  constexpr Line kLines[] = {{kSkyBlue, 5.0},   {kBlue, 2.0},        {kBlack, 1.6, true},
-                             {kOrange, 3.4},    {kBluishGreen, 2.2}, {kReddishPurple, 2.2},
-                             {kVermilion, 1.4}, {"#7F7F7F", 2.0},    {"#8C564B", 1.6}};
+  constexpr auto kLines = std::to_array<Line>({{kSkyBlue, 5.0},
+                                               {kBlue, 2.0},
+                                               {kBlack, 1.6, true},
+                                               {kOrange, 3.4},
+                                               {kBluishGreen, 2.2},
+                                               {kReddishPurple, 2.2},
+                                               {kVermilion, 1.4},
+                                               {"#7F7F7F", 2.0},
+                                               {"#8C564B", 1.6}});
   const auto choice = reduced_model::known_model(model);
   if (!choice) return {"#B8A100", 2.0, {}};
   const auto row = static_cast<std::size_t>(choice->model - reduced_model::all_models().data());

@@ -3,6 +3,7 @@
 #include "viscontact/results/exit_code.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <stdexcept>
 #include <string>
@@ -10,7 +11,7 @@
 namespace viscontact::results {
 namespace {
 
-constexpr ExitCode kExitCodes[] = {
+constexpr auto kExitCodes = std::to_array<ExitCode>({
     {{}, 0, "done"},
     {ErrorKind::kWrongUsage, 2, "wrong usage"},
     {ErrorKind::kBadInput, 3, "bad input: a file, or a value in it"},
@@ -21,7 +22,7 @@ constexpr ExitCode kExitCodes[] = {
     // For a process that SIGINT (signal 2) ended, shells report the exit code 128 + 2.
     {ErrorKind::kInterrupted, 130,
      "interrupted; what was finished is kept, and the same command continues from there"},
-};
+});
 
 }  // namespace
 

@@ -63,9 +63,9 @@ Error error_of(const std::vector<FailedModel>& failed, std::size_t computed,
   std::string written;
   if (computed == 1) written = "; 1 other model is computed and written";
   if (computed > 1) written = fmt::format("; {} other models are computed and written", computed);
-  return Error(failed.front().kind,
-               fmt::format("{}: model {}: {}{}{}", case_path.string(), failed.front().model,
-                           failed.front().reason, others, written));
+  return {failed.front().kind,
+          fmt::format("{}: model {}: {}{}{}", case_path.string(), failed.front().model,
+                      failed.front().reason, others, written)};
 }
 
 std::vector<reduced_model::ModelWithoutTrajectory> failures_without(
@@ -90,7 +90,7 @@ std::string reference_without(const std::vector<std::string>& models,
 std::string reference_among(const std::vector<reduced_model::Trajectory>& trajectories,
                             const std::vector<reduced_model::ModelWithoutTrajectory>& failed,
                             const std::string& asked) {
-  const std::string reference = asked.empty() ? reduced_model::usual_reference() : asked;
+  std::string reference = asked.empty() ? reduced_model::usual_reference() : asked;
   const auto found =
       std::ranges::find(failed, reference, &reduced_model::ModelWithoutTrajectory::model);
   if (found == failed.end()) return reference;

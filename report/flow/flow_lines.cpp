@@ -52,8 +52,8 @@ void add_side(std::vector<Polyline>& lines, const freefem_axi::CurvedMesh& mesh,
   const auto& start = mesh.nodes[side[0]];
   const auto& end = mesh.nodes[side[1]];
   const auto& middle = mesh.nodes[side[2]];
-  const auto [left, right] = std::ranges::minmax({start[0], end[0], middle[0]});
-  const auto [bottom, top] = std::ranges::minmax({start[1], end[1], middle[1]});
+  const auto [left, right] = std::minmax({start[0], end[0], middle[0]});
+  const auto [bottom, top] = std::minmax({start[1], end[1], middle[1]});
   if (left > window.right || bottom > window.top || top < window.bottom) return;
   Polyline line;
   for (int i = 0; i <= pieces; ++i) {

@@ -13,9 +13,9 @@ using particles::Frame;
 using particles::PlanePosition;
 using particles::Playback;
 using particles::Vector;
-using particles::operator+;
-using particles::operator-;
-using particles::operator*;
+using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// The extent of the particles of a frame along an axis, without the `cut` outermost particles at
 /// either end.

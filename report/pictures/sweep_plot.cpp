@@ -11,8 +11,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <set>
+#include <sstream>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
@@ -26,8 +26,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
-  for (const auto& field : std::views::split(line, ','))
-    fields.emplace_back(field.begin(), field.end());
+  std::istringstream words(line);
+  for (std::string field; std::getline(words, field, ',');) fields.push_back(field);
   return fields;
 }
 
