@@ -10,6 +10,7 @@
 #include "tests/program/undisturbed.hpp"
 #include "tests/sweep/particles/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "viscontact/common/text/csv.hpp"
 
 namespace viscontact {
@@ -189,6 +190,7 @@ TEST_F(SweepOfParticles, ArrayJobAsksForTheTasksWhoseRunsAreMissing) {
     put_text(path("bin/" + name), "#!/bin/sh\n" + script + "\n");
     make_executable(path("bin/" + name));
   };
+  make_folder(path("bin"));
   program("squeue", "true");
   program("sbatch",
           "for word; do printf '%s\\n' \"$word\"; done > '" + path("asked") + "'\necho 12");
