@@ -178,7 +178,8 @@ Curve streamlines(const freefem_axi::Flow& flow, const PlotView& view) {
   if (!(high > low)) return {};
   const double step = rounded((high - low) / kLines);
   std::vector<Polyline> lines;
-  for (double n = std::ceil(low / step); n <= high / step; ++n) {
+  const int last = static_cast<int>(std::floor(high / step));
+  for (int n = static_cast<int>(std::ceil(low / step)); n <= last; ++n) {
     if (n == 0) continue;  // psi = 0 on the axis and on surfaces at rest that meet it
     auto more = level_lines(field, n * step);
     std::ranges::move(more, std::back_inserter(lines));
