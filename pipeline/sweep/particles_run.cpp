@@ -53,7 +53,7 @@ void add_steps(const fs::path& path, double from, const std::vector<std::string>
                Values& values) {
   std::istringstream text(read_file(path));
   std::vector<std::string> names;
-  std::vector<double> sums(columns.size());
+  std::vector<double> durations(columns.size());
   double before = from;
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with('#')) continue;
@@ -71,12 +71,15 @@ void add_steps(const fs::path& path, double from, const std::vector<std::string>
       constexpr std::string_view kMean = "mean_";
       const bool is_mean = columns[i].starts_with(kMean);
       const auto value = field(is_mean ? columns[i].substr(kMean.size()) : columns[i]);
-      if (!value || columns[i] == "largest_overlap") continue;
-      sums[i] += *value * (time - before);
-      if (is_mean && time > from)
-        values[columns[i]] = sums[i] / (time - from);
-      else if (!is_mean)
+      if (!value) continue;
+      if (is_mean && time > before) {
+        // This form of the mean has no rounding error if all values are equal.
+        durations[i] += time - before;
+        auto& mean = values[columns[i]];
+        mean += (*value - mean) * ((time - before) / durations[i]);
+      } else if (!is_mean) {
         values[columns[i]] = *value;
+      }
     }
     before = time;
   }

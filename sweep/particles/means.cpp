@@ -30,9 +30,10 @@ std::vector<std::string> fields_of(const std::string& line) {
 std::string mean_fields(const std::vector<double>& values) {
   if (values.empty()) return ",";
   const auto n = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  for (const double value : values) sum += value;
-  const double mean = sum / n;
+  // This form of the mean has no rounding error if all values are equal (Welford 1962).
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    mean += (values[i] - mean) / static_cast<double>(i + 1);
   for (const double value : values) squares += (value - mean) * (value - mean);
   if (!std::isfinite(mean) || !std::isfinite(squares)) return ",";
   return format_number(mean) + "," +
