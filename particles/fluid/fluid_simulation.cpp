@@ -299,6 +299,20 @@ StepReport FluidSimulation::step(double end) {
   return report;
 }
 
+FlowField FluidSimulation::flow_at_present() {
+  // The problem lists the pairs of particles anew, which must not change the state.
+  const auto before = state_;
+  const double h = setting_.time_step;
+  try {
+    solve(h, state_.time + h, false);
+  } catch (...) {
+    state_ = before;
+    throw;
+  }
+  state_ = before;
+  return solver_->flow();
+}
+
 Particles FluidSimulation::reported_particles() const {
   auto p = state_.particles;
   if (reported_.empty()) return p;
