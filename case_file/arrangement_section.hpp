@@ -10,8 +10,9 @@
 namespace viscontact::case_file {
 
 /// Reads [arrangement] and adds its discs to `p`, whose present particles keep their places. The
-/// new discs are at rest. Returns what the section asks for. `has_fluid` says whether the case has a fluid: then the mass is 0 unless
-/// it is given, and the discs get an angle and a moment of inertia.
+/// new discs are at rest. Returns what the section asks for. `has_fluid` says whether the case has
+/// a fluid: then the mass is 0 unless it is given, and the discs get an angle and a moment of
+/// inertia.
 ///
 /// Throws Error(kBadInput) with file, line and key for a wrong value, for a domain that is no disc
 /// or box, and if the discs do not fit.

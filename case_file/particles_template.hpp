@@ -32,8 +32,8 @@ class ParticlesCaseTemplate {
   ParticlesCase with(std::span<const std::pair<std::string, double>> numbers) const;
 
   /// The text of a case file with these numbers, which may be in any folder, because the files that
-  /// it names have absolute paths. Equal cases give equal texts, whatever their comments are. Throws
-  /// Error(kBadInput) for a key that the case cannot have.
+  /// it names have absolute paths. Equal cases give equal texts, whatever their comments are.
+  /// Throws Error(kBadInput) for a key that the case cannot have.
   std::string text_with(std::span<const std::pair<std::string, double>> numbers) const;
 
  private:

@@ -13,99 +13,10 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/splitmix.hpp"
+#include "viscontact/particles/arrangement_places.hpp"
 
 namespace viscontact::particles {
 namespace {
-
-using Point = std::array<double, 2>;
-
-/// The places that a centre may take: a disc, or a rectangle that may be periodic.
-class Places {
- public:
-  /// `from_wall` is the least distance of a centre from a wall [L].
-  Places(const Domain& domain, double from_wall) {
-    if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
-      radius_ = disc->radius - from_wall;
-      centre_ = {disc->centre[0], disc->centre[1]};
-      for (const std::size_t d : {0U, 1U}) {
-        from_[d] = centre_[d] - radius_;
-        to_[d] = centre_[d] + radius_;
-      }
-      round_ = true;
-      return;
-    }
-    const auto& box = std::get<BoxDomain>(domain);
-    periods_ = periods_of(domain);
-    for (const std::size_t d : {0U, 1U}) {
-      from_[d] = box.from[d] + (box.periodic[d] ? 0 : from_wall);
-      to_[d] = box.to[d] - (box.periodic[d] ? 0 : from_wall);
-    }
-  }
-
-  bool are_empty() const { return !(from_[0] <= to_[0] && from_[1] <= to_[1]); }
-  double period(std::size_t d) const { return periods_[d]; }
-  double from(std::size_t d) const { return from_[d]; }
-  double length(std::size_t d) const { return to_[d] - from_[d]; }
-
-  bool contain(const Point& x) const {
-    if (!round_) return from_[0] <= x[0] && x[0] <= to_[0] && from_[1] <= x[1] && x[1] <= to_[1];
-    const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
-    return dx * dx + dy * dy <= radius_ * radius_;
-  }
-
-  /// The same place in the box that is not repeated.
-  Point wrapped(Point x) const {
-    for (const std::size_t d : {0U, 1U}) {
-      if (periods_[d] == 0) continue;
-      if (x[d] < from_[d]) x[d] += periods_[d];
-      if (x[d] >= to_[d]) x[d] -= periods_[d];
-      // Rounding may leave a coordinate at the upper side or just below the lower one.
-      if (x[d] < from_[d] || x[d] >= to_[d]) x[d] = from_[d];
-    }
-    return x;
-  }
-
-  /// The nearest place to `x` that is allowed, slightly inside.
-  Point nearest(Point x) const {
-    if (!round_) {
-      x = wrapped(x);
-      for (const std::size_t d : {0U, 1U})
-        if (periods_[d] == 0) x[d] = std::clamp(x[d], from_[d], to_[d]);
-      return x;
-    }
-    if (contain(x)) return x;
-    const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
-    // The centre moves inside by more than the rounding error, so that contain() holds.
-    constexpr double kInside = 1 - 1e-12;
-    const double factor = radius_ * kInside / std::sqrt(dx * dx + dy * dy);
-    return {centre_[0] + factor * dx, centre_[1] + factor * dy};
-  }
-
-  Point random(SplitMix64& random) const {
-    for (;;) {
-      Point x{};
-      for (const std::size_t d : {0U, 1U}) x[d] = random.between(from_[d], to_[d]);
-      if (contain(x)) return wrapped(x);
-    }
-  }
-
-  /// The shortest vector from `a` to `b`, across periodic sides too.
-  Point difference(const Point& a, const Point& b) const {
-    Point apart = {b[0] - a[0], b[1] - a[1]};
-    for (const std::size_t d : {0U, 1U}) {
-      if (periods_[d] == 0) continue;
-      if (apart[d] > periods_[d] / 2) apart[d] -= periods_[d];
-      if (apart[d] < -periods_[d] / 2) apart[d] += periods_[d];
-    }
-    return apart;
-  }
-
- private:
-  bool round_ = false;
-  double radius_ = 0;
-  Point centre_{}, from_{}, to_{};
-  std::array<double, 2> periods_{};
-};
 
 /// A particle that an arrangement finds in its domain, and the least distance of centres from it.
 struct Obstacle {
@@ -145,9 +56,9 @@ class Discs {
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` with the vector from `x` to each disc but disc `self`, and to each obstacle, that
-  /// is closer than `factor` times its least distance, with its number (obstacles: none) and its
-  /// least distance. Ends early if `visit` returns true; then returns true.
+  /// Calls `visit` with the vector from `x` to each disc but disc `self`, and to each obstacle,
+  /// that is closer than `factor` times its least distance, with its number (obstacles: none) and
+  /// its least distance. Ends early if `visit` returns true; then returns true.
   template <class Visit>
   bool any_close(const Point& x, std::optional<std::size_t> self, double factor,
                  const Visit& visit) const {
@@ -206,17 +117,18 @@ class Discs {
   std::vector<Point> centres_;
 };
 
-/// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps are large
-/// enough then.
+/// Pushes discs apart that are too close, in up to `rounds` rounds over all discs. True if all gaps
+/// are large enough then.
 bool push_apart(Discs& discs, const Places& places, int rounds) {
-  // Discs are pushed slightly further apart than they must be, because the pushes bring them to that
-  // distance only in the limit.
+  // Discs are pushed slightly further apart than they must be, because the pushes bring them to
+  // that distance only in the limit.
   constexpr double kFurther = 1 + 1e-3;
   for (int round = 0; round < rounds; ++round) {
     bool all_free = true;
     for (std::size_t k = 0; k < discs.centres().size(); ++k) {
       all_free = all_free && discs.is_free(discs.centres()[k], k);
-      // Each close disc pushes by half of what is missing; an obstacle, which does not move, by all.
+      // Each close disc pushes by half of what is missing; an obstacle, which does not move, by
+      // all.
       Point push{};
       const Point x = discs.centres()[k];
       discs.any_close(x, k, kFurther, [&](const Point& apart, double distance, auto number) {

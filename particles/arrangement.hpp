@@ -31,9 +31,9 @@ std::size_t count_of(double fraction, double radius, const Domain& domain);
 /// walls. Returns x and y of each new disc, in the order of their numbers.
 ///
 /// The gaps between two discs, also across periodic sides, between a disc and a particle of
-/// `present`, and between a disc and a wall are at least `smallest_gap`. The arrangement is a sample
-/// of the equilibrium of hard discs with this gap (all arrangements are equally likely), as far as a
-/// Monte Carlo simulation of a limited number of moves reaches it:
+/// `present`, and between a disc and a wall are at least `smallest_gap`. The arrangement is a
+/// sample of the equilibrium of hard discs with this gap (all arrangements are equally likely), as
+/// far as a Monte Carlo simulation of a limited number of moves reaches it:
 ///
 /// 1. Each disc is put at a random place where it has its gaps (random sequential addition, Widom
 ///    1966), or anywhere if 1000 tries fail.
@@ -42,8 +42,8 @@ std::size_t count_of(double fraction, double radius, const Domain& domain);
 ///    (Metropolis et al. 1953).
 ///
 /// In a periodic box with gaps of 0.05 r, area fractions of 0.6 need less than a second for 1000
-/// discs. The result depends on the arguments alone, bit for bit, on each machine with arithmetic of
-/// IEEE 754.
+/// discs. The result depends on the arguments alone, bit for bit, on each machine with arithmetic
+/// of IEEE 754.
 ///
 /// Throws Error(kBadInput) if the discs do not fit or no arrangement is found. The message has no
 /// place; it names the number of discs and their area fraction.

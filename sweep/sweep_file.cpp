@@ -1,5 +1,5 @@
-// Writes, continues and reads the file of a sweep (sweep_file.hpp). Rows of an earlier call are kept
-// only if its file has the same head, so that rows of another sweep are not kept.
+// Writes, continues and reads the file of a sweep (sweep_file.hpp). Rows of an earlier call are
+// kept only if its file has the same head, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sweep_file.hpp"
 
 #include <fmt/format.h>

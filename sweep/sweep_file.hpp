@@ -13,9 +13,9 @@ namespace viscontact::sweep {
 
 /// Computes the missing rows of a sweep and writes them into a CSV file. Until all rows are
 /// finished, they are in PATH.part, in order. A later call keeps the rows in that file if they
-/// belong to the same sweep (Rows::comments), and otherwise deletes them. A finished file of the same
-/// sweep is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the
-/// head of a new file. `progress(done, size)` is called after each row.
+/// belong to the same sweep (Rows::comments), and otherwise deletes them. A finished file of the
+/// same sweep is left as it is. `how_made` is empty or a line "# provenance: ...\n" for the head of
+/// a new file. `progress(done, size)` is called after each row.
 ///
 /// Throws Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if a file cannot be
 /// written or another process writes the same file. Returns the number of rows that were computed.

@@ -1,5 +1,5 @@
-// `sweep` of a case of one sphere (sweep_options.hpp): its plan, the choice of what its picture shows,
-// and the messages. The rows are computed by sweep/.
+// `sweep` of a case of one sphere (sweep_options.hpp): its plan, the choice of what its picture
+// shows, and the messages. The rows are computed by sweep/.
 #include <fmt/format.h>
 
 #include <algorithm>

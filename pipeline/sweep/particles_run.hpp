@@ -1,5 +1,5 @@
-// A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and its
-// results. A row that is finished is not computed again.
+// A run of a sweep of particles, in a folder of its own: the case of the row, the run itself and
+// its results. A row that is finished is not computed again.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +32,9 @@ class ParticlesRuns {
   /// True if the run of row `index` has succeeded, so that compute() would not run it again.
   bool has_succeeded(std::uint64_t index) const;
 
-  /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of a
-  /// run that has succeeded. A run that failed before is run again. If the case is wrong, a step does
-  /// not converge or the fluid solver fails, the results say so in `failure`. Throws
+  /// Runs the case of row `index`, continues the run if it was interrupted, or takes the results of
+  /// a run that has succeeded. A run that failed before is run again. If the case is wrong, a step
+  /// does not converge or the fluid solver fails, the results say so in `failure`. Throws
   /// Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if the folder cannot be
   /// written or another process computes the same row.
   sweep::RunResults compute(std::uint64_t index, const StopToken& stop) const;

@@ -1,6 +1,6 @@
 // Runs, shares, gathers and submits the rows of a sweep of particles (particles_sweep_stage.hpp).
-// Runs are kept in their folders until the user deletes them, so that adding draws runs the new ones
-// only.
+// Runs are kept in their folders until the user deletes them, so that adding draws runs the new
+// ones only.
 #include "viscontact/pipeline/sweep/particles_sweep_stage.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using sweep::ParticlesSweep;
 
-/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; the results
-/// do not depend on their number.
+/// The runs of a sweep. If there are fewer rows than jobs, each run has several threads; the
+/// results do not depend on their number.
 ParticlesRuns runs_of(const ParticlesSweep& sweep, const ParticlesSweepRequest& request,
                       std::uint64_t rows) {
   const auto runs_at_once =

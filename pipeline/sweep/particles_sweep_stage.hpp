@@ -1,6 +1,6 @@
-// The stage of a sweep of particles: the rows and means of one case. This process computes the rows,
-// or each task of a job on a cluster computes a share of them; then gather_sweep puts the tables
-// together.
+// The stage of a sweep of particles: the rows and means of one case. This process computes the
+// rows, or each task of a job on a cluster computes a share of them; then gather_sweep puts the
+// tables together.
 #pragma once
 
 #include <cstddef>
@@ -43,8 +43,8 @@ void gather_sweep(const sweep::ParticlesSweep& sweep, const ParticlesSweepReques
 void submit_sweep(const sweep::ParticlesSweep& sweep, const ArrayRequest& request,
                   const std::vector<std::string>& options);
 
-/// The estimate for --dry-run. The time of a row is that of the runs that have ended; 0 if there are
-/// none.
+/// The estimate for --dry-run. The time of a row is that of the runs that have ended; 0 if there
+/// are none.
 DryRun dry_run(const sweep::ParticlesSweep& sweep, const std::string& output);
 
 }  // namespace viscontact::pipeline

@@ -1,5 +1,5 @@
-// Computes means over the draws of each point (means.hpp). The draws of a point follow each other in
-// the file, so that only one point is in memory at a time.
+// Computes means over the draws of each point (means.hpp). The draws of a point follow each other
+// in the file, so that only one point is in memory at a time.
 #include "viscontact/sweep/particles/means.hpp"
 
 #include <fmt/format.h>

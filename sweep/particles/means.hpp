@@ -9,10 +9,10 @@
 namespace viscontact::sweep {
 
 /// The table of means of a finished file of rows: for each point of the sweep its varied keys, the
-/// number of draws that succeeded, the number of those that failed, and, for each column of results,
-/// COLUMN.mean and COLUMN.standard_error over the draws that succeeded. The standard error is the
-/// standard deviation (with n - 1) over the root of n; it is empty if n < 2. Throws Error(kBadInput)
-/// if the file cannot be read or has other rows than the sweep.
+/// number of draws that succeeded, the number of those that failed, and, for each column of
+/// results, COLUMN.mean and COLUMN.standard_error over the draws that succeeded. The standard error
+/// is the standard deviation (with n - 1) over the root of n; it is empty if n < 2. Throws
+/// Error(kBadInput) if the file cannot be read or has other rows than the sweep.
 std::string table_of_means(const ParticlesSweep& sweep, const std::filesystem::path& rows);
 
 /// The path of the table of means beside a file of rows: "rows.csv" gives "rows_means.csv".

@@ -165,8 +165,8 @@ Rows rows_of(const ParticlesSweep& sweep, const std::string& version, ParticlesR
   const auto& results = sweep.result_columns();
   rows.columns.insert(rows.columns.end(), results.begin(), results.end());
   rows.columns.emplace_back("failure");
-  // The case of a row has everything that determines its results; a row begins with the numbers that
-  // differ from those of the first one.
+  // The case of a row has everything that determines its results; a row begins with the numbers
+  // that differ from those of the first one.
   rows.comments = {
       {"viscontact", "sweep of particles"},
       {"case", sha256(read_file(sweep.plan().case_path))},

@@ -1,5 +1,5 @@
-// A sweep over a case of many particles: the case is run at each point of a grid, at each point with
-// several random arrangements if draws are asked for, and each run gives a row of results
+// A sweep over a case of many particles: the case is run at each point of a grid, at each point
+// with several random arrangements if draws are asked for, and each run gives a row of results
 // (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change of the
 // columns must keep their names, because scripts of users read them.
 #pragma once
@@ -44,9 +44,9 @@ struct RunResults {
 /// The points of a sweep of particles, their cases and the rows that their results give.
 class ParticlesSweep {
  public:
-  /// Reads the case. Throws Error(kBadInput) if the first or the last row of the plan gives no valid
-  /// case, and Error(kWrongUsage) if nothing is varied, if a key is varied twice or changes nothing,
-  /// or if there are draws but the case has no [arrangement].
+  /// Reads the case. Throws Error(kBadInput) if the first or the last row of the plan gives no
+  /// valid case, and Error(kWrongUsage) if nothing is varied, if a key is varied twice or changes
+  /// nothing, or if there are draws but the case has no [arrangement].
   explicit ParticlesSweep(ParticlesSweepPlan plan);
 
   const ParticlesSweepPlan& plan() const { return plan_; }
@@ -62,8 +62,8 @@ class ParticlesSweep {
   /// Keys and values that row `index` changes in the case. The draws of a point follow each other.
   std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
 
-  /// The text of a case file for row `index`, which may be in any folder. Rows whose case is the same
-  /// have the same text.
+  /// The text of a case file for row `index`, which may be in any folder. Rows whose case is the
+  /// same have the same text.
   std::string case_text(std::uint64_t index) const;
 
   /// The text of the case with no number changed, which may be in any folder.
@@ -72,7 +72,8 @@ class ParticlesSweep {
   /// The CSV file of particles that the case names; empty if there is none.
   const std::filesystem::path& particles_file() const { return particles_file_; }
 
-  /// Hash of everything that determines the results of row `index`, with this version of Viscontact.
+  /// Hash of everything that determines the results of row `index`, with this version of
+  /// Viscontact.
   std::string identity(std::uint64_t index, const std::string& version) const;
 
   /// The values of keys() at a row, as the CSV fields with which it begins.
