@@ -11,6 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_flow/dissipation_alone.hpp"
 #include "viscontact/freefem_flow/opening.hpp"
 #include "viscontact/freefem_flow/solver_dialogue.hpp"
 
@@ -68,7 +69,8 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
     : dimension_(dimension),
       components_(radii.size() * particles::motion_components(dimension)),
-      make_boundary_(std::move(make_boundary)) {
+      make_boundary_(std::move(make_boundary)),
+      dissipation_alone_(dissipation_alone(fluid, domain)) {
   // The opening is made first, because it throws if the domain is wrong.
   const std::string text = opening(fluid, domain, radii, dimension);
   solver_ = std::make_unique<SolverDialogue>(command, limits.answer, limits.stop);
@@ -114,7 +116,9 @@ particles::FlowQuantities FlowProcess::quantities() {
   solver_->expect("quantities");
   particles::FlowQuantities quantities;
   quantities.dissipation = solver_->number();
-  const double alone = solver_->number_from_zero();
+  double alone = solver_->number_from_zero();
+  // The solver answers 0 if it does not know the dissipation without particles.
+  if (alone == 0) alone = dissipation_alone_;
   quantities.apparent_viscosity = alone == 0 ? 0 : quantities.dissipation / alone;
   quantities.fluid_forces = solver_->numbers(components_);
   return quantities;

@@ -59,6 +59,7 @@ class FlowProcess : public particles::FluidSolver {
   int dimension_;
   std::size_t components_;  ///< of the motions of all particles
   MeshBoundaryMaker make_boundary_;
+  double dissipation_alone_;  ///< of the fluid without particles, 0: not known
   std::unique_ptr<SolverDialogue> solver_;
   bool wants_boundary_ = false;
   std::size_t unknowns_ = 0;

@@ -1,0 +1,55 @@
+// Dissipation without particles (dissipation_alone.hpp): linear flows and plane Couette flow. The
+// result must be exactly 0 where no closed form is known, because 0 means "not known".
+#include "viscontact/freefem_flow/dissipation_alone.hpp"
+
+#include <numbers>
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using particles::BoxDomain;
+using particles::WallVelocity;
+
+double area_of(const particles::Domain& domain) {
+  if (const auto* disc = std::get_if<particles::DiscDomain>(&domain))
+    return std::numbers::pi * disc->radius * disc->radius;
+  if (const auto* box = std::get_if<BoxDomain>(&domain))
+    return (box->to[0] - box->from[0]) * (box->to[1] - box->from[1]);
+  return 0;  // the walls of a cylinder are at rest
+}
+
+/// 2 E:E of the gradient G = (g0, g1; g2, g3).
+double twice_strain_squared(const particles::LinearFlow& flow) {
+  const auto& g = flow.gradient;
+  const double shear = (g[1] + g[2]) / 2;
+  return 2 * (g[0] * g[0] + 2 * shear * shear + g[3] * g[3]);
+}
+
+/// Square of the shear rate between two walls at the distance `height` that move along `axis`; 0 if
+/// they do not move so.
+double shear_rate_squared(const WallVelocity& low, const WallVelocity& high, std::size_t axis,
+                          double height) {
+  const auto moves_along = [&](const WallVelocity& wall) {
+    return wall.kind == WallVelocity::Kind::kConstant && wall.value[1 - axis] == 0;
+  };
+  if (!moves_along(low) || !moves_along(high)) return 0;
+  const double rate = (high.value[axis] - low.value[axis]) / height;
+  return rate * rate;
+}
+
+}  // namespace
+
+double dissipation_alone(const particles::Fluid& fluid, const particles::Domain& domain) {
+  const double scale = fluid.viscosity * area_of(domain);
+  if (const auto* flow = std::get_if<particles::LinearFlow>(&fluid.boundary))
+    return scale * twice_strain_squared(*flow);
+  const auto* box = std::get_if<BoxDomain>(&domain);
+  if (box == nullptr || box->periodic[0] == box->periodic[1]) return 0;
+  const std::size_t axis = box->periodic[0] ? 0 : 1;
+  const auto& sides = std::get<particles::SideVelocities>(fluid.boundary);
+  const std::size_t low = axis == 0 ? 2 : 0;
+  return scale * shear_rate_squared(sides[low], sides[low + 1], axis,
+                                    box->to[1 - axis] - box->from[1 - axis]);
+}
+
+}  // namespace viscontact::freefem_flow
