@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/common/text/csv.hpp"
 
 namespace viscontact::sweep {
 
@@ -18,8 +18,9 @@ struct Rows {
   /// Names of the columns. The first `keys` columns identify the row; the last is `failure`.
   std::vector<std::string> columns;
   std::size_t keys = 0;
-  /// The head of the file. Files with the same head and the same columns have the same rows.
-  CsvComments comments;
+  /// The lines "# key: value" at the head of the file. Files with the same head and the same
+  /// columns have the same rows.
+  std::map<std::string, std::string> comments;
   /// The first `keys` fields of a row, separated by commas. It takes little time.
   std::function<std::string(std::uint64_t index)> key_fields;
   /// A row as a line of CSV. It is called by several threads at once, and throws
