@@ -103,11 +103,20 @@ class BoundaryMaker {
     add_curve(points, label);
   }
 
+  /// The surfaces of the particles. A body that is meshed gets a polygon inside, around which the
+  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a rigid motion
+  /// needs few of them.
   void add_particles() {
     if (!fitted_) return;
-    for (std::size_t k = 0; k < lengths_.circles().size(); ++k)
+    for (std::size_t k = 0; k < lengths_.circles().size(); ++k) {
+      constexpr double kOfRadius = 0.5, kLongest = 10;
+      const auto& circle = lengths_.circles()[k];
+      if (!has_holes_)
+        add_circle({circle.centre, kOfRadius * circle.radius}, kInsideLabel, false,
+                   [&](const Point&) { return kLongest * circle.radius; });
       add_circle(lengths_.circles()[k], kFirstParticleLabel + static_cast<int>(k), has_holes_,
                  [&](const Point& x) { return lengths_.on_particle(k, x); });
+    }
   }
 
   /// The four sides of a box. Opposite sides that are periodic get the same points.
