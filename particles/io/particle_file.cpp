@@ -213,6 +213,17 @@ std::string motion_rows(double time, const Particles& particles) {
   return text;
 }
 
+std::string contact_rows(double time, const Particles& particles,
+                         std::span<const CurrentContact> contacts) {
+  std::string text;
+  for (const auto& contact : contacts) {
+    const auto [i, j] = ids_of(particles, contact);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", format_number(time), i, j,
+                   format_number(contact.gap), format_number(contact.gamma));
+  }
+  return text;
+}
+
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
   std::string text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error\n", contacts.size());
   for (const auto& contact : contacts) {

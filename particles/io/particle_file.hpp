@@ -48,6 +48,12 @@ std::string write_particles(const Particles& particles, std::span<const double> 
 std::string motion_header(int dimension);
 std::string motion_rows(double time, const Particles& particles);
 
+/// The rows of contacts.csv at `time` [T], without the line of its columns:
+/// time,i,j,gap,gamma. i and j are as in write_contacts().
+inline constexpr const char* kContactsHeader = "time,i,j,gap,gamma\n";
+std::string contact_rows(double time, const Particles& particles,
+                         std::span<const CurrentContact> contacts);
+
 /// CSV text with the columns i,j,gap,gamma,gamma_error. i and j are the ids of two particles; j is
 /// -1, -2, ... for the first, second obstacle.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);

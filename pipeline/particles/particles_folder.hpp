@@ -17,7 +17,8 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
      "final_contacts.csv", "steps.csv", "restart.bin", "run.json"});
 
 /// Those that only a run with a fluid has.
-inline constexpr auto kFluidResults = std::to_array<const char*>({"motion.csv", "flow.pvd"});
+inline constexpr auto kFluidResults =
+    std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.

@@ -63,6 +63,7 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
   if (setting.fluid) {
     if (motion_.empty()) motion_ = particles::motion_header(playback_.dimension);
     motion_ += particles::motion_rows(state.time, state.particles);
+    add_contact_rows(state.time, contacts);
   }
   if ((files_.size() - 1) % every_ == 0)
     keep(frame_at(state.time, setting, state.particles.positions, std::move(contacts)));
@@ -72,6 +73,14 @@ void ParticleFrames::add_flow(const particles::FlowField& flow) {
   const auto name = flow_name(files_.back().second);
   results::write_output(folder_ / name, TextKind::kXml, particles::write_flow(flow), provenance_);
   flows_.emplace_back(files_.back().first, name);
+}
+
+void ParticleFrames::add_contact_rows(double time,
+                                      const std::vector<particles::CurrentContact>& contacts) {
+  if (contacts_.empty()) contacts_ = particles::kContactsHeader;
+  particles::Particles named;  // only the ids are needed
+  named.ids = playback_.ids;
+  contacts_ += particles::contact_rows(time, named, contacts);
 }
 
 void ParticleFrames::resume_fluid(double time) {
@@ -105,6 +114,7 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
     if (content.positions.size() !=
         playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
+    if (setting.fluid) add_contact_rows(file.first, content.contacts);
     if ((files_.size() - 1) % every_ == 0)
       keep(frame_at(file.first, setting, content.positions, std::move(content.contacts)));
   }

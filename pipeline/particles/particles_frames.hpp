@@ -41,7 +41,7 @@ class ParticleFrames {
   ParticleFrames(std::filesystem::path folder, const results::Provenance& provenance,
                  const particles::Particles& particles);
 
-  /// Writes a frame of the state. With a fluid, motion_rows() gets its rows.
+  /// Writes a frame of the state. With a fluid, motion() and contacts() get its rows.
   void add(const particles::Setting& setting, const particles::State& state);
 
   /// True if the fluid of the last frame has not been written. The flow around the particles of a
@@ -68,16 +68,19 @@ class ParticleFrames {
   const std::vector<FrameFile>& flows() const { return flows_; }
   /// The text of motion.csv; empty without a fluid.
   const std::string& motion() const { return motion_; }
+  /// The text of contacts.csv; empty without a fluid.
+  const std::string& contacts() const { return contacts_; }
 
  private:
   void keep(particles::Frame frame);
+  void add_contact_rows(double time, const std::vector<particles::CurrentContact>& contacts);
   void resume_fluid(double time);
 
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
   particles::Playback playback_;
   std::vector<FrameFile> files_, flows_;
-  std::string motion_;
+  std::string motion_, contacts_;
   std::size_t every_ = 1, kept_bytes_ = 0;
 };
 

@@ -164,6 +164,7 @@ class Run {
     if (simulation_.has_fluid()) {
       write("flow.pvd", TextKind::kXml, particles::write_pvd(frames_.flows()));
       write("motion.csv", TextKind::kHashComment, frames_.motion());
+      write("contacts.csv", TextKind::kHashComment, frames_.contacts());
     }
     write("steps.csv", TextKind::kHashComment,
           (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
