@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -34,6 +35,16 @@ bool ProgressTimer::is_due() {
   if (now - last_ < kBetween) return false;
   last_ = now;
   return true;
+}
+
+std::string time_left(double seconds, double done) {
+  // From these remaining times on, minutes and hours are easier to read [s].
+  constexpr double kTooShort = 2, kInMinutes = 90, kInHours = 5400;
+  if (seconds < kTooShort || !(done > 0)) return "";
+  const double left = seconds * std::max(0.0, 1 / done - 1);
+  if (left > kInHours) return fmt::format(", about {:.1f} h left", left / 3600);
+  if (left > kInMinutes) return fmt::format(", about {:.0f} min left", left / 60);
+  return fmt::format(", about {:.0f} s left", left);
 }
 
 void clear_progress() { show_progress(""); }

@@ -23,6 +23,10 @@ class ProgressTimer {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// The remaining time of a work of which the share `done`, above 0 and at most 1, took `seconds`
+/// [s]: ", about 3 min left". Empty in the first two seconds, from which nothing can be told.
+std::string time_left(double seconds, double done);
+
 /// Removes the progress line.
 void clear_progress();
 

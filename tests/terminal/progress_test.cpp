@@ -75,5 +75,15 @@ TEST(Words, AreColouredOnATerminalUnlessThatIsRefused) {
   EXPECT_EQ(word("dumb", ""), "failed");
 }
 
+TEST(TimeLeft, IsInUnitsThatAreEasyToRead) {
+  EXPECT_EQ(time_left(10, 0.5), ", about 10 s left");
+  EXPECT_EQ(time_left(60, 0.25), ", about 3 min left");
+  EXPECT_EQ(time_left(3600, 0.2), ", about 4.0 h left");
+  EXPECT_EQ(time_left(10, 1), ", about 0 s left");
+  // Nothing can be told from the first second, nor before anything is done.
+  EXPECT_EQ(time_left(1, 0.5), "");
+  EXPECT_EQ(time_left(10, 0), "");
+}
+
 }  // namespace
 }  // namespace viscontact::terminal
