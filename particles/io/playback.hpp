@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "viscontact/particles/current_contacts.hpp"
@@ -18,6 +19,10 @@ struct Frame {
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
+  std::vector<float> angles{};           ///< of each particle [rad]; empty if none turns
+  /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. A picture reads
+  /// the flows one after the other, because all of them may be too large for the memory.
+  std::filesystem::path flow{};
 };
 
 /// All frames that a page or a picture shows.
