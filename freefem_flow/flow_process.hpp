@@ -19,9 +19,10 @@ namespace viscontact::freefem_flow {
 
 class SolverDialogue;
 
-/// Makes the boundary of the mesh around particles. It is called only for solvers that ask for a
-/// boundary.
-using MeshBoundaryMaker = std::function<MeshBoundary(const particles::FluidParticles&)>;
+/// Makes the boundary of the mesh around particles, with edges that are about `coarsening` >= 1
+/// times as long as the fluid says. It is called only for solvers that ask for a boundary.
+using MeshBoundaryMaker =
+    std::function<MeshBoundary(const particles::FluidParticles&, double coarsening)>;
 
 /// Conditions on which the process of a solver is killed.
 struct SolverLimits {
@@ -29,6 +30,10 @@ struct SolverLimits {
   std::chrono::milliseconds answer = std::chrono::minutes(30);
   /// If it requests a stop, the solver is killed and Error(kInterrupted) is thrown.
   StopToken stop{};
+  /// A mesh of at most this many unknowns is refined to estimate the error. The refined mesh has
+  /// four times as many unknowns, 400000, which take 2 GB. The error on a larger mesh is estimated
+  /// from a coarser one.
+  std::size_t most_unknowns_to_refine = 100'000;
 };
 
 /// The process starts with the object and ends with it. It also ends with the thread that made the
@@ -54,15 +59,22 @@ class FlowProcess : public particles::FluidSolver {
   particles::EstimatedVelocities estimate(std::span<const double> forces) override;
   particles::FlowField flow() override;
   std::size_t unknowns() const override { return unknowns_; }
+  double peak_memory_mebibytes() const override;
 
  private:
+  void ask_to_place(const std::string& boundary);
+  particles::EstimatedVelocities estimate_from_coarser_mesh(std::span<const double> forces);
+
   int dimension_;
   std::size_t components_;  ///< of the motions of all particles
   MeshBoundaryMaker make_boundary_;
   double dissipation_alone_;  ///< of the fluid without particles, 0: not known
   std::unique_ptr<SolverDialogue> solver_;
   bool wants_boundary_ = false;
-  std::size_t unknowns_ = 0;
+  std::size_t unknowns_ = 0, most_unknowns_to_refine_;
+  // The last request `place`: places, driven particles and inertia; the boundary; and, for a mesh
+  // that is too large to be refined, a coarser boundary.
+  std::string placement_, boundary_, coarser_boundary_;
 };
 
 }  // namespace viscontact::freefem_flow

@@ -19,10 +19,10 @@ constexpr std::size_t kLeastOnCircle = 6;
 class BoundaryMaker {
  public:
   BoundaryMaker(const particles::Fluid& fluid, const particles::Domain& domain,
-                const particles::FluidParticles& bodies)
+                const particles::FluidParticles& bodies, double coarsening)
       : fitted_(fluid.mesh == particles::FluidMesh::kFitted),
         has_holes_(fluid.constraint == particles::RigidConstraint::kRigid),
-        lengths_(fluid, domain, bodies) {}
+        lengths_(fluid, domain, bodies, coarsening) {}
 
   MeshBoundary of(const particles::DiscDomain& disc) {
     add_circle({{disc.centre[0], disc.centre[1]}, disc.radius}, 1, false,
@@ -203,8 +203,8 @@ class BoundaryMaker {
 }  // namespace
 
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
-                           const particles::FluidParticles& bodies) {
-  BoundaryMaker maker(fluid, domain, bodies);
+                           const particles::FluidParticles& bodies, double coarsening) {
+  BoundaryMaker maker(fluid, domain, bodies, coarsening);
   return std::visit([&](const auto& shape) { return maker.of(shape); }, domain);
 }
 

@@ -31,8 +31,9 @@ struct MeshBoundary {
 /// mesh, edges get shorter where a gap is narrow (boundary/edge_lengths.hpp), and the particles'
 /// surfaces are curves: holes of the mesh if the rigid motions are unknowns, else lines inside it.
 /// Where the domain is periodic, a fitted mesh does not end at straight sides, which would cut
-/// particles, but halfway between neighbours (boundary/periodic_cells.hpp).
+/// particles, but halfway between neighbours (boundary/periodic_cells.hpp). The edges are about
+/// `coarsening` > 0 times as long as the fluid says.
 MeshBoundary mesh_boundary(const particles::Fluid& fluid, const particles::Domain& domain,
-                           const particles::FluidParticles& bodies);
+                           const particles::FluidParticles& bodies, double coarsening = 1);
 
 }  // namespace viscontact::freefem_flow

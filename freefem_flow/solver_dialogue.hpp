@@ -43,6 +43,9 @@ class SolverDialogue {
   /// A whole number from 0 to `largest`.
   std::int64_t whole_number(std::int64_t largest);
 
+  /// The largest resident memory of the solver so far [kB]; 0 after an error.
+  long peak_memory_kb() const { return process_ ? process_->peak_memory_kb() : 0; }
+
   /// Ends the solver and throws: what it answered, the last word that was read, is wrong.
   [[noreturn]] void refuse(std::string_view needed);
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 
 #include "viscontact/common/error.hpp"
 
@@ -182,6 +183,16 @@ bool ChildProcess::has_unread_output() {
 void ChildProcess::keep(std::string_view line) {
   last_lines_.add(LastLines::kOutput, line);
   last_lines_.add(LastLines::kOutput, "\n");
+}
+
+long ChildProcess::peak_memory_kb() const {
+  std::ifstream status(fmt::format("/proc/{}/status", child_.id));
+  const std::string key = "VmHWM:";
+  for (std::string word; status >> word;) {
+    long kilobytes = 0;
+    if (word == key && status >> kilobytes) return kilobytes;
+  }
+  return 0;
 }
 
 bool ChildProcess::has_ended() const {

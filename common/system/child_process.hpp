@@ -76,6 +76,10 @@ class ChildProcess {
   /// The last word that was read counts as not read: the next call reads it again.
   void put_word_back() { at_ = word_start_; }
 
+  /// The largest resident memory of the child so far [kB], without that of its own children; 0 if
+  /// the child has ended.
+  long peak_memory_kb() const;
+
   /// Whether the child has written anything but white space that was not read yet.
   bool has_unread_output();
 

@@ -16,6 +16,9 @@ constexpr double kOfGapAt24Edges = 0.4;
 /// With fewer edges on the particle a gap still gets this many across, because a film with one edge
 /// across it is 7 % too stiff.
 constexpr double kLargestOfGap = 0.5;
+/// Beyond a gap of this many smallest radii, films matter less, and the edges grow faster with the
+/// gap, by this factor with 24 edges.
+constexpr double kNarrow = 0.1, kFurtherAt24Edges = 0.7;
 /// Growth of the edges per distance from a particle, with 24 edges on the smallest one. It is
 /// proportional to the edge length, so that all lengths of a mesh shrink together.
 constexpr double kGrowthAt24Edges = 0.1;
@@ -35,7 +38,7 @@ double distance_to(const Circle& circle, const Point& x) {
 }
 
 EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
-                         const particles::FluidParticles& bodies)
+                         const particles::FluidParticles& bodies, double coarsening)
     : domain_(domain) {
   const auto& p = *bodies.particles;
   const double ratio = 24.0 / fluid.edges_per_particle;
@@ -46,10 +49,13 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
     smallest = std::min(smallest, p.radii[k]);
   }
   constexpr double kEdgesOfAWall = 6;  // at least, so that the flow in an empty domain is resolved
-  cap_ = size_of(domain) / kEdgesOfAWall;
-  longest_ = std::min(2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
-  growth_ = kGrowthAt24Edges * ratio;
-  of_gap_ = std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
+  cap_ = coarsening * size_of(domain) / kEdgesOfAWall;
+  longest_ =
+      std::min(coarsening * 2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
+  growth_ = coarsening * kGrowthAt24Edges * ratio;
+  of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
+  further_ = coarsening * kFurtherAt24Edges * ratio;
+  narrow_ = kNarrow * smallest;
   const auto periods = particles::periods_of(domain);
   const auto shifts = [](double period) { return period > 0 ? 1 : 0; };
   for (int i = -shifts(periods[0]); i <= shifts(periods[0]); ++i)
@@ -94,19 +100,19 @@ std::array<double, 2> EdgeLengths::distances_to_particles(const Point& x) const 
 double EdgeLengths::on_particle(std::size_t k, const Point& x) const {
   double distance = distance_to_wall(x);
   for (const auto& other : neighbours_[k]) distance = std::min(distance, distance_to(other, x));
-  return std::min(longest_, of_gap_ * distance);
+  return std::min(longest_, across(distance));
 }
 
 double EdgeLengths::on_wall(const Point& x) const {
   const double distance = distances_to_particles(x)[0];
-  return std::min({longest_ + growth_ * distance, of_gap_ * distance, cap_});
+  return std::min({longest_ + growth_ * distance, across(distance), cap_});
 }
 
 double EdgeLengths::in_fluid(const Point& x) const {
   const auto [nearest, second] = distances_to_particles(x);
   const double wall = distance_to_wall(x);
   const double gap = std::min({nearest + second, nearest + wall});
-  return std::min({longest_ + growth_ * nearest, of_gap_ * gap, cap_});
+  return std::min({longest_ + growth_ * nearest, across(gap), cap_});
 }
 
 }  // namespace viscontact::freefem_flow

@@ -31,8 +31,9 @@ double distance_to(const Circle& circle, const Point& x);
 /// Edge lengths on surfaces, walls, the axis and periodic sides.
 class EdgeLengths {
  public:
+  /// All lengths are multiplied by `coarsening` > 0.
   EdgeLengths(const particles::Fluid& fluid, const particles::Domain& domain,
-              const particles::FluidParticles& bodies);
+              const particles::FluidParticles& bodies, double coarsening = 1);
 
   /// At a point on the surface of particle k: the length that `edges_per_particle` gives, and at
   /// most a fraction of the distance to the nearest other surface.
@@ -56,7 +57,11 @@ class EdgeLengths {
   std::array<double, 2> distances_to_particles(const Point& x) const;
 
   particles::Domain domain_;
-  double longest_, growth_, of_gap_;
+  /// The longest edge in a gap of this width.
+  double across(double gap) const {
+    return of_gap_ * gap + further_ * std::max(0.0, gap - narrow_);
+  }
+  double longest_, growth_, of_gap_, further_, narrow_;
   double cap_;  // no edge is longer
   std::vector<Circle> circles_;  // of the particles
   std::vector<Circle> images_;   // of the particles and, in a period, of their images

@@ -84,6 +84,9 @@ class FluidSolver {
 
   /// Number of unknowns of the last mesh; 0 if the solver does not say.
   virtual std::size_t unknowns() const = 0;
+
+  /// The largest resident memory of the solver so far [MiB], if it is a process of its own; else 0.
+  virtual double peak_memory_mebibytes() const { return 0; }
 };
 
 }  // namespace viscontact::particles

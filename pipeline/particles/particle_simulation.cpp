@@ -16,8 +16,9 @@ ParticleSimulation::ParticleSimulation(const particles::Setting& setting, partic
   }
   const auto& fluid = *setting.fluid;
   const auto& p = state.particles;
-  auto make_boundary = [fluid, domain = setting.domain](const particles::FluidParticles& bodies) {
-    return freefem_flow::mesh_boundary(fluid, domain, bodies);
+  auto make_boundary = [fluid, domain = setting.domain](const particles::FluidParticles& bodies,
+                                                        double coarsening) {
+    return freefem_flow::mesh_boundary(fluid, domain, bodies, coarsening);
   };
   auto solver = freefem_flow::start_fluid_solver(fluid, setting.domain, p.radii, p.dimension,
                                                  make_boundary, stop);

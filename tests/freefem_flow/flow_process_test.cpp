@@ -39,7 +39,7 @@ const SolverCommand kStokesDrag = {
 
 SolverCommand shell(const std::string& script) { return {{"sh", "-c", script}}; }
 
-MeshBoundary no_boundary(const FluidParticles&) {
+MeshBoundary no_boundary(const FluidParticles&, double) {
   ADD_FAILURE() << "the solver did not ask for a boundary";
   return {};
 }
@@ -157,7 +157,7 @@ TEST(FlowProcess, WritesTheProtocolAndReadsIt) {
   const auto disc = particles_at(2, {0.1, -1}, {1});
   {
     FlowProcess solver(fluid_of_viscosity(1), DiscDomain{{}, 8}, disc.radii, 2, command,
-                       [&](const FluidParticles& bodies) {
+                       [&](const FluidParticles& bodies, double) {
                          EXPECT_EQ(bodies.particles, &disc);
                          return MeshBoundary{{{0, 0}, {0.5, 1}}, {{0, 1, 100}, {9, 9, 9}}};
                        });
