@@ -55,6 +55,7 @@ class FluidSimulation {
   Particles reported_particles() const;
 
   std::size_t unknowns() const { return solver_->unknowns(); }
+  double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
 
  private:
   struct Motion;

@@ -149,8 +149,9 @@ class Run {
     getrusage(RUSAGE_SELF, &usage);
     StepTotals record = record_;
     record.seconds += seconds_since(begin_);
-    record.peak_memory_mebibytes =
-        std::max(record.peak_memory_mebibytes, static_cast<double>(usage.ru_maxrss) / 1024);
+    double peak = static_cast<double>(usage.ru_maxrss) / 1024;
+    if (simulation_.has_fluid()) peak += simulation_.fluid().solver_peak_memory_mebibytes();
+    record.peak_memory_mebibytes = std::max(record.peak_memory_mebibytes, peak);
     return record;
   }
 
