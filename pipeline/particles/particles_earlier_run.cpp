@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -40,13 +41,8 @@ std::string difference(const results::Provenance& before, const results::Provena
   return "";
 }
 
-}  // namespace
-
-FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time) {
-  // Times that differ by less than 1e-6 time steps differ by rounding only.
-  return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
-}
-
+/// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
+/// contacts with planes that the case does not have.
 void check_same_particles(const particles::State& state, const case_file::ParticlesCase& c,
                           const fs::path& restart) {
   const auto& p = state.particles;
@@ -66,6 +62,38 @@ void check_same_particles(const particles::State& state, const case_file::Partic
   for (const auto& film : state.walls)
     if (film.plane() >= obstacles)
       differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
+}
+
+}  // namespace
+
+FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time) {
+  // Times that differ by less than 1e-6 time steps differ by rounding only.
+  return {first_time, std::max(c.frame_interval, c.setting.time_step), 1e-6 * c.setting.time_step};
+}
+
+particles::State first_state(const case_file::ParticlesCase& c, const std::string& restart) {
+  particles::State state;
+  if (restart.empty()) {
+    state.particles = c.particles;
+    return state;
+  }
+  state = particles::read_restart(restart);
+  check_same_particles(state, c, restart);
+  state.particles.ids = c.particles.ids;
+  if (state.time > c.end_time * (1 - 1e-9))
+    throw_bad_input(
+        {restart},
+        fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
+                    state.time, c.path.string(), c.end_time));
+  // If the time step differs from that of the earlier run, the times of the steps are counted from
+  // this state on.
+  const double on_grid =
+      state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
+  if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
+    state.grid_time = state.time;
+    state.grid_step = state.steps;
+  }
+  return state;
 }
 
 std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,

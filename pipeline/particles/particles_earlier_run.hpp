@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "viscontact/case_file/particles_case.hpp"
 #include "viscontact/particles/state.hpp"
@@ -22,10 +23,10 @@ struct EarlierRun {
 /// The times at which frames are written, in a run of the case that began at `first_time` [T].
 FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time);
 
-/// Throws Error(kBadInput) that names `restart` if the state has other particles than the case, or
-/// contacts with planes that the case does not have.
-void check_same_particles(const particles::State& state, const case_file::ParticlesCase& c,
-                          const std::filesystem::path& restart);
+/// The state at the start: that of the case, or that of the restart file `restart` (empty: none).
+/// Throws Error(kBadInput) if the restart file has other particles than the case or contacts with
+/// planes that the case does not have, or if it is not earlier than the end of the case.
+particles::State first_state(const case_file::ParticlesCase& c, const std::string& restart);
 
 /// The run in the folder, if it was made from the same inputs by the same version; otherwise
 /// nothing. If the folder has a restart.bin that cannot be used, a message says why.

@@ -4,10 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string_view>
-#include <optional>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -25,10 +26,11 @@ namespace fs = std::filesystem;
 using particles::Frame;
 
 Frame frame_at(double time, const particles::Setting& setting, const std::vector<double>& positions,
-               std::vector<particles::CurrentContact> contacts) {
+               const std::vector<double>& angles, std::vector<particles::CurrentContact> contacts) {
   Frame frame;
   frame.time = time;
   frame.positions.assign(positions.begin(), positions.end());
+  frame.angles.assign(angles.begin(), angles.end());
   frame.planes = positions_of(particles::obstacles_of(setting), time);
   frame.contacts = std::move(contacts);
   return frame;
@@ -66,13 +68,21 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
     add_contact_rows(state.time, contacts);
   }
   if ((files_.size() - 1) % every_ == 0)
-    keep(frame_at(state.time, setting, state.particles.positions, std::move(contacts)));
+    keep(frame_at(state.time, setting, state.particles.positions, state.particles.angles,
+                  std::move(contacts)));
 }
 
 void ParticleFrames::add_flow(const particles::FlowField& flow) {
   const auto name = flow_name(files_.back().second);
-  results::write_output(folder_ / name, TextKind::kXml, particles::write_flow(flow), provenance_);
+  results::write_output(folder_ / name, TextKind::kXml,
+                        particles::write_flow(flow, playback_.dimension), provenance_);
   flows_.emplace_back(files_.back().first, name);
+  show_flow(flows_.back());
+}
+
+void ParticleFrames::show_flow(const FrameFile& flow) {
+  const auto frame = std::ranges::find(playback_.frames, flow.first, &Frame::time);
+  if (frame != playback_.frames.end()) frame->flow = folder_ / flow.second;
 }
 
 void ParticleFrames::add_contact_rows(double time,
@@ -87,9 +97,11 @@ void ParticleFrames::resume_fluid(double time) {
   // The flow of a frame at the present time belongs to the next step.
   for (const auto& [frame_time, name] : files_)
     if (frame_time < time) flows_.emplace_back(frame_time, flow_name(name));
-  for (const auto& flow : flows_)
+  for (const auto& flow : flows_) {
     if (!fs::is_regular_file(folder_ / flow.second))
       throw_bad_input({(folder_ / flow.second).string()}, "is missing");
+    show_flow(flow);
+  }
   // motion.csv may have rows of later frames, because it is written before restart.bin.
   const auto path = folder_ / "motion.csv";
   std::istringstream lines(results::without_provenance(read_file(path)));
@@ -104,8 +116,8 @@ void ParticleFrames::resume_fluid(double time) {
     throw_bad_input({path.string()}, "does not have one row for each particle and frame");
 }
 
-void ParticleFrames::resume(const std::vector<FrameFile>& files,
-                            const particles::Setting& setting, double time) {
+void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles::Setting& setting,
+                            double time) {
   playback_.cell = particles::cell_of(setting.domain);
   for (const auto& file : files) {
     files_.push_back(file);
@@ -116,7 +128,8 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files,
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
     if (setting.fluid) add_contact_rows(file.first, content.contacts);
     if ((files_.size() - 1) % every_ == 0)
-      keep(frame_at(file.first, setting, content.positions, std::move(content.contacts)));
+      keep(frame_at(file.first, setting, content.positions, content.angles,
+                    std::move(content.contacts)));
   }
   if (setting.fluid) resume_fluid(time);
 }
@@ -125,7 +138,7 @@ void ParticleFrames::end(const particles::Setting& setting, const particles::Sta
   if (files_.empty()) return;  // writing the first frame failed
   if (files_.back().first < state.time) add(setting, state);
   if (playback_.frames.back().time < state.time)
-    keep(frame_at(state.time, setting, state.particles.positions,
+    keep(frame_at(state.time, setting, state.particles.positions, state.particles.angles,
                   particles::contacts_of(setting, state)));
 }
 

@@ -44,7 +44,7 @@ class ParticleFrames {
   /// Writes a frame of the state. With a fluid, motion() and contacts() get its rows.
   void add(const particles::Setting& setting, const particles::State& state);
 
-  /// True if the fluid of the last frame has not been written. The flow around the particles of a
+  /// True if the flow of the last frame has not been written. The flow around the particles of a
   /// frame is known only in the next step.
   bool lacks_flow(const particles::Setting& setting) const {
     return setting.fluid.has_value() && flows_.size() < files_.size();
@@ -74,6 +74,7 @@ class ParticleFrames {
  private:
   void keep(particles::Frame frame);
   void add_contact_rows(double time, const std::vector<particles::CurrentContact>& contacts);
+  void show_flow(const FrameFile& flow);
   void resume_fluid(double time);
 
   std::filesystem::path folder_;

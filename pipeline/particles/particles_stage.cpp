@@ -39,33 +39,6 @@ using particles::Simulation;
 using particles::StepReport;
 using Clock = std::chrono::steady_clock;
 
-/// The state at the start: that of the case, or that of the restart file. Throws Error(kBadInput)
-/// if the restart file has other particles, or is not earlier than the end of the case.
-particles::State first_state(const case_file::ParticlesCase& c, const std::string& restart) {
-  particles::State state;
-  if (restart.empty()) {
-    state.particles = c.particles;
-    return state;
-  }
-  state = particles::read_restart(restart);
-  check_same_particles(state, c, restart);
-  state.particles.ids = c.particles.ids;
-  if (state.time > c.end_time * (1 - 1e-9))
-    throw_bad_input(
-        {restart},
-        fmt::format("is at time {}, but {} ends at {}, so there is no time left to simulate",
-                    state.time, c.path.string(), c.end_time));
-  // If the time step differs from that of the earlier run, the times of the steps are counted from
-  // this state on.
-  const double on_grid =
-      state.grid_time + static_cast<double>(state.steps - state.grid_step) * c.setting.time_step;
-  if (std::abs(on_grid - state.time) > 1e-6 * c.setting.time_step) {
-    state.grid_time = state.time;
-    state.grid_step = state.steps;
-  }
-  return state;
-}
-
 /// A run with its state, frames and record, which can be written at any time.
 class Run {
  public:
@@ -109,6 +82,7 @@ class Run {
   std::string write_results() {
     terminal::clear_progress();
     frames_.end(case_.setting, simulation_.state());
+    add_last_flow();
     save();
     const auto& state = simulation_.state();
     write("final_particles.csv", TextKind::kHashComment, final_particles());
@@ -134,11 +108,25 @@ class Run {
     results::write_output(folder_ / name, kind, text, provenance_);
   }
 
+  /// Adds the flow around the particles where they are at the end, which no step computes. A run
+  /// that was interrupted computes it in its next step, when it continues.
+  void add_last_flow() {
+    const auto& state = simulation_.state();
+    const bool is_at_end = state.time >= case_.end_time - frame_times(case_, 0).tiny;
+    if (!is_at_end || stop_.stop_requested() || !frames_.lacks_flow(case_.setting)) return;
+    try {
+      frames_.add_flow(simulation_.fluid().flow_at_present());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kExternalProgram) throw;
+      terminal::warn(fmt::format(
+          "particles: warning: the flow at the end of the run is missing ({})", error.what()));
+    }
+  }
+
   void add_frame() { frames_.add(case_.setting, simulation_.state()); }
 
   std::string final_particles() {
-    if (!simulation_.has_fluid())
-      return particles::write_particles(simulation_.state().particles);
+    if (!simulation_.has_fluid()) return particles::write_particles(simulation_.state().particles);
     auto& fluid = simulation_.fluid();
     return particles::write_particles(fluid.reported_particles(), fluid.fluid_forces());
   }
@@ -178,8 +166,10 @@ class Run {
   void tell(const StepReport& report) {
     if (!progress_.is_due()) return;
     terminal::show_progress(fmt::format(
-        "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s", report.time,
-        case_.end_time, report.contacts, report.iterations, seconds_since(begin_)));
+        "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s{}", report.time,
+        case_.end_time, report.contacts, report.iterations, seconds_since(begin_),
+        terminal::time_left(seconds_since(begin_),
+                            (report.time - first_time_) / (case_.end_time - first_time_))));
   }
 
   const case_file::ParticlesCase& case_;
@@ -190,6 +180,7 @@ class Run {
   StepRecord record_;
   StepTotals earlier_;  // the sums when restart.bin was last written
   StopToken stop_;
+  double first_time_ = simulation_.state().time;  // of this call [T]
   Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
   terminal::ProgressTimer progress_;
 };
