@@ -50,6 +50,9 @@ struct State {
   // What time stepping in a fluid needs of the step before.
   /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
   std::vector<double> earlier_velocities;
+  /// Forces and torques of the particles on the fluid at these velocities [M L/T^2, M L^2/T^2], as
+  /// many numbers.
+  std::vector<double> earlier_forces;
   double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
 };
 

@@ -44,6 +44,7 @@ class ContactGraph {
 
   std::size_t count() const { return rows_.size(); }
   std::size_t bodies() const { return offsets_.size() - 1; }
+  std::size_t displacement_count() const { return bodies() * D; }  ///< numbers in a vector y = B z
   ThreadPool& pool() const { return *pool_; }
 
   std::vector<double> z;            ///< scaled impulses z = sqrt(w) p

@@ -8,13 +8,14 @@
 
 #include "viscontact/particles/dual_problem/active_set_newton.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
+#include "viscontact/particles/dual_problem/preconditioner.hpp"
 
 namespace viscontact::particles {
 
 template <int D>
 SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
                                 FreeSetFactor<D>& factor) {
-  Mprgp<D> mprgp(graph, factor);
+  Mprgp mprgp(graph, Preconditioner<D>(graph, factor));
   SolverResult solved;
   // Numbers of iterations with the same free contacts after which a (new) factor is worth its cost.
   // If a factor exists, a few iterations without convergence show that the free contacts have

@@ -1,8 +1,8 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// contact_graph.hpp. Sums must be taken in blocks of the thread pool, so that the results do not
-// depend on the number of threads.
+// contact_graph.hpp, and for the same problem in a fluid (fluid/mobility_graph.hpp). Sums must be
+// taken in blocks of the thread pool, so that the results do not depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
-
-#include "viscontact/particles/dual_problem/contact_graph.hpp"
-#include "viscontact/particles/dual_problem/preconditioner.hpp"
 
 namespace viscontact::particles {
 
@@ -23,14 +21,18 @@ namespace viscontact::particles {
 /// - proportioning: along the chopped gradient, if it is larger than the free gradient;
 /// - otherwise a preconditioned conjugate gradient step;
 /// - expansion: if that step would leave the bounds, a projected step instead.
-template <int D>
+///
+/// `Graph` has the members of ContactGraph that this class calls; its vectors y may hold anything
+/// that is linear in z. `Preconditioner` is like the class Preconditioner. If its kMaySweep is
+/// false, it needs only apply(), and the preconditioner must not depend on sweep_forward().
+template <class Graph, class Preconditioner>
 class Mprgp {
  public:
-  Mprgp(ContactGraph<D>& graph, FreeSetFactor<D>& factor)
+  Mprgp(Graph& graph, Preconditioner preconditioner)
       : graph_(graph),
-        preconditioner_(graph, factor),
-        y_(graph.bodies() * D),
-        y_direction_(graph.bodies() * D),
+        preconditioner_(std::move(preconditioner)),
+        y_(graph.displacement_count()),
+        y_direction_(graph.displacement_count()),
         gradient_(graph.count()),
         direction_(graph.count()),
         swept_(graph.count()) {
@@ -147,7 +149,8 @@ class Mprgp {
   void start_directions() {
     std::fill(direction_.begin(), direction_.end(), 0.0);
     std::fill(y_direction_.begin(), y_direction_.end(), 0.0);
-    if (preconditioner_.sweeps()) preconditioner_.sweep_forward(gradient_);
+    if constexpr (Preconditioner::kMaySweep)
+      if (preconditioner_.sweeps()) preconditioner_.sweep_forward(gradient_);
     restart_ = false;
     steps_between_same_ = 0;
     slope_ = preconditioner_.apply(gradient_, swept_, y_);
@@ -171,13 +174,18 @@ class Mprgp {
   /// wait for a few steps.
   void move(double length) {
     constexpr int kPassesBetweenMeasurements = 4;
-    const bool measure = restart_ || ++passes_since_measurement_ % kPassesBetweenMeasurements == 0;
-    if (!preconditioner_.sweeps())
-      statistics_ = pass<true, false>(length);
-    else if (measure)
-      statistics_ = pass<true, true>(length);
-    else
-      statistics_.distance_to_bound = pass<false, true>(length).distance_to_bound;
+    [[maybe_unused]] const bool measure =
+        restart_ || ++passes_since_measurement_ % kPassesBetweenMeasurements == 0;
+    if constexpr (Preconditioner::kMaySweep) {
+      if (preconditioner_.sweeps()) {
+        if (measure)
+          statistics_ = pass<true, true>(length);
+        else
+          statistics_.distance_to_bound = pass<false, true>(length).distance_to_bound;
+        return;
+      }
+    }
+    statistics_ = pass<true, false>(length);
   }
 
   template <bool kMeasure, bool kSweep>
@@ -193,7 +201,8 @@ class Mprgp {
           double* gradient = gradient_.data();
           const double per_step = 1 / step_;
           PassStatistics statistics;
-          auto sums = kSweep ? graph_.block_bodies(begin) : std::vector<double>();
+          std::vector<double> sums;
+          if constexpr (kSweep) sums = graph_.block_bodies(begin);
           for (std::size_t c = begin; c < end; ++c) {
             const double z = zs[c] - length * direction[c];
             const double g = gradient[c] - length * (graph_.to_contact(c, y_direction) +
@@ -267,8 +276,8 @@ class Mprgp {
     return 1;
   }
 
-  ContactGraph<D>& graph_;
-  Preconditioner<D> preconditioner_;
+  Graph& graph_;
+  Preconditioner preconditioner_;
   /// Length of a projected gradient step. W has the diagonal 1, and in packings of similar
   /// particles all its eigenvalues are at most 4.
   double step_ = 0.5;

@@ -19,6 +19,8 @@ namespace viscontact::particles {
 template <int D>
 class Preconditioner {
  public:
+  static constexpr bool kMaySweep = true;
+
   Preconditioner(const ContactGraph<D>& graph, FreeSetFactor<D>& factor)
       : graph_(graph), factor_(factor), half_swept_(graph.count()) {}
 

@@ -3,61 +3,73 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/fluid/fluid_contact.hpp"
 #include "viscontact/particles/projection/solver_settings.hpp"
-#include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
-
-/// Two particles, or a particle and an obstacle, whose gap may close in this step.
-struct FluidContact {
-  std::int32_t first = -1;  ///< number of a particle; -1: an obstacle
-  std::int32_t second = 0;  ///< number of a particle
-  Vector normal{};          ///< unit normal from first to second
-  double gap = 0;           ///< D - D_c at the beginning of the step [L]
-  double gamma = 0;         ///< [M L/T], <= 0: the impulse is at least this
-  double impulse = 0;       ///< h lambda [M L/T]: before the solution a guess, then the solution
-  double residual = 0;      ///< |min(D + h G v, w (p - gamma))| of the solution [L]
-  double w = 0;             ///< change of the gap per impulse of this contact [T/M], > 0
-};
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
 /// without contact; linear, symmetric and positive definite on the forces of contacts.
 using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
-/// Number of components of a contact's normal in the motions of particles, and the place of
-/// component d of particle k in an array of motions.
-struct MotionLayout {
-  std::size_t components = 3;  ///< motion_components()
-  std::size_t directions() const { return components == 1 ? 1 : 2; }
-  std::size_t at(std::int32_t k, std::size_t d) const {
-    return static_cast<std::size_t>(k) * components + d;
-  }
+/// Largest number of contacts for which the matrix W is computed, by one product with the mobility
+/// for each contact. Above it, products take place within conjugate gradients.
+inline constexpr std::size_t kMostDenseContacts = 24;
+
+/// Finds the impulses p of contacts with p >= gamma, D + h G v >= 0 where p = gamma, and
+/// D + h G v = 0 where p > gamma, with v = free velocities + mobility(G^T p/h). This is the dual
+/// problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
+///
+/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves
+/// (dense_contact_problem.hpp). Many contacts: the solver of the projection, MPRGP, with products
+/// by the mobility (mobility_graph.hpp).
+class ContactProblem {
+ public:
+  /// `free_velocities` [L/T] are those without contact, and h > 0 [T] is the time step. `settings`
+  /// and `mean_radius` > 0 [L] say when the problem is solved. The arguments must outlive the
+  /// object.
+  ContactProblem(std::span<const double> free_velocities, double h, const Mobility& mobility,
+                 MotionLayout layout, const SolverSettings& settings, double mean_radius);
+
+  /// Adds a contact, whose `impulse` is a first guess. Contacts of which the mobility moves neither
+  /// particle must not be added.
+  void add(const FluidContact& contact) { contacts_.push_back(contact); }
+
+  /// Finds the impulses and the `w` of all contacts. Further contacts may be added after it, and
+  /// their solution begins at the impulses found. May throw what the mobility throws.
+  void solve();
+
+  const std::vector<FluidContact>& contacts() const { return contacts_; }
+  /// Velocities of the particles with the impulses found [L/T, 1/T].
+  const std::vector<double>& velocities() const { return velocities_; }
+  /// Sums of the contact forces p/h on each particle [M L/T^2].
+  std::vector<double> loads() const;
+  /// Number of products with the mobility and of steps without such a product.
+  int iterations() const { return iterations_; }
+  /// False if the last solve() ended before its residuals were small enough.
+  bool converged() const { return converged_; }
+
+ private:
+  /// Both improve the impulses until the residuals are `allowed` [L].
+  void solve_dense(std::span<const double> allowed);
+  void solve_by_products(std::span<const double> allowed);
+  double b(std::size_t c) const;
+
+  std::span<const double> free_velocities_;
+  double h_;
+  const Mobility& mobility_;
+  MotionLayout layout_;
+  const SolverSettings& settings_;
+  double mean_radius_;
+  std::vector<FluidContact> contacts_;
+  std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
+  std::vector<double> velocities_;
+  int iterations_ = 0;
+  bool converged_ = true;
 };
-
-/// G v: the velocity at which the gap opens [L/T].
-double opening(const FluidContact& contact, std::span<const double> velocities,
-               const MotionLayout& layout);
-
-/// Adds G^T times `impulse` / `time` to forces: `impulse` pushes both particles apart.
-void add_contact_force(const FluidContact& contact, double force, std::span<double> forces,
-                       const MotionLayout& layout);
-
-struct ContactSolution {
-  int iterations = 0;  ///< number of products with the mobility and of sweeps
-  bool converged = true;
-};
-
-/// Finds the impulses p of all contacts with p >= gamma, D + h G v >= 0 where p = gamma, and
-/// D + h G v = 0 where p > gamma, v = `free_velocities` + mobility(G^T p/h). Then W = G mobility
-/// G^T takes the place of h G M^-1 G^T in (5.4).
-ContactSolution solve_contact_problem(std::span<FluidContact> contacts,
-                                      std::span<const double> free_velocities, double h,
-                                      const Mobility& mobility, const MotionLayout& layout,
-                                      const SolverSettings& settings, double mean_radius);
 
 }  // namespace viscontact::particles

@@ -2,6 +2,7 @@
 #include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "viscontact/particles/contact.hpp"
@@ -10,11 +11,16 @@
 namespace viscontact::particles {
 namespace {
 
-auto key_of(const Pair& pair) { return std::tuple(pair.first, pair.second, pair.image); }
+/// Particles in order of their number, obstacles in order of -1, -2, ...
+auto place_of_pair(const Pair& pair) {
+  return std::tuple(std::max(pair.first, -1 - pair.first), pair.second, pair.image);
+}
 
 /// Sorts the pairs, and adds those of `before` that remember something.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
-  const auto is_less = [](const Pair& a, const Pair& b) { return key_of(a) < key_of(b); };
+  const auto is_less = [](const Pair& a, const Pair& b) {
+    return place_of_pair(a) < place_of_pair(b);
+  };
   std::ranges::sort(pairs, is_less);
   std::ranges::sort(before, is_less);
   std::vector<Pair> merged;
@@ -22,7 +28,7 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   for (const auto& pair : pairs) {
     for (; old != before.end() && is_less(*old, pair); ++old)
       if (old->gamma < 0) merged.push_back(*old);
-    if (old != before.end() && key_of(*old) == key_of(pair))
+    if (old != before.end() && place_of_pair(*old) == place_of_pair(pair))
       merged.push_back(*old++);
     else
       merged.push_back(pair);
@@ -46,41 +52,48 @@ FluidContact contact_in(const Particles& p, const Pair& pair,
 
 }  // namespace
 
-void list_pairs_in_reach(State& state, std::span<const PlanePosition> obstacles, double reach,
+PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obstacles, double reach,
                          ThreadPool& pool) {
+  // Further images of a particle than the next ones cannot be told apart.
+  constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
   std::vector<double> extents = p.radii;
-  for (auto& extent : extents) extent += reach / 2;
+  double furthest = std::numeric_limits<double>::infinity();
+  for (const double length : p.cell.lengths)
+    if (length > 0) furthest = std::min(furthest, kShareOfPeriod * length);
+  for (auto& extent : extents) extent = std::max(extent, std::min(extent + reach / 2, furthest));
   const auto close = p.cell.is_periodic()
                          ? close_pairs_in_period(p.cell, p.positions, extents, pool)
                          : close_pairs(p.dimension, p.positions, extents, pool);
-  std::vector<Pair> pairs, walls;
+  PairLists lists;
   for (const auto& pair : close) {
     Pair made{pair.first, pair.second};
     made.image = pair.image;
-    pairs.push_back(made);
+    lists.pairs.push_back(made);
   }
-  for (std::size_t w = 0; w < obstacles.size(); ++w)
+  for (std::size_t w = 0; w < obstacles.size(); ++w) {
+    if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
     for (std::size_t k = 0; k < p.count(); ++k)
       if (gap(obstacles[w], p.position(k), p.radii[k]) < reach)
-        walls.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)});
-  keep_memory(pairs, std::move(state.pairs));
-  keep_memory(walls, std::move(state.walls));
-  state.pairs = std::move(pairs);
-  state.walls = std::move(walls);
+        lists.walls.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)});
+  }
+  keep_memory(lists.pairs, state.pairs);
+  keep_memory(lists.walls, state.walls);
+  return lists;
 }
 
 FluidContact fluid_contact_of(const Particles& particles, const Pair& pair,
-                              std::span<const PlanePosition> obstacles, double threshold) {
-  return particles.dimension == 1 ? contact_in<1>(particles, pair, obstacles, threshold)
-                                  : contact_in<2>(particles, pair, obstacles, threshold);
-}
-
-std::vector<Pair*> all_pairs(State& state) {
-  std::vector<Pair*> pairs;
-  for (auto* list : {&state.pairs, &state.walls})
-    for (auto& pair : *list) pairs.push_back(&pair);
-  return pairs;
+                              std::span<const PlanePosition> obstacles, double threshold,
+                              std::span<const double> free_velocities, double h) {
+  if (particles.dimension == 1) return contact_in<1>(particles, pair, obstacles, threshold);
+  if (pair.first >= 0 || !obstacles[pair.plane()].is_curved())
+    return contact_in<2>(particles, pair, obstacles, threshold);
+  const auto k = index_of(pair.second);
+  const Vector moved{h * free_velocities[3 * k], h * free_velocities[3 * k + 1], 0};
+  const auto tangent = tangent_at(obstacles[pair.plane()], particles.position(k) + moved);
+  auto at_tangent = pair;
+  at_tangent.first = -1;
+  return contact_in<2>(particles, at_tangent, std::span(&tangent, 1), threshold);
 }
 
 }  // namespace viscontact::particles

@@ -6,22 +6,27 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/fluid/contact_problem.hpp"
+#include "viscontact/particles/fluid/fluid_contact.hpp"
 #include "viscontact/particles/plane.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
-/// Makes state.pairs and state.walls again: all pairs with a gap below `reach` [L], and those that
-/// are glued. Pairs keep their memory. `obstacles` are positions at the end of the step.
-void list_pairs_in_reach(State& state, std::span<const PlanePosition> obstacles, double reach,
+/// Pairs of particles, and particles at obstacles, as State holds them.
+struct PairLists {
+  std::vector<Pair> pairs, walls;
+};
+
+/// All pairs with a gap below `reach` [L] and those that are glued, with their memory from `state`.
+/// `obstacles` are positions at the end of the step. The side of a cylinder, whose normal has no
+/// component along the axis, is left out.
+PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obstacles, double reach,
                          ThreadPool& pool);
 
-/// The contact of a pair, with the gap D - `threshold` [L].
+/// The contact of a pair, with the gap D - `threshold` [L]. A round wall is taken as its tangent
+/// where the particle is after it moved with `free_velocities` [L/T, 1/T] for a time h [T].
 FluidContact fluid_contact_of(const Particles& particles, const Pair& pair,
-                              std::span<const PlanePosition> obstacles, double threshold);
-
-/// All pairs of the state: first those of particles, then those with obstacles.
-std::vector<Pair*> all_pairs(State& state);
+                              std::span<const PlanePosition> obstacles, double threshold,
+                              std::span<const double> free_velocities, double h);
 
 }  // namespace viscontact::particles

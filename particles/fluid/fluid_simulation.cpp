@@ -9,11 +9,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/film.hpp"
-#include "viscontact/particles/fluid/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/contact_residuals.hpp"
+#include "viscontact/particles/fluid/step_contacts.hpp"
+#include "viscontact/particles/fluid/step_equation.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/obstacles.hpp"
 
@@ -30,18 +31,20 @@ double largest_of(std::span<const double> numbers) {
 
 }  // namespace
 
-/// The velocities of a step, and what they come from.
+/// What a step computes before it changes the state.
 struct FluidSimulation::Motion {
-  std::vector<double> velocities;     ///< of the particles, with contact
-  std::vector<FluidContact> contacts;  ///< of all pairs of the state, in their order
-  ContactSolution solution;
+  std::vector<double> flow;      ///< velocities in the fluid's problem: U, with contact
+  std::vector<double> drag;      ///< forces of the particles on the fluid
+  std::vector<double> free;      ///< U^+ without contact
+  std::vector<double> moved;     ///< velocities with which the particles move: U^+ with contact
+  std::vector<double> at_end;    ///< u^{n+1}
+  std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
+  StepContacts contact;
   FluidStepReport fluid;
   FlowQuantities quantities;
-  std::vector<double> reported;
 };
 
-FluidSimulation::FluidSimulation(Setting setting, State state,
-                                 std::unique_ptr<FluidSolver> solver)
+FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver)
     : setting_(std::move(setting)),
       state_(std::move(state)),
       solver_(std::move(solver)),
@@ -58,137 +61,85 @@ FluidSimulation::FluidSimulation(Setting setting, State state,
   wrap_into_cell(state_);
 }
 
-std::vector<double> FluidSimulation::external_forces(double from, double to) const {
-  const auto& p = state_.particles;
-  std::vector<double> forces(p.count() * layout_.components);
-  for (std::size_t k = 0; k < p.count(); ++k)
-    for (std::size_t d = 0; d < layout_.directions(); ++d)
-      forces[k * layout_.components + d] = p.masses[k] * setting_.gravity[d];
-  for (const auto& [particle, force] : setting_.forces) {
-    const Vector mean = force.mean(from, to);
-    for (std::size_t d = 0; d < layout_.directions(); ++d)
-      forces[layout_.at(particle, d)] += mean[d];
+/// U^+ of all particles for the velocities `flow` = U without contact.
+std::vector<double> FluidSimulation::free_velocities(const StepEquation& equation,
+                                                     std::span<const double> flow, double h) {
+  std::vector<double> free(flow.begin(), flow.end());
+  const auto& earlier = state_.earlier_velocities;
+  if (earlier.size() != free.size() || state_.earlier_forces.size() != free.size() ||
+      !(state_.earlier_step > 0) || !equation.drives_as_before(state_.earlier_step))
+    return free;
+  const auto now = equation.right_side();
+  std::vector<double> difference(free.size());
+  for (std::size_t i = 0; i < free.size(); ++i)
+    difference[i] = state_.earlier_forces[i] + equation.inertia()[i] * earlier[i] - now[i];
+  std::vector<double> changed(flow.begin(), flow.end());
+  if (largest_of(difference) > 0) {
+    const auto added = solver_->velocities(difference, false);
+    for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
-  if (layout_.components == 3)
-    for (const auto& [particle, torque] : setting_.torques)
-      forces[layout_.at(particle, 2)] += torque.mean(from, to)[2];
-  return forces;
+  const double share = h / (2 * state_.earlier_step);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto k = static_cast<std::int32_t>(i / layout_.components);
+    if (!equation.is_in_contact(k) && !equation.is_driven(k))
+      free[i] += share * (changed[i] - earlier[i]);
+  }
+  return free;
 }
 
-FluidParticles FluidSimulation::bodies(double h, double next, std::vector<double>& inertia) const {
-  const auto& p = state_.particles;
-  FluidParticles bodies{&p, p.angles, {}, {}};
-  for (const auto& [particle, motion] : setting_.given_motions) {
-    const Vector velocity = motion.velocity.mean(state_.time, next);
-    std::array<double, 3> components{velocity[0], 0, 0};
-    if (layout_.components == 3)
-      components = {velocity[0], velocity[1], motion.angular_velocity.mean(state_.time, next)[2]};
-    bodies.driven.emplace(particle, components);
-  }
-  inertia.assign(p.count() * layout_.components, 0);
-  for (std::size_t k = 0; k < p.count(); ++k) {
-    for (std::size_t d = 0; d < layout_.directions(); ++d)
-      inertia[k * layout_.components + d] = p.masses[k] / h;
-    // A disc whose moment of inertia is not given is uniform.
-    if (layout_.components == 3)
-      inertia[k * 3 + 2] = (p.inertias.empty() ? p.masses[k] * p.radii[k] * p.radii[k] / 2
-                                               : p.inertias[k]) /
-                           h;
-  }
-  if (largest_of(inertia) > 0) bodies.inertia = inertia;
-  return bodies;
-}
-
-/// Computes the velocities of a step of length h that ends at `next`.
-FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
-  const auto begin = Clock::now();
-  auto& p = state_.particles;
-  Motion motion;
-  std::vector<double> inertia;
-  const auto placed = bodies(h, next, inertia);
-  solver_->place(placed);
-  auto forces = external_forces(state_.time, next);
-  for (std::size_t k = 0; k < p.count(); ++k) {
-    for (std::size_t d = 0; d < layout_.directions(); ++d)
-      forces[k * layout_.components + d] +=
-          inertia[k * layout_.components + d] * p.velocities[k * layout_.directions() + d];
-    if (layout_.components == 3) forces[k * 3 + 2] += inertia[k * 3 + 2] * p.angular_velocities[k];
-  }
-  motion.velocities = solver_->velocities(forces, true);
-  const auto free_velocities = motion.velocities;
-
+StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
+                                                std::span<const double> free, double h,
+                                                double next) {
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
-  const auto is_driven = [&](std::size_t i) {
-    return placed.driven.contains(static_cast<std::int32_t>(i / layout_.components));
+  const auto is_movable = [&](std::int32_t k) {
+    return !equation.is_driven(k) && !(is_split && equation.inertia()[layout_.at(k, 0)] == 0);
   };
   const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
     std::vector<double> velocities(loads.size());
     for (std::size_t i = 0; i < loads.size(); ++i)
-      velocities[i] = is_driven(i) || inertia[i] == 0 ? 0 : loads[i] / inertia[i];
+      if (is_movable(static_cast<std::int32_t>(i / layout_.components)) &&
+          equation.inertia()[i] > 0)
+        velocities[i] = loads[i] / equation.inertia()[i];
     return velocities;
   };
   const auto places = positions_of(obstacles_, next);
-  const double threshold = setting_.fluid->threshold_gap;
-  // Contacts push particles at speeds that are seldom above twice the largest one without contact.
-  double reach = threshold + 4 * h * largest_of(free_velocities) + 1e-3 * mean_radius_;
-  for (;;) {
-    list_pairs_in_reach(state_, places, reach, pool_);
-    motion.contacts.clear();
-    std::vector<std::size_t> chosen;
-    std::vector<char> is_chosen;
-    const auto pairs = all_pairs(state_);
-    for (const auto* pair : pairs)
-      motion.contacts.push_back(fluid_contact_of(p, *pair, places, threshold));
-    is_chosen.assign(pairs.size(), 0);
-    // A threshold gap that is crossed by less than the tolerance counts as reached.
-    for (auto& contact : motion.contacts)
-      if (std::abs(contact.gap) <= setting_.solver.tolerance * mean_radius_) contact.gap = 0;
-    std::vector<FluidContact> taking_part;
-    motion.velocities = free_velocities;
-    std::vector<double> loads(forces.size());
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (std::size_t c = 0; c < motion.contacts.size(); ++c) {
-        const auto& contact = motion.contacts[c];
-        const double after = contact.gap + h * opening(contact, motion.velocities, layout_);
-        if (is_chosen[c] != 0 || !(after < 0 || contact.gamma < 0)) continue;
-        is_chosen[c] = 1;
-        chosen.push_back(c);
-        grows = true;
-      }
-      if (!grows) break;
-      taking_part.clear();
-      for (const auto c : chosen) taking_part.push_back(motion.contacts[c]);
-      const auto solved = solve_contact_problem(taking_part, free_velocities, h, mobility, layout_,
-                                                setting_.solver, mean_radius_);
-      motion.solution.iterations += solved.iterations;
-      motion.solution.converged = solved.converged;
-      std::ranges::fill(loads, 0.0);
-      for (const auto& contact : taking_part)
-        add_contact_force(contact, contact.impulse / h, loads, layout_);
-      const auto added = mobility(loads);
-      for (std::size_t i = 0; i < added.size(); ++i)
-        motion.velocities[i] = free_velocities[i] + added[i];
-    }
-    for (auto& contact : motion.contacts) contact.impulse = 0;
-    for (std::size_t i = 0; i < chosen.size(); ++i) motion.contacts[chosen[i]] = taking_part[i];
-    const double needed = threshold + 2 * h * largest_of(motion.velocities);
-    if (needed <= reach) {
-      if (!is_split)
-        for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += loads[i];
-      break;
-    }
-    reach = 2 * needed;
+  const ContactConditions conditions{
+      h, setting_.fluid->threshold_gap, places, mean_radius_, setting_.solver, is_movable};
+  return solve_contacts(state_, free, mobility, conditions, pool_);
+}
+
+/// Computes a step of length h that ends at `next`.
+FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_estimated) {
+  const auto begin = Clock::now();
+  const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
+  Motion motion;
+  StepEquation equation(setting_, state_, h, next);
+  std::vector<double> forces;
+  // An impact changes the inertia of its particles, and with it the problem.
+  for (int iterations = 0;;) {
+    solver_->place(equation.bodies());
+    forces = equation.right_side();
+    motion.flow = solver_->velocities(forces, true);
+    motion.free = free_velocities(equation, motion.flow, h);
+    motion.contact = solve_contacts_of(equation, motion.free, h, next);
+    iterations = motion.contact.iterations += iterations;
+    if (!equation.put_in_contact(motion.contact.contacts)) break;
   }
-  // The flow, and the forces of the fluid, are those with the contact forces.
-  if (!motion.contacts.empty() && !is_split) motion.velocities = solver_->velocities(forces, true);
-  if (is_estimated) {
-    const auto estimate = solver_->estimate(forces);
-    motion.fluid.velocity_error = estimate.relative_error;
-    motion.fluid.velocity_error_of_one_mesh = estimate.relative_error_of_one_mesh;
-    if (!is_split) motion.reported = estimate.velocities;
+  motion.moved = motion.contact.velocities;
+  if (largest_of(motion.contact.loads) > 0 && !is_split) {
+    // The flow, and the forces of the fluid, are those with the contact forces.
+    const auto before = motion.flow;
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += motion.contact.loads[i];
+    motion.flow = solver_->velocities(forces, true);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      motion.moved[i] = motion.free[i] + (motion.flow[i] - before[i]);
   }
+  motion.drag = forces;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
+  motion.at_end = equation.velocities_at_end(motion.moved, motion.flow);
+  if (is_estimated) estimate(equation, forces, motion);
   motion.quantities = solver_->quantities();
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
@@ -196,74 +147,84 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   return motion;
 }
 
-/// Displacements of a step [L], rotations [rad]: h u, and for particles without inertia that are away from contact
-/// and whose forces did not jump, the formula of Adams and Bashforth with the step before.
-std::vector<double> FluidSimulation::displacements(const Motion& motion, double h) const {
-  const auto& p = state_.particles;
-  std::vector<double> moved(motion.velocities.size());
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = h * motion.velocities[i];
-  if (state_.earlier_velocities.size() != moved.size() || !(state_.earlier_step > 0)) return moved;
-  const auto now = external_forces(state_.time, state_.time + h);
-  const auto before = external_forces(std::max(0.0, state_.time - state_.earlier_step), state_.time);
-  std::vector<char> is_smooth(p.count(), 1);
-  for (std::size_t k = 0; k < p.count(); ++k) {
-    if (p.masses[k] > 0 || setting_.given_motions.contains(static_cast<std::int32_t>(k)))
-      is_smooth[k] = 0;
-  }
-  // The flow of one particle acts on all others, so that a jump of one force is one for all.
-  constexpr double kSame = 1e-12;
-  double jump = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) jump = std::max(jump, std::abs(now[i] - before[i]));
-  bool has_contact = jump > kSame * largest_of(now);
-  for (const auto* list : {&state_.pairs, &state_.walls})
-    for (const auto& pair : *list) has_contact |= pair.impulse != 0;
-  for (const auto& contact : motion.contacts) has_contact |= contact.impulse != 0;
-  if (has_contact) return moved;
-  const double share = h * h / (2 * state_.earlier_step);
-  auto corrected = moved;
+/// Asks for the flow on two meshes under the same forces, with those of contacts.
+void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
+                               Motion& motion) {
+  const auto estimate = solver_->estimate(forces);
+  motion.fluid.velocity_error = estimate.relative_error;
+  motion.fluid.velocity_error_of_one_mesh = estimate.relative_error_of_one_mesh;
+  if (setting_.fluid->coupling == Coupling::kSplitting) return;
+  auto moved = motion.moved;
   for (std::size_t i = 0; i < moved.size(); ++i)
-    if (is_smooth[i / layout_.components] != 0)
-      corrected[i] += share * (motion.velocities[i] - state_.earlier_velocities[i]);
-  for (const auto& contact : motion.contacts)
-    if (contact.gap + opening(contact, corrected, layout_) < 0) return moved;
-  return corrected;
+    moved[i] += estimate.velocities[i] - motion.flow[i];
+  motion.reported = equation.velocities_at_end(moved, estimate.velocities);
 }
 
-void FluidSimulation::move(const Motion& motion, double h, double next, StepReport& report) {
+/// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
+void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
+  const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
+  const double longest = h * largest_of(motion.moved);
+  if (!(longest < largest))
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("a particle moves by {} in the step to time {}, too far for the "
+                            "precision of a double; check the forces and the time step",
+                            longest, report.time));
+  const auto residuals = measure_residuals(motion.contact.contacts, motion.free, motion.moved, h,
+                                           layout_, setting_.solver, mean_radius_);
+  if (!residuals.converged && -residuals.smallest_gap > mean_radius_)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("no solution of the step to time {} was found: particles would overlap "
+                            "by {:.3g} mean radii; is the time step too long for the forces, or do "
+                            "particles with given motions leave the others too little room?",
+                            report.time, -residuals.smallest_gap / mean_radius_));
+  report.converged = residuals.converged;
+  report.residual = residuals.largest / mean_radius_;
+  report.impulse_residual = residuals.largest_relative;
+  report.largest_overlap = (0 - residuals.smallest_gap) / mean_radius_;
+}
+
+/// Changes the state by a step.
+void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
   auto& p = state_.particles;
-  const auto moved = displacements(motion, h);
+  state_.pairs = std::move(motion.contact.pairs.pairs);
+  state_.walls = std::move(motion.contact.pairs.walls);
+  const auto errors = measure_residuals(motion.contact.contacts, motion.free, motion.moved, h,
+                                        layout_, setting_.solver, mean_radius_)
+                          .impulse_errors;
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
   };
-  const auto pairs = all_pairs(state_);
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const auto& contact = motion.contacts[c];
-    auto& pair = *pairs[c];
-    pair.impulse = contact.impulse;
-    const double error = contact.w > 0 ? contact.residual / contact.w : 0;
-    if (contact.w > 0)
-      absorb_impulse(pair, error,
-                     setting_.law.lower_bound(radius(pair.second), radius(pair.first)));
-    if (pair.gamma < 0) ++report.glued;
-    if (contact.w > 0) ++report.contacts;
-    report.residual = std::max(report.residual, contact.residual / mean_radius_);
-    const double gap = contact.gap + h * opening(contact, motion.velocities, layout_);
-    report.largest_overlap = std::max(report.largest_overlap, -gap / mean_radius_);
-  }
+  std::size_t c = 0;
+  for (auto* pairs : {&state_.pairs, &state_.walls})
+    for (auto& pair : *pairs) {
+      const auto& contact = motion.contact.contacts[c];
+      pair.impulse = contact.impulse;
+      if (contact.w > 0) {
+        ++report.contacts;
+        absorb_impulse(pair, errors[c],
+                       setting_.law.lower_bound(radius(pair.second), radius(pair.first)));
+      }
+      if (pair.gamma < 0) ++report.glued;
+      ++c;
+    }
+  const auto n = layout_.directions();
   for (std::size_t k = 0; k < p.count(); ++k) {
-    for (std::size_t d = 0; d < layout_.directions(); ++d) {
-      p.positions[k * layout_.directions() + d] += moved[k * layout_.components + d];
-      p.velocities[k * layout_.directions() + d] = motion.velocities[k * layout_.components + d];
+    for (std::size_t d = 0; d < n; ++d) {
+      p.positions[k * n + d] += h * motion.moved[k * layout_.components + d];
+      p.velocities[k * n + d] = motion.at_end[k * layout_.components + d];
     }
     if (layout_.components == 3) {
-      p.angles[k] += moved[k * 3 + 2];
-      p.angular_velocities[k] = motion.velocities[k * 3 + 2];
+      p.angles[k] += h * motion.moved[k * 3 + 2];
+      p.angular_velocities[k] = motion.at_end[k * 3 + 2];
     }
   }
-  state_.earlier_velocities = motion.velocities;
+  state_.earlier_velocities = std::move(motion.flow);
+  state_.earlier_forces = std::move(motion.drag);
   state_.earlier_step = h;
   state_.time = next;
   wrap_into_cell(state_);
+  quantities_ = std::move(motion.quantities);
+  reported_ = std::move(motion.reported);
 }
 
 StepReport FluidSimulation::step(double end) {
@@ -277,20 +238,12 @@ StepReport FluidSimulation::step(double end) {
     h = end - state_.time;
   }
   StepReport report{.time = next};
-  const auto motion = solve(h, next, state_.steps == 0 || next >= end - tiny);
-  report.iterations = motion.solution.iterations;
-  report.converged = motion.solution.converged;
+  auto motion = solve(h, next, state_.steps == 0 || next >= end - tiny);
+  report.iterations = motion.contact.iterations;
   report.fluid = motion.fluid;
   report.parts = 1;
-  const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
-  if (!(h * largest_of(motion.velocities) < largest))
-    throw Error(ErrorKind::kNotConverged,
-                fmt::format("a particle moves by {} in the step to time {}, too far for the "
-                            "precision of a double; check the forces and the time step",
-                            h * largest_of(motion.velocities), next));
-  move(motion, h, next, report);
-  quantities_ = motion.quantities;
-  reported_ = motion.reported;
+  examine(motion, h, report);
+  accept(std::move(motion), h, next, report);
   ++state_.steps;
   if (is_cut) {
     state_.grid_time = next;

@@ -8,22 +8,32 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/fluid/contact_problem.hpp"
+#include "viscontact/particles/fluid/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
+class StepEquation;
+struct StepContacts;
+
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
-/// particles take at their places under forces, torques and contact impulses, and moves them:
+/// particles take at their places x^n under forces, torques and contact impulses, and moves them:
 ///
 /// - coupling = constrained: the impulses are forces in the problem of the fluid;
 /// - coupling = splitting: the velocities of the fluid are projected in the norm of the masses.
 ///
-/// Contact is made where a gap reaches threshold_gap. Masses enter by m (u^{n+1} - u^n)/h, implicit.
-/// Positions follow a formula of second order (Adams and Bashforth) for particles without inertia
-/// that are away from contact and whose forces do not jump, else x^{n+1} = x^n + h u^{n+1}.
+/// Away from contact a step is of second order. With S^n g the velocities at x^n under forces and
+/// inertia g (step_equation.hpp), and F^{n-1} the forces on the fluid in the step before, a step is
+///
+///     U = S^n g^n,   U^+ = U + (h^n/(2 h^{n-1})) (S^n g* - U^{n-1}),   x^{n+1} = x^n + h U^+,
+///     g* = F^{n-1} + M/(theta h) U^{n-1},
+///
+/// in which the second term is the change that the motion of the particles over half a step makes.
+/// Without inertia and with a constant force g* = g^n, so that this is the formula of Adams and
+/// Bashforth; it remains of second order where a force jumps. A particle that was in contact in the
+/// step before moves with U, of first order, and so do all where a given motion jumps.
 class FluidSimulation {
  public:
   /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only
@@ -32,8 +42,9 @@ class FluidSimulation {
 
   /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
   /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
-  /// velocities. Throws Error(kNotConverged) if no solution of the contacts is found, and the
-  /// errors of FluidSolver. The state is then that before the step.
+  /// velocities. Throws Error(kNotConverged) if no solution of the contacts is found that keeps
+  /// overlaps below the mean radius, or if a particle moves too far for the precision of a double;
+  /// and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
   const State& state() const { return state_; }
@@ -59,11 +70,14 @@ class FluidSimulation {
 
  private:
   struct Motion;
-  std::vector<double> external_forces(double from, double to) const;
-  FluidParticles bodies(double h, double next, std::vector<double>& inertia) const;
   Motion solve(double h, double next, bool is_estimated);
-  void move(const Motion& motion, double h, double next, StepReport& report);
-  std::vector<double> displacements(const Motion& motion, double h) const;
+  std::vector<double> free_velocities(const StepEquation& equation, std::span<const double> flow,
+                                      double h);
+  StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
+                                 double h, double next);
+  void estimate(const StepEquation& equation, std::span<const double> forces, Motion& motion);
+  void examine(const Motion& motion, double h, StepReport& report) const;
+  void accept(Motion motion, double h, double next, StepReport& report);
 
   Setting setting_;
   State state_;

@@ -49,7 +49,7 @@ struct EstimatedVelocities {
 /// Velocity and pressure at the nodes of a mesh of quadratic triangles. On an axis, x is the
 /// distance from it and y is z.
 struct FlowField {
-  std::vector<double> x, y;                             ///< of each node [L]
+  std::vector<double> x, y;                              ///< of each node [L]
   std::vector<double> velocity_x, velocity_y, pressure;  ///< [L/T], [M/(L T^2)]
   /// The nodes of each triangle: three corners counter-clockwise, then the middles of the sides
   /// between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.

@@ -53,6 +53,7 @@ void for_fields(State& state, Images& images, int version, Field&& field) {
   field(p.angular_velocities);
   field(p.inertias);
   field(state.earlier_velocities);
+  field(state.earlier_forces);
   field(state.earlier_step);
 }
 
@@ -171,6 +172,7 @@ bool is_consistent(const State& state) {
          is_empty_or(p.angles, p.count()) && p.angular_velocities.size() == p.angles.size() &&
          is_empty_or(p.inertias, p.count()) &&
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
+         is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
          std::isfinite(state.earlier_step) && state.earlier_step >= 0;
 }
 

@@ -1,0 +1,74 @@
+// The equation of motion of a step in a fluid: forces, inertia and given motions, docs/physics.md
+// (6.1) and (6.5). Units are those of the case.
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "viscontact/particles/fluid/fluid_contact.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/state.hpp"
+
+namespace viscontact::particles {
+
+/// The equation of one step of length h from t^n. With the mean force f over the step and the
+/// resistance R of the fluid, the velocities U with which the particles move in the step solve
+///
+///     M (u^{n+1} - u^n)/h = f - R U + contact forces,   U = theta u^{n+1} + (1 - theta) u^n,
+///
+/// that is (R + M/(theta h)) U = f + M/(theta h) u^n + contact forces. A particle without mass has
+/// theta = 1 and u^{n+1} = U. With z = h times the Stokes drag over the mass, the other particles
+/// have theta = (1 + z)/(2 + z): 1/2 + O(h), which makes the step one of second order, and close to
+/// 1 where the drag is stiff, so that no velocity oscillates. A particle in contact has theta = 1,
+/// because its velocity jumps: it is U at the end of the step (implicit Euler).
+class StepEquation {
+ public:
+  /// The step of length h > 0 ends at time `next`; `state` is that before the step. Both references
+  /// must outlive the object. Particles that had a contact in the step before are in contact.
+  StepEquation(const Setting& setting, const State& state, double h, double next);
+
+  /// The particles in the fluid with M/(theta h).
+  FluidParticles bodies() const;
+
+  /// f + M/(theta h) u^n of each component [M L/T^2].
+  std::vector<double> right_side() const;
+
+  /// M/(theta h) of each component [M/T]; 0 without inertia.
+  const std::vector<double>& inertia() const { return inertia_; }
+
+  /// u^{n+1} [L/T, 1/T] of particles that move with `motions` in the step. It is `flow`, the
+  /// velocity at x^n, of components without inertia.
+  std::vector<double> velocities_at_end(std::span<const double> motions,
+                                        std::span<const double> flow) const;
+
+  bool is_driven(std::int32_t k) const { return driven_.contains(k); }
+  bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
+
+  /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the
+  /// inertia of any.
+  bool put_in_contact(std::span<const FluidContact> contacts);
+
+  /// True if all given motions are the same as in the step before, of length `earlier_step` [T].
+  bool drives_as_before(double earlier_step) const;
+
+ private:
+  void add_inertia();
+  double theta(std::size_t k, std::size_t component, double mass) const;
+  double velocity(std::size_t k, std::size_t component) const;
+  std::array<double, 3> given_motion(const GivenMotion& motion, double from, double to) const;
+
+  const Setting& setting_;
+  const State& state_;
+  double h_, next_;
+  MotionLayout layout_;
+  std::vector<double> forces_;  // f [M L/T^2]
+  std::vector<double> masses_;  // mass or moment of inertia of each component
+  std::vector<double> thetas_, inertia_;
+  std::map<std::int32_t, std::array<double, 3>> driven_;
+  std::vector<char> in_contact_;
+};
+
+}  // namespace viscontact::particles

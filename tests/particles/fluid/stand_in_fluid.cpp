@@ -1,0 +1,118 @@
+#include "tests/particles/fluid/stand_in_fluid.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::particles {
+
+void StandInFluid::count() {
+  if (placements + solutions == fails_at) throw Error(ErrorKind::kExternalProgram, "it fails");
+}
+
+void StandInFluid::place(const FluidParticles& bodies) {
+  count();
+  ++placements;
+  const auto& p = *bodies.particles;
+  components_ = motion_components(p.dimension);
+  drag_ = resistance_(p);
+  matrix_ = drag_;
+  for (std::size_t i = 0; i < bodies.inertia.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    matrix_(k, k) += bodies.inertia[i];
+  }
+  is_driven_.assign(p.count() * components_, 0);
+  given_ = Eigen::VectorXd::Zero(drag_.rows());
+  for (const auto& [k, motion] : bodies.driven)
+    for (std::size_t d = 0; d < components_; ++d) {
+      const auto i = index_of(k) * components_ + d;
+      is_driven_[i] = 1;
+      given_[static_cast<Eigen::Index>(i)] = motion[d];
+    }
+  Eigen::MatrixXd free = matrix_;
+  for (std::size_t i = 0; i < is_driven_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (is_driven_[i] == 0) continue;
+    free.row(k).setZero();
+    free.col(k).setZero();
+    free(k, k) = 1;
+  }
+  inverse_ = free.llt().solve(Eigen::MatrixXd::Identity(free.rows(), free.cols()));
+}
+
+std::vector<double> StandInFluid::velocities(std::span<const double> forces, bool driving) {
+  count();
+  ++solutions;
+  const Eigen::Map<const Eigen::VectorXd> given_forces(forces.data(),
+                                                       static_cast<Eigen::Index>(forces.size()));
+  Eigen::VectorXd right = given_forces;
+  if (driving) right -= matrix_ * given_;
+  for (std::size_t i = 0; i < is_driven_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (is_driven_[i] != 0) right[k] = driving ? given_[k] : 0;
+  }
+  const Eigen::VectorXd v = inverse_ * right;
+  if (driving) last_ = v;
+  return {v.data(), v.data() + v.size()};
+}
+
+FlowQuantities StandInFluid::quantities() {
+  const Eigen::VectorXd force = drag_ * last_;
+  FlowQuantities quantities{force.dot(last_), 0, {}};
+  for (const double f : force) quantities.fluid_forces.push_back(-f);
+  return quantities;
+}
+
+EstimatedVelocities StandInFluid::estimate(std::span<const double> forces) {
+  return {velocities(forces, true), 0, 0};
+}
+
+Resistance constant_drag(double drag) {
+  return [drag](const Particles& p) -> Eigen::MatrixXd {
+    const auto size = static_cast<Eigen::Index>(p.count() * motion_components(p.dimension));
+    return drag * Eigen::MatrixXd::Identity(size, size);
+  };
+}
+
+FluidSimulation InFluid::simulation(Resistance resistance) {
+  auto solver = std::make_unique<StandInFluid>(std::move(resistance));
+  fluid = solver.get();
+  return {setting, state, std::move(solver)};
+}
+
+InFluid in_fluid(int dimension, double width, double h, double threshold_gap) {
+  InFluid system{{}, no_particles(dimension)};
+  system.setting.time_step = h;
+  system.setting.fluid.emplace();
+  system.setting.fluid->viscosity = 1;
+  system.setting.fluid->threshold_gap = threshold_gap;
+  if (dimension == 1)
+    system.setting.domain = CylinderDomain{width / 2, width};
+  else
+    system.setting.domain = BoxDomain{{0, 0}, {width, width}};
+  return system;
+}
+
+void add_pushed(InFluid& system, const Vector& position, double radius, double mass,
+                const Vector& force) {
+  const auto k = static_cast<std::int32_t>(system.state.particles.count());
+  add_particle(system.state, position, radius, mass);
+  system.setting.forces[k] = constant(force);
+}
+
+StepReport run(FluidSimulation& simulation, double end) {
+  StepReport sum;
+  while (simulation.state().time < end * (1 - 1e-12)) {
+    const auto report = simulation.step(end);
+    sum.residual = std::max(sum.residual, report.residual);
+    sum.impulse_residual = std::max(sum.impulse_residual, report.impulse_residual);
+    sum.iterations += report.iterations;
+    sum.converged = sum.converged && report.converged;
+    sum.contacts = std::max(sum.contacts, report.contacts);
+  }
+  return sum;
+}
+
+}  // namespace viscontact::particles

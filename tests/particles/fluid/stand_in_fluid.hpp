@@ -1,0 +1,66 @@
+// A fluid solver for tests: a given resistance matrix in place of a flow. Units are those of the
+// case.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "viscontact/particles/fluid/fluid_simulation.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::particles {
+
+/// The forces and torques of the particles on the fluid for their velocities: a symmetric, positive
+/// definite matrix with motion_components() rows for each particle [M/T].
+using Resistance = std::function<Eigen::MatrixXd(const Particles&)>;
+
+/// Free particles take the velocities v with (R + inertia) v = forces. Counts its questions.
+class StandInFluid : public FluidSolver {
+ public:
+  explicit StandInFluid(Resistance resistance) : resistance_(std::move(resistance)) {}
+
+  void place(const FluidParticles& bodies) override;
+  std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  FlowQuantities quantities() override;
+  EstimatedVelocities estimate(std::span<const double> forces) override;
+  FlowField flow() override { return {}; }
+  std::size_t unknowns() const override { return 0; }
+
+  int placements = 0, solutions = 0;
+  /// The question with this number throws; < 0: none does.
+  int fails_at = -1;
+
+ private:
+  void count();
+  Resistance resistance_;
+  std::size_t components_ = 3;
+  std::vector<char> is_driven_;
+  Eigen::VectorXd given_, last_;
+  Eigen::MatrixXd drag_, matrix_, inverse_;
+};
+
+/// The same drag [M/T] for each component of each particle.
+Resistance constant_drag(double drag);
+
+/// A simulation in a stand-in fluid with viscosity 1.
+struct InFluid {
+  Setting setting;
+  State state;
+  StandInFluid* fluid = nullptr;  ///< of the last simulation made
+  FluidSimulation simulation(Resistance resistance);
+};
+
+/// No particles, in a closed cylinder (dimension 1) or a box of this width (dimension 2), with the
+/// time step h [T] and the threshold gap [L].
+InFluid in_fluid(int dimension, double width, double h, double threshold_gap);
+
+/// Adds a particle with a force that acts on it at all times [M L/T^2].
+void add_pushed(InFluid& system, const Vector& position, double radius, double mass,
+                const Vector& force);
+
+/// Steps until the time is `end`. Returns the largest residuals and the sum of the iterations.
+StepReport run(FluidSimulation& simulation, double end);
+
+}  // namespace viscontact::particles
