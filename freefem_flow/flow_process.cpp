@@ -61,7 +61,8 @@ void append_driven(std::string& text, const FluidParticles& bodies, int dimensio
 }
 
 std::string words_of(const MeshBoundary& boundary) {
-  std::string text = fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());
+  std::string text =
+      fmt::format("boundary {} {}\n", boundary.points.size(), boundary.curves.size());
   for (const auto& point : boundary.points) {
     append(text, point, "a point of the mesh around one");
     text += '\n';

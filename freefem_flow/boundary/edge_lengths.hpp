@@ -62,27 +62,40 @@ class EdgeLengths {
     return of_gap_ * gap + further_ * std::max(0.0, gap - narrow_);
   }
   double longest_, growth_, of_gap_, further_, narrow_;
-  double cap_;  // no edge is longer
+  double cap_;                   // no edge is longer
   std::vector<Circle> circles_;  // of the particles
   std::vector<Circle> images_;   // of the particles and, in a period, of their images
   std::vector<std::vector<Circle>> neighbours_;  // of each particle: those that shorten its edges
 };
 
+/// Throws the error of cut_curve() if a curve cannot have an edge of this length.
+void check_edge_length(double edge, double length);
+
 /// Cuts a curve of this length into edges and returns their ends, as distances along the curve from
 /// 0 to `length`. `edge_length(s)` > 0 is the wanted length at s. All edges are shorter than wanted
 /// by the same factor, so that a whole number of them fits; there are at least `least` edges.
+///
+/// Throws Error(kNotConverged) if an edge would be shorter than 1e-7 `length`: FreeFEM takes such
+/// points for one, and the gap that wants so short an edge is not resolved.
 template <class EdgeLength>
 std::vector<double> cut_curve(double length, std::size_t least, const EdgeLength& edge_length) {
   // cost[i]: number of edges, not rounded, from 0 to place[i].
   std::vector<double> place = {0}, cost = {0};
   constexpr double kSamplesPerEdge = 8;
+  const auto wanted_at = [&](double s) {
+    const double wanted = std::min(edge_length(s), length);
+    check_edge_length(wanted, length);
+    return wanted;
+  };
+  double wanted = wanted_at(0);
   while (place.back() < length) {
     const double s = place.back();
-    const double wanted = edge_length(s);
     const double step = wanted / kSamplesPerEdge;
     const double next = s + step < length * (1 - 1e-12) ? s + step : length;
-    cost.push_back(cost.back() + 2 * (next - s) / (wanted + edge_length(next)));
+    const double wanted_next = wanted_at(next);
+    cost.push_back(cost.back() + 2 * (next - s) / (wanted + wanted_next));
     place.push_back(next);
+    wanted = wanted_next;
   }
   const auto edges = std::max(least, static_cast<std::size_t>(std::ceil(cost.back() - 1e-9)));
   std::vector<double> ends = {0};

@@ -51,6 +51,16 @@ void clip(Polygon& polygon, const Point& normal, double offset, const Neighbour&
   polygon = std::move(kept);
 }
 
+/// Square of the distance of the furthest corner from a point.
+double square_of_reach(const Polygon& polygon, const Point& from) {
+  double reach = 0;
+  for (const auto& corner : polygon) {
+    const double dx = corner.at[0] - from[0], dy = corner.at[1] - from[1];
+    reach = std::max(reach, dx * dx + dy * dy);
+  }
+  return reach;
+}
+
 /// The Laguerre cell of particle k. Walls bound it along directions that are not periodic.
 Polygon cell_of(std::size_t k, const particles::BoxDomain& box, std::span<const Circle> circles) {
   const auto& own = circles[k];
@@ -66,19 +76,26 @@ Polygon cell_of(std::size_t k, const particles::BoxDomain& box, std::span<const 
                   {{high[0], low[1]}, {-1, 2, {}}},
                   {{high[0], high[1]}, {-1, 4, {}}},
                   {{low[0], high[1]}, {-1, 1, {}}}};
-  for (std::size_t j = 0; j < circles.size(); ++j)
-    for (int sx = box.periodic[0] ? -1 : 0; sx <= (box.periodic[0] ? 1 : 0); ++sx)
-      for (int sy = box.periodic[1] ? -1 : 0; sy <= (box.periodic[1] ? 1 : 0); ++sy) {
-        if (j == k && sx == 0 && sy == 0) continue;
-        const Point d = {circles[j].centre[0] + sx * period[0] - own.centre[0],
-                         circles[j].centre[1] + sy * period[1] - own.centre[1]};
-        const double square = d[0] * d[0] + d[1] * d[1];
-        // The line of equal power: d.(x - c) = (|d|^2 + r^2 - r_j^2)/2.
-        const double offset =
-            (square + own.radius * own.radius - circles[j].radius * circles[j].radius) / 2 +
-            d[0] * own.centre[0] + d[1] * own.centre[1];
-        clip(cell, d, offset, {static_cast<int>(j), 0, {sx, sy}});
-      }
+  // Near particles cut first, so that the lines of the others are soon known to pass by the cell.
+  const double near = 16 * period[0] * period[1] / static_cast<double>(circles.size());
+  double reach = square_of_reach(cell, own.centre);
+  for (const bool is_near : {true, false})
+    for (std::size_t j = 0; j < circles.size(); ++j)
+      for (int sx = box.periodic[0] ? -1 : 0; sx <= (box.periodic[0] ? 1 : 0); ++sx)
+        for (int sy = box.periodic[1] ? -1 : 0; sy <= (box.periodic[1] ? 1 : 0); ++sy) {
+          if (j == k && sx == 0 && sy == 0) continue;
+          const Point d = {circles[j].centre[0] + sx * period[0] - own.centre[0],
+                           circles[j].centre[1] + sy * period[1] - own.centre[1]};
+          const double square = d[0] * d[0] + d[1] * d[1];
+          if ((square < near) != is_near) continue;
+          // The line of equal power: d.(x - c) = (|d|^2 + r^2 - r_j^2)/2.
+          const double half =
+              (square + own.radius * own.radius - circles[j].radius * circles[j].radius) / 2;
+          if (half > 0 && half * half > reach * square) continue;
+          clip(cell, d, half + d[0] * own.centre[0] + d[1] * own.centre[1],
+               {static_cast<int>(j), 0, {sx, sy}});
+          reach = square_of_reach(cell, own.centre);
+        }
   return cell;
 }
 
@@ -89,8 +106,8 @@ class Corners {
       : box_(box), circles_(circles) {}
 
   Point joined(const Point& x) {
-    const Point wrapped = moved_near(x, {(box_.from[0] + box_.to[0]) / 2,
-                                         (box_.from[1] + box_.to[1]) / 2});
+    const Point wrapped =
+        moved_near(x, {(box_.from[0] + box_.to[0]) / 2, (box_.from[1] + box_.to[1]) / 2});
     for (const auto& corner : corners_) {
       const Point near = moved_near(wrapped, corner.at);
       if (std::hypot(near[0] - corner.at[0], near[1] - corner.at[1]) <= corner.reach)
@@ -134,10 +151,19 @@ std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
                                      std::span<const Circle> circles) {
   std::vector<CellEdge> edges;
   Corners corners(box, circles);
+  std::vector<Polygon> cells;
+  for (std::size_t k = 0; k < circles.size(); ++k) cells.push_back(cell_of(k, box, circles));
+  // Corners on walls come first, so that others are moved to the wall and not off it.
+  for (const auto& cell : cells)
+    for (std::size_t c = 0; c < cell.size(); ++c)
+      if (cell[c].behind.particle < 0) {
+        corners.joined(cell[c].at);
+        corners.joined(cell[(c + 1) % cell.size()].at);
+      }
   // Edges between particle k and neighbour j with image (sx, sy), to find the partner of each.
   std::map<std::tuple<int, int, int, int>, int> by_neighbours;
   for (std::size_t k = 0; k < circles.size(); ++k) {
-    const auto cell = cell_of(k, box, circles);
+    const auto& cell = cells[k];
     for (std::size_t c = 0; c < cell.size(); ++c) {
       const auto& behind = cell[c].behind;
       if (behind.particle >= 0 && behind.image == std::array<int, 2>{}) continue;
@@ -148,12 +174,11 @@ std::vector<CellEdge> periodic_cells(const particles::BoxDomain& box,
         const int number = static_cast<int>(k);
         by_neighbours[{number, behind.particle, behind.image[0], behind.image[1]}] =
             static_cast<int>(edges.size());
-        const auto partner = by_neighbours.find(
-            {behind.particle, number, -behind.image[0], -behind.image[1]});
+        const auto partner =
+            by_neighbours.find({behind.particle, number, -behind.image[0], -behind.image[1]});
         if (partner != by_neighbours.end()) {
           edge.partner = partner->second;
-          edges[static_cast<std::size_t>(partner->second)].partner =
-              static_cast<int>(edges.size());
+          edges[static_cast<std::size_t>(partner->second)].partner = static_cast<int>(edges.size());
         }
       }
       edges.push_back(edge);

@@ -24,8 +24,8 @@ struct Body {
   double radius = 1;
 };
 
-inline particles::Fluid fluid_with(int edges, particles::RigidConstraint constraint =
-                                                  particles::RigidConstraint::kPenalty) {
+inline particles::Fluid fluid_with(
+    int edges, particles::RigidConstraint constraint = particles::RigidConstraint::kPenalty) {
   particles::Fluid fluid;
   fluid.viscosity = 1;
   fluid.edges_per_particle = edges;
@@ -56,11 +56,11 @@ class PlacedFlow {
         angles_(dimension_ == 2 ? bodies.size() : 0),
         driven_(std::move(driven)),
         inertia_(std::move(inertia)),
-        solver_(start_fluid_solver(fluid, domain, particles_.radii, dimension_,
-                                   [fluid, domain](const particles::FluidParticles& placed,
-                                                   double coarsening) {
-                                     return mesh_boundary(fluid, domain, placed, coarsening);
-                                   })) {
+        solver_(start_fluid_solver(
+            fluid, domain, particles_.radii, dimension_,
+            [fluid, domain](const particles::FluidParticles& placed, double coarsening) {
+              return mesh_boundary(fluid, domain, placed, coarsening);
+            })) {
     place();
   }
 
