@@ -1,0 +1,126 @@
+// The shipped cases of particles in a fluid run with FreeFEM, and show what docs/fluid.md,
+// docs/viscosity.md and docs/direct-simulation.md say of them. Each is cut to a few steps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const fs::path kCases = VISCONTACT_SOURCE_FOLDER "/data/cases/fluid";
+
+class ShippedFluidCase : public ParticlesCommand {
+ protected:
+  /// The text of a shipped case that has this time step, and ends after `steps` of them.
+  static std::string cut(const std::string& name, double step, int steps) {
+    const auto line = [](const std::string& key, double value) {
+      return key + " = " + std::to_string(value) + "\n";
+    };
+    auto text = read_file(kCases / (name + ".toml"));
+    text = replaced_matches(text, "\\[output\\]\nevery = [^\n]*\n", "");
+    text = replaced_matches(text, "time_step = [^\n]*\n", line("time_step", step));
+    return replaced_matches(text, "end_time = [^\n]*\n", line("end_time", step * steps));
+  }
+  nlohmann::json last_of(const std::string& text) {
+    expect_done(run(put_case(text), out()));
+    EXPECT_GT(fs::file_size(out() / "flow_00000.vtu"), 10000U);
+    return nlohmann::json::parse(read_file(out() / "run.json"));
+  }
+  /// A field of the last row of a result.
+  double last(const std::string& file, std::size_t field) const {
+    const auto rows = matches_in(content(out() / file), "([^\n]+)\n", 1);
+    const auto fields = matches_in(rows.back() + ",", "([^,]*),", 1);
+    return std::stod(fields.at(field));
+  }
+  static constexpr std::size_t kDissipation = 11, kApparentViscosity = 12;  // in steps.csv
+};
+
+// No other test has to name each case, so a new one must get a test here.
+TEST_F(ShippedFluidCase, EachHasATest) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(kCases)) names.insert(entry.path().stem());
+  EXPECT_EQ(names, (std::set<std::string>{"lecture", "one_disc", "seven_discs", "shear", "sieve",
+                                          "viscosity_channel", "viscosity_contact",
+                                          "viscosity_lattice_axes", "viscosity_lattice_diagonals",
+                                          "viscosity_random_cell", "viscosity_random_walls"}));
+}
+
+// The nearer wall is on the left: the fluid shears the disc more there, and turns it clockwise.
+TEST_F(ShippedFluidCase, ADiscSinksAndTurns) {
+  last_of(cut("one_disc", 0.25, 2));
+  EXPECT_LT(last("motion.csv", 6), 0);  // vy
+  EXPECT_NE(last("motion.csv", 7), 0);  // angular velocity
+}
+
+TEST_F(ShippedFluidCase, SevenDiscsFallTogether) {
+  const auto record = last_of(cut("seven_discs", 0.5, 2));
+  EXPECT_LT(record["velocity_error_estimate"]["first"], 1e-3);
+  for (const auto& velocity : matches_in(content(out() / "motion.csv"), "1,[0-9]*(,[^\n]*)\n", 1)) {
+    const auto fields = matches_in(velocity + ",", ",([^,]*)", 1);
+    EXPECT_LT(std::stod(fields.at(4)), 0) << velocity;  // vy
+  }
+}
+
+TEST_F(ShippedFluidCase, ShearedDiscsRaiseTheViscosity) {
+  last_of(cut("shear", 0.2, 2));
+  // 20 discs are a third of the area: 1 + 2 phi = 1.65 is less than the suspension has.
+  EXPECT_GT(last("steps.csv", kApparentViscosity), 1.65);
+  EXPECT_LT(last("steps.csv", kApparentViscosity), 5);
+}
+
+TEST_F(ShippedFluidCase, TheFlowCarriesDiscsToTheSieve) {
+  last_of(cut("sieve", 0.1, 2));
+  EXPECT_GT(last("motion.csv", 5), 0);  // vx of the last particle, which is free
+  EXPECT_THAT(content(out() / "final_particles.csv"), HasSubstr("0,6,0.9,0,0,0.4,"));
+}
+
+// The whole impulse of the push is in momentum and Gamma, so that the floor has it at last.
+TEST_F(ShippedFluidCase, TheLectureIsPushedToTheFloor) {
+  auto text = cut("lecture", 0.05, 40);
+  text = replaced_matches(text, "edges_per_particle = 24", "edges_per_particle = 12");
+  last_of(text);
+  EXPECT_NEAR(last("motion.csv", 2), 1.1, 1e-6);  // the centre: D_c and the radius
+  EXPECT_NEAR(last("contacts.csv", 4), -203.5, 2);
+}
+
+// Exact: 1 + 2.039074 phi in a long channel; the cell is as long as the channel is high.
+TEST_F(ShippedFluidCase, ADiscInAChannel) {
+  last_of(cut("viscosity_channel", 0.01, 1));
+  const double phi = std::acos(-1.0) / 400;
+  EXPECT_NEAR((last("steps.csv", kApparentViscosity) - 1) / phi, 2.04, 0.02);
+}
+
+// docs/physics.md (6.6); Sangani & Acrivos' lattice, exact values 1.263338 and 1.192224.
+TEST_F(ShippedFluidCase, Lattices) {
+  last_of(cut("viscosity_lattice_axes", 0.01, 1));
+  EXPECT_NEAR(last("steps.csv", kApparentViscosity), 1.263338, 1e-4);
+  last_of(cut("viscosity_lattice_diagonals", 0.01, 1));
+  EXPECT_NEAR(last("steps.csv", kApparentViscosity), 1.192224, 1e-4);
+}
+
+TEST_F(ShippedFluidCase, RandomDiscs) {
+  for (const auto* name : {"viscosity_random_cell", "viscosity_random_walls"}) {
+    last_of(cut(name, 1e-3, 1));
+    EXPECT_GT(last("steps.csv", kApparentViscosity), 1.6) << name;
+    EXPECT_LT(last("steps.csv", kApparentViscosity), 4) << name;
+  }
+}
+
+TEST_F(ShippedFluidCase, ContactOfShearedDiscs) {
+  last_of(cut("viscosity_contact", 0.1, 3));
+  EXPECT_GT(last("steps.csv", kApparentViscosity), 1.6);
+  EXPECT_LE(last("contacts.csv", 4), 0);
+}
+
+}  // namespace
+}  // namespace viscontact
