@@ -90,7 +90,8 @@ std::vector<double> ContactProblem::loads() const {
   return loads;
 }
 
-void ContactProblem::solve() {
+void ContactProblem::solve(bool is_rough) {
+  is_rough_ = false;
   if (contacts_.empty()) return;
   const bool is_dense = contacts_.size() <= kMostDenseContacts;
   if (is_dense) {
@@ -105,17 +106,25 @@ void ContactProblem::solve() {
   } else if (std::ranges::any_of(contacts_, [](const auto& c) { return !(c.w > 0); })) {
     iterations_ += estimate_w(contacts_, free_velocities_.size(), mobility_, layout_);
   }
+  // A matrix is solved exactly at once.
+  is_rough_ = is_rough && !is_dense;
+  auto settings = settings_;
+  if (is_rough_) {
+    constexpr double kRoughLength = 1e-3, kRoughImpulse = 1e-2;
+    settings.tolerance = std::max(settings.tolerance, kRoughLength);
+    settings.impulse_tolerance = std::max(settings.impulse_tolerance, kRoughImpulse);
+  }
   // The allowed residuals follow from the impulses, which the first solution tells.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.gamma);
     auto allowed =
-        contact_tolerances(contacts_, free_velocities_, h_, layout_, settings_, mean_radius_)
+        contact_tolerances(contacts_, free_velocities_, h_, layout_, settings, mean_radius_)
             .allowed;
     // Half of it is left for the difference between this problem and the final velocities.
     for (auto& residual : allowed) residual /= 2;
     is_dense ? solve_dense(allowed) : solve_by_products(allowed);
-    converged_ = measure_residuals(contacts_, free_velocities_, velocities_, h_, layout_, settings_,
+    converged_ = measure_residuals(contacts_, free_velocities_, velocities_, h_, layout_, settings,
                                    mean_radius_)
                      .converged;
     if (converged_ || iterations_ >= settings_.max_iterations) return;

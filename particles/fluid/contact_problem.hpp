@@ -40,8 +40,10 @@ class ContactProblem {
   void add(const FluidContact& contact) { contacts_.push_back(contact); }
 
   /// Finds the impulses and the `w` of all contacts. Further contacts may be added after it, and
-  /// their solution begins at the impulses found. May throw what the mobility throws.
-  void solve();
+  /// their solution begins at the impulses found. A rough solution serves only to see which other
+  /// contacts take part, and saves products where there are many. May throw what the mobility
+  /// throws.
+  void solve(bool is_rough);
 
   const std::vector<FluidContact>& contacts() const { return contacts_; }
   /// Velocities of the particles with the impulses found [L/T, 1/T].
@@ -52,6 +54,8 @@ class ContactProblem {
   int iterations() const { return iterations_; }
   /// False if the last solve() ended before its residuals were small enough.
   bool converged() const { return converged_; }
+  /// True if the last solution was rough.
+  bool is_rough() const { return is_rough_; }
 
  private:
   /// Both improve the impulses until the residuals are `allowed` [L].
@@ -69,7 +73,7 @@ class ContactProblem {
   std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
   std::vector<double> velocities_;
   int iterations_ = 0;
-  bool converged_ = true;
+  bool converged_ = true, is_rough_ = false;
 };
 
 }  // namespace viscontact::particles

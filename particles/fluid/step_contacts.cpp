@@ -23,6 +23,7 @@ StepContacts solve_listed(StepContacts step, std::span<const double> free_veloci
                          conditions.mean_radius);
   std::vector<std::size_t> chosen;
   std::vector<char> is_chosen(step.contacts.size(), 0);
+  const int most = conditions.solver.max_iterations;
   for (;;) {
     const auto before = chosen.size();
     for (std::size_t c = 0; c < step.contacts.size(); ++c) {
@@ -35,8 +36,9 @@ StepContacts solve_listed(StepContacts step, std::span<const double> free_veloci
       chosen.push_back(c);
       problem.add(contact);
     }
-    if (chosen.size() == before) break;
-    problem.solve();
+    const bool has_joined = chosen.size() > before;
+    if (!has_joined && !problem.is_rough()) break;
+    problem.solve(has_joined && problem.iterations() < most);
   }
   for (auto& contact : step.contacts) contact.impulse = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) step.contacts[chosen[i]] = problem.contacts()[i];

@@ -8,6 +8,7 @@
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/fluid/contact_problem.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -52,9 +52,9 @@ std::string of_version(int version, const State& state,
   const auto text = write_restart(state);
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
-  // Version 3 added the lengths of five lists, which are empty here, and a number.
-  EXPECT_EQ(bytes.substr(bytes.size() - 48), std::string(48, '\0'));
-  bytes.erase(bytes.size() - 48);
+  // Version 3 added the lengths of six lists, which are empty here, and a number.
+  EXPECT_EQ(bytes.substr(bytes.size() - 56), std::string(56, '\0'));
+  bytes.erase(bytes.size() - 56);
   change(bytes);
   auto head = text.substr(0, first);
   head.replace(head.find("version 3"), 9, "version " + std::to_string(version));
@@ -92,6 +92,7 @@ TEST_F(RestartFile, OfAFluidIsReadAsItWasWritten) {
   state.particles.inertias = {1, 0};
   state.pairs = {{0, 1, -0.5, 0.25, 0, 0}, {0, 1, -0.25, 0, 1e-9, -4}};
   state.earlier_velocities = {1, 2, 3, 4, 5, 1.0 / 3};
+  state.earlier_forces = {6, 5, 4, 3, 2, 1.0 / 7};
   state.earlier_step = 0.1;
   const auto again = read(write_restart(state));
   EXPECT_EQ(again.particles.angles, state.particles.angles);
@@ -99,6 +100,7 @@ TEST_F(RestartFile, OfAFluidIsReadAsItWasWritten) {
   EXPECT_EQ(again.particles.inertias, state.particles.inertias);
   EXPECT_EQ(again.pairs, state.pairs);
   EXPECT_EQ(again.earlier_velocities, state.earlier_velocities);
+  EXPECT_EQ(again.earlier_forces, state.earlier_forces);
   EXPECT_EQ(again.earlier_step, 0.1);
   EXPECT_EQ(write_restart(again), write_restart(state));
 }
@@ -123,6 +125,7 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
   refused([](State& state) { state.particles.angles = {1}; });  // no angular velocity
   refused([](State& state) { state.particles.inertias = {1, 2}; });
   refused([](State& state) { state.earlier_velocities = {1, 2}; });
+  refused([](State& state) { state.earlier_forces = {1, 2}; });
   refused([](State& state) { state.earlier_step = -1; });
   refused([](State& state) {
     add_particle(state, {5, 5, 0}, 1, 1);
