@@ -11,6 +11,7 @@ std::string_view uplot_style();
 std::string_view uplot_licence();
 std::string_view report_script();
 std::string_view report_style();
+std::string_view flow_script();
 std::string_view particles_script();
 std::string_view particles_style();
 

@@ -17,7 +17,7 @@ namespace {
 
 /// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, whose colours colour-blind
 /// readers can tell apart. It is linear between its nodes.
-std::string colour(double place) {
+std::string red_blue(double place) {
   static const std::vector<ColourNode> kRedBlue = {
       {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
       {0, {250, 250, 250}}, {0.3, {253, 219, 199}},   {0.66, {239, 138, 98}},
@@ -65,28 +65,47 @@ double PressureColours::at(double pressure) const {
   return linear_below > 0 ? std::asinh(pressure / linear_below) / std::numbers::ln10 : pressure;
 }
 
+std::string PressureColours::colour_at(double place) const {
+  return red_blue(place / std::max(std::abs(at(low)), std::abs(at(high))));
+}
+
+std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
+  std::vector<std::pair<double, std::string>> ticks;
+  if (!(linear_below > 0)) {
+    constexpr double kAbout = 5;  // approximate number of intervals
+    const double step = rounded_up((high - low) / kAbout);
+    for (double n = std::ceil(low / step - 1e-9); n <= high / step + 1e-9; ++n)
+      ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
+    return ticks;
+  }
+  constexpr int kMost = 4;  // numbers of each sign at the bar, about
+  const int decades = static_cast<int>(
+      std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
+  const int every = decades / (kMost + 1) + 1;
+  ticks.emplace_back(0, "0");
+  for (int i = 0; i <= decades; i += every) {
+    const double pressure = linear_below * std::pow(10, i);
+    ticks.emplace_back(pressure, short_number(pressure));
+    ticks.emplace_back(-pressure, "-" + short_number(pressure));
+  }
+  return ticks;
+}
+
 std::vector<std::string> PressureColours::settings() const {
   constexpr int kSteps = 40;  // intervals of gnuplot's palette, which is linear in each
-  const double from = at(low), to = at(high), full = std::max(std::abs(from), std::abs(to));
+  const double from = at(low), to = at(high);
   std::string palette;
   for (int i = 0; i <= kSteps; ++i) {
     const double place = std::lerp(from, to, static_cast<double>(i) / kSteps);
-    palette += fmt::format("{}{:.9g} '{}'", i == 0 ? "" : ", ", place, colour(place / full));
+    palette += fmt::format("{}{:.9g} '{}'", i == 0 ? "" : ", ", place, colour_at(place));
   }
   std::string words = "pressure (unit: viscosity x velocity / length)";
   std::string ticks = "set cbtics autofreq format '%.3g'";
   if (linear_below > 0) {
-    constexpr int kMost = 4;  // numbers of each sign at the bar, about
-    const int decades = static_cast<int>(
-        std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
-    const int every = decades / (kMost + 1) + 1;
-    ticks = "'0' 0";
-    for (int i = 0; i <= decades; i += every) {
-      const double pressure = linear_below * std::pow(10, i);
-      const auto number = short_number(pressure);
-      ticks += fmt::format(", '{0}' {1:.6g}, '-{0}' -{1:.6g}", number, at(pressure));
-    }
-    ticks = "set cbtics (" + ticks + ")";
+    std::string places;
+    for (const auto& [pressure, text] : this->ticks())
+      places += fmt::format("{}'{}' {:.6g}", places.empty() ? "" : ", ", text, at(pressure));
+    ticks = "set cbtics (" + places + ")";
     words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
   }
   // Pressures beyond 1.2 times the end of the bar are mentioned in words.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscontact::report {
@@ -17,6 +18,12 @@ struct PressureColours {
 
   /// The position of a pressure on the scale, which gnuplot gets as the value.
   double at(double pressure) const;
+
+  /// The colour "#rrggbb" at a position on the scale.
+  std::string colour_at(double place) const;
+
+  /// Round pressures in the bar with their texts, which should stand beside it.
+  std::vector<std::pair<double, std::string>> ticks() const;
 
   /// Commands of gnuplot for palette, range, numbers and words of the bar.
   std::vector<std::string> settings() const;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "viscontact/report/flow/pixel_scan.hpp"
+
 namespace viscontact::report {
 namespace {
 
@@ -128,19 +130,6 @@ LinearField straightened(const freefem_axi::CurvedMesh& mesh, const std::vector<
 std::vector<double> pixels(const LinearField& field, const Window& window, std::size_t columns,
                            std::size_t rows) {
   std::vector<double> picture(columns * rows, kOutside);
-  const double width = window.width() / static_cast<double>(columns);
-  const double height = window.height() / static_cast<double>(rows);
-  // The range of pixels in one direction whose centres are between two coordinates.
-  const auto range = [](double low, double high, double start, double step, std::size_t count) {
-    const auto clamp = [&](double place) {
-      return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
-    };
-    return std::pair(clamp(std::ceil((low - start) / step - 0.5)),
-                     clamp(std::floor((high - start) / step - 0.5) + 1));
-  };
-  // A barycentric coordinate may be this far below 0, so that a pixel centre on a side belongs to
-  // at least one of the two triangles in spite of round-off.
-  constexpr double kSlack = -1e-9;
   for (const auto& triangle : field.triangles)
     for (const double side : {1.0, -1.0}) {
       std::array<double, 3> x{}, z{}, v{};
@@ -149,25 +138,18 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
         z[i] = field.points[triangle[i]][1];
         v[i] = field.values[triangle[i]];
       }
-      const double area = (x[1] - x[0]) * (z[2] - z[0]) - (x[2] - x[0]) * (z[1] - z[0]);
-      if (area == 0) continue;
-      const auto [left, right] = std::ranges::minmax(x);
-      const auto [bottom, top] = std::ranges::minmax(z);
-      const auto [first_column, end_column] = range(left, right, window.left, width, columns);
-      const auto [first_row, end_row] = range(bottom, top, window.bottom, height, rows);
-      for (auto row = first_row; row < end_row; ++row)
-        for (auto column = first_column; column < end_column; ++column) {
-          const double px = window.left + (static_cast<double>(column) + 0.5) * width;
-          const double pz = window.bottom + (static_cast<double>(row) + 0.5) * height;
-          const double w1 = ((px - x[0]) * (z[2] - z[0]) - (x[2] - x[0]) * (pz - z[0])) / area;
-          const double w2 = ((x[1] - x[0]) * (pz - z[0]) - (px - x[0]) * (z[1] - z[0])) / area;
-          if (w1 < kSlack || w2 < kSlack || w1 + w2 > 1 - kSlack) continue;
-          picture[row * columns + column] = v[0] + w1 * (v[1] - v[0]) + w2 * (v[2] - v[0]);
-        }
+      for_each_pixel(x, z, window, columns, rows, [&](std::size_t pixel, double w1, double w2) {
+        picture[pixel] = v[0] + w1 * (v[1] - v[0]) + w2 * (v[2] - v[0]);
+      });
     }
-  // The centre of a pixel that the boundary crosses may be outside the triangles; such a pixel
-  // takes the mean value of its neighbours.
+  // The centre of a pixel that the boundary crosses may be outside the triangles.
+  fill_next_to_known(picture, columns);
+  return picture;
+}
+
+void fill_next_to_known(std::vector<double>& picture, std::size_t columns) {
   const auto inner = picture;
+  const auto rows = picture.size() / columns;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {
       if (!std::isnan(inner[row * columns + column])) continue;
@@ -182,7 +164,6 @@ std::vector<double> pixels(const LinearField& field, const Window& window, std::
           }
       if (count > 0) picture[row * columns + column] = sum / count;
     }
-  return picture;
 }
 
 std::pair<double, double> extremes(const LinearField& field, const Window& window) {

@@ -40,6 +40,10 @@ LinearField straightened(const freefem_axi::CurvedMesh& mesh, const std::vector<
 std::vector<double> pixels(const LinearField& field, const Window& window, std::size_t columns,
                            std::size_t rows);
 
+/// Gives each pixel that is NaN the mean value of those of its up to eight neighbours that are not.
+/// The pixels are row by row, with `columns` in a row.
+void fill_next_to_known(std::vector<double>& picture, std::size_t columns);
+
 /// The smallest and the largest value at the points in the window.
 std::pair<double, double> extremes(const LinearField& field, const Window& window);
 

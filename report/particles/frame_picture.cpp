@@ -161,14 +161,10 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame,
   line.colour = colour_class(contact.gamma, d.lowest);
   line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
                                 : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
-  // Half of the line to an image is drawn at each of the two particles.
-  const Vector shift = 0.5 * shift_of(d.playback.cell, contact.image);
-  if (contact.image == 0) {
-    line.path = path_of({from, to}, d.view);
-  } else {
-    const Vector middle = 0.5 * (from + to);
-    line.path = path_of({from, middle + shift}, d.view) + path_of({middle - shift, to}, d.view);
-  }
+  // The line to an image is drawn at both sides of the period.
+  const Vector shift = shift_of(d.playback.cell, contact.image);
+  line.path = path_of({from, to + shift}, d.view);
+  if (contact.image != 0) line.path += path_of({from - shift, to}, d.view);
   return line;
 }
 
@@ -177,18 +173,53 @@ bool drawn(const PanelSettings& d, const particles::CurrentContact& contact) {
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
 }
 
-std::string circle(const PanelSettings& d, const Frame& frame, std::size_t k) {
-  const Vector at = position(d.playback, frame, k);
-  const double x = d.view.x(at), y = d.view.y(at), r = d.view.scale * d.playback.radii[k];
-  const bool seen = x > -r && x < d.width + r && y > -r && y < d.height + r;
-  return seen ? fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", x, y, r) : "";
+/// True if the panel shows a part of a circle about (x, y) of the page.
+bool is_seen(const PanelSettings& d, double x, double y, double r) {
+  return x > -r && x < d.width + r && y > -r && y < d.height + r;
 }
 
-std::string discs(const PanelSettings& d, const Frame& frame) {
-  std::string text = plane_2d_solids(d, frame);
-  text += "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
-  for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every) text += circle(d, frame, k);
-  text += "</g>\n" + plane_2d_lines(d, frame);
+std::string circle(const PanelSettings& d, const Vector& at, double radius) {
+  const double x = d.view.x(at), y = d.view.y(at), r = d.view.scale * radius;
+  return is_seen(d, x, y, r)
+             ? fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", x, y, r)
+             : "";
+}
+
+/// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
+template <class Visit>
+void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
+  for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every)
+    for (std::int32_t image = -particles::kLargestImage; image <= particles::kLargestImage;
+         ++image) {
+      const Vector shift = shift_of(d.playback.cell, image);
+      if (image == 0 || shift[0] != 0 || shift[1] != 0)
+        visit(k, position(d.playback, frame, k) + shift);
+    }
+}
+
+/// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
+std::string angle_marks(const PanelSettings& d, const Frame& frame) {
+  constexpr double kFromCentre = 0.66, kRadius = 0.13;  // of the disc's radius
+  constexpr double kSmallest = 0.5;                     // radius of a dot [page units]
+  if (frame.angles.size() != d.playback.radii.size()) return "";
+  std::string text;
+  for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
+    const double r = d.playback.radii[k], angle = frame.angles[k];
+    if (kRadius * r * d.view.scale >= kSmallest)
+      text += circle(d, centre + kFromCentre * r * Vector{std::cos(angle), std::sin(angle), 0},
+                     kRadius * r);
+  });
+  return "<g fill=\"#4a4a44\">\n" + text + "</g>\n";
+}
+
+std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
+  std::string text = behind + plane_2d_solids(d, frame);
+  text += d.is_in_fluid ? "<g fill=\"#f1ece0\" stroke=\"#3c3a34\" stroke-width=\".8\">\n"
+                        : "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
+  for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
+    text += circle(d, centre, d.playback.radii[k]);
+  });
+  text += "</g>\n" + angle_marks(d, frame) + plane_2d_lines(d, frame);
   // All contacts of one colour make one path. Its width is the mean of the widths of these
   // contacts.
   std::array<ContactLine, kContactColours + 1> lines;
@@ -228,7 +259,9 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
   text +=
       "<g fill=\"url(#ball)\" stroke=\"#34536e\" stroke-width=\".5\" stroke-linecap=\"round\">\n";
   for (std::size_t i = 0; i < order.size(); ++i)
-    text += circle(d, frame, order[i].second) + with[i];
+    text +=
+        circle(d, position(d.playback, frame, order[i].second), d.playback.radii[order[i].second]) +
+        with[i];
   return text + "</g>\n" + plane_3d_patches(d, frame, false);
 }
 
@@ -246,8 +279,9 @@ Projection view_of(int dimension) {
   return view;
 }
 
-std::string frame_picture(const PanelSettings& panel, const Frame& frame) {
-  return panel.playback.dimension == 2 ? discs(panel, frame) : spheres(panel, frame);
+std::string frame_picture(const PanelSettings& panel, const Frame& frame,
+                          const std::string& behind) {
+  return panel.playback.dimension == 2 ? discs(panel, frame, behind) : spheres(panel, frame);
 }
 
 }  // namespace viscontact::report

@@ -33,11 +33,15 @@ struct PanelSettings {
   double width = 0, height = 0;  ///< size of a panel in page units
   double lowest = 0;             ///< lowest gamma of the motion [M L/T]
   std::size_t every = 1;         ///< one particle in `every` is drawn
+  bool is_in_fluid = false;      ///< colours that are seen before the flow
 };
 
 inline constexpr int kContactColours = 20;  ///< for gamma < 0
 
-/// The elements of a panel that shows the frame.
-std::string frame_picture(const PanelSettings& panel, const particles::Frame& frame);
+/// The elements of a panel that shows the frame. `behind` is drawn behind everything else. Across
+/// the sides of a period, the images of particles and contacts are drawn, of which the panel shows
+/// the part in its box.
+std::string frame_picture(const PanelSettings& panel, const particles::Frame& frame,
+                          const std::string& behind = "");
 
 }  // namespace viscontact::report

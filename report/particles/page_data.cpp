@@ -20,8 +20,6 @@ using particles::Playback;
 // The numbers are written as they are in memory, and the script reads them as little-endian.
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
-
 template <class Number>
 void append(Bytes& bytes, Number value) {
   const auto at = bytes.size();
@@ -73,37 +71,38 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
 /// a byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma).
 struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
+  Bytes images;   ///< int8: CurrentContact::image of each pair
   Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
   Bytes frames;
 };
 
-using Pair = std::pair<std::int32_t, std::int32_t>;
+using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
 
 Contacts contacts_of(const Playback& playback, const PageData& data, double lowest) {
   Contacts contacts;
   append(contacts.offsets, std::uint32_t{0});
   const auto every = static_cast<std::int32_t>(data.every_particle);
   const auto shown = [&](const particles::CurrentContact& c) {
-    // The page does not draw contacts across a period.
-    return data.contacts && c.image == 0 && c.second % every == 0 &&
-           (c.first < 0 || c.first % every == 0);
+    return data.contacts && c.second % every == 0 && (c.first < 0 || c.first % every == 0);
   };
   std::vector<Pair> pairs;
   for (const auto f : data.frames)
     for (const auto& c : playback.frames[f].contacts)
-      if (shown(c)) pairs.emplace_back(c.first, c.second);
+      if (shown(c)) pairs.push_back({c.first, c.second, c.image});
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  for (const auto& [first, second] : pairs) {
+  for (const auto& [first, second, image] : pairs) {
     append(contacts.pairs, first < 0 ? first : first / every);
     append(contacts.pairs, second / every);
+    append(contacts.images, static_cast<std::int8_t>(image));
   }
   std::vector<std::pair<std::uint32_t, unsigned char>> listed;
   for (const auto f : data.frames) {
     listed.clear();
     for (const auto& c : playback.frames[f].contacts) {
       if (!shown(c)) continue;
-      const auto at = std::ranges::lower_bound(pairs, Pair{c.first, c.second}) - pairs.begin();
+      const auto at =
+          std::ranges::lower_bound(pairs, Pair{c.first, c.second, c.image}) - pairs.begin();
       const auto level =
           c.gamma < 0 ? std::max(1L, std::lround(255 * std::clamp(c.gamma / lowest, 0.0, 1.0)))
                       : 0L;
@@ -121,8 +120,17 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
   return contacts;
 }
 
+/// True if the page shows how far the particles have turned.
+bool has_angles(const Playback& playback) {
+  return !playback.frames.empty() &&
+         std::ranges::all_of(playback.frames, [&](const particles::Frame& frame) {
+           return !frame.angles.empty() && frame.angles.size() == playback.radii.size();
+         });
+}
+
 /// Chooses frames, and whether contacts are shown, so that the page is not too large.
-Contacts choose_content(PageData& data, const Playback& playback, double lowest) {
+Contacts choose_content(PageData& data, const Playback& playback, double lowest,
+                        std::size_t other_bytes) {
   constexpr std::size_t kMostBytes = 24'000'000, kMostParticles = 200'000;
   constexpr std::size_t kRest = 200'000;  // bytes for script, style and words
   data.every_particle = playback.radii.size() / (kMostParticles + 1) + 1;
@@ -130,17 +138,20 @@ Contacts choose_content(PageData& data, const Playback& playback, double lowest)
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   const auto positions =
       particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
-  const auto bytes_of_frame = base64_size(positions + planes * 6 * sizeof(float) + sizeof(double));
+  const auto angles = has_angles(playback) ? particles * sizeof(float) : 0;
+  const auto bytes_of_frame =
+      base64_size(positions + angles + planes * 6 * sizeof(float) + sizeof(double));
   const auto radii_and_ids =
       base64_size(particles * sizeof(float)) * (playback.ids.empty() ? 1 : 2);
   for (std::size_t every = 1;; every *= 2) {
     choose_frames(data, playback, every);
-    const auto others = kRest + data.frames.size() * bytes_of_frame + radii_and_ids;
+    const auto others = kRest + other_bytes + data.frames.size() * bytes_of_frame + radii_and_ids;
     const bool last = data.frames.size() <= 2;
     if (others > kMostBytes && !last) continue;
     auto contacts = contacts_of(playback, data, lowest);
     const auto size = others + base64_size(contacts.pairs.size()) +
-                      base64_size(contacts.offsets.size()) + base64_size(contacts.frames.size());
+                      base64_size(contacts.images.size()) + base64_size(contacts.offsets.size()) +
+                      base64_size(contacts.frames.size());
     if (size <= kMostBytes) return contacts;
     if (!last) continue;
     data.contacts = false;
@@ -150,11 +161,12 @@ Contacts choose_content(PageData& data, const Playback& playback, double lowest)
 
 }  // namespace
 
-PageData page_data(const Playback& playback, double lowest_gamma) {
+PageData page_data(const Playback& playback, double lowest_gamma, std::size_t other_bytes) {
   PageData data;
   choose_position_bytes(data, playback);
-  auto contacts = choose_content(data, playback, lowest_gamma);
-  Bytes radii, ids, times, positions, planes;
+  auto contacts = choose_content(data, playback, lowest_gamma, other_bytes);
+  Bytes radii, ids, times, positions, angles, planes;
+  const bool turns = has_angles(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
@@ -174,6 +186,8 @@ PageData page_data(const Playback& playback, double lowest_gamma) {
                  static_cast<std::uint16_t>(std::lround(
                      step > 0 ? std::clamp((x - data.low[d]) / step, 0.0, 65535.0) : 0.0)));
       }
+    for (std::size_t k = 0; turns && k < playback.radii.size(); k += data.every_particle)
+      append(angles, frame.angles[k]);
     for (const auto& plane : frame.planes) {
       // In two dimensions, a third component of the normal is the radius of a circle.
       const auto normal = plane.is_curved() ? particles::Vector{0, 0, plane.radius} : plane.normal;
@@ -183,6 +197,8 @@ PageData page_data(const Playback& playback, double lowest_gamma) {
   }
   data.blocks = {{"radii", radii}};
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
+  if (turns) data.blocks.emplace_back("angles", angles);
+  if (playback.cell.is_periodic()) data.blocks.emplace_back("images", contacts.images);
   data.blocks.insert(data.blocks.end(), {{"times", times},
                                          {"positions", positions},
                                          {"planes", planes},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,9 +28,13 @@ struct PageData {
   std::vector<std::pair<const char*, Bytes>> blocks{};
 };
 
-/// Chooses as many frames as fit into a page of 24 MB and encodes them. If even two frames are too
-/// large, the contacts are left out.
-PageData page_data(const particles::Playback& playback, double lowest_gamma);
+/// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and encodes
+/// them. If even two frames are too large, the contacts are left out.
+PageData page_data(const particles::Playback& playback, double lowest_gamma,
+                   std::size_t other_bytes = 0);
+
+/// The size of so many bytes in base64.
+constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 /// The bytes in base64 (RFC 4648).
 std::string base64(const Bytes& bytes);

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "viscontact/report/html/html.hpp"
 #include "viscontact/report/page_texts.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/flow/flow_frames.hpp"
+#include "viscontact/report/particles/flow/flow_page.hpp"
 #include "viscontact/report/particles/page_data.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
@@ -19,8 +22,9 @@ using particles::Playback;
 
 constexpr int kPageColours = 24;
 
-std::string data_of(const Playback& playback, const PageData& data, double lowest) {
-  const auto box = view_box_of(playback, data.frames);
+/// The JSON and the blocks of numbers that the script reads. `box` is the part that is seen at first.
+std::string data_of(const Playback& playback, const PageData& data, double lowest,
+                    const ViewBox& box, const FlowOfPage& flow, bool has_axis) {
   std::string colours;
   for (int c = 0; c < kPageColours; ++c)
     colours += fmt::format("{}\"{}\"", c == 0 ? "" : ",", film_colour(c, kPageColours));
@@ -30,12 +34,16 @@ std::string data_of(const Playback& playback, const PageData& data, double lowes
   auto text = fmt::format(
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
-      "\"touching\":\"{}\",\"colours\":[{}]}}</script>\n",
+      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{}}}"
+      "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
-      list(box.low), list(box.high), lowest, kTouchingColour, colours);
-  for (const auto& [name, bytes] : data.blocks)
-    text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
-                        base64(bytes));
+      list(box.low), list(box.high), lowest, kTouchingColour, colours, playback.cell.from[0],
+      playback.cell.from[1], playback.cell.lengths[0], playback.cell.lengths[1], has_axis,
+      flow.settings);
+  for (const auto* blocks : {&data.blocks, &flow.blocks})
+    for (const auto& [name, bytes] : *blocks)
+      text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
+                          base64(bytes));
   return text;
 }
 
@@ -59,20 +67,15 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
-std::string legend(double lowest, bool touching) {
-  std::string text;
+std::string legend(double lowest, bool touching, const FlowOfPage& flow) {
+  std::string text = flow.legend;
   if (lowest < 0) {
-    std::string colours;
-    for (int c = kPageColours - 1; c >= 0; --c) colours += "," + film_colour(c, kPageColours);
-    std::string ticks;
+    std::vector<std::string> colours;
+    for (int c = kPageColours; c-- > 0;) colours.push_back(film_colour(c, kPageColours));
+    std::vector<std::pair<double, std::string>> ticks;
     for (const double tick : film_ticks(lowest))
-      ticks += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", 100 * (1 - tick / lowest),
-                           film_tick_text(tick));
-    text += fmt::format(
-        "<div class=films><span>{}</span>\n<div class=scale><div class=bar "
-        "style=\"background:linear-gradient(to right{})\"></div>\n<div class=ticks>{}</div>"
-        "</div></div>\n",
-        kFilmWords, colours, ticks);
+      ticks.emplace_back(1 - tick / lowest, film_tick_text(tick));
+    text += scale_html(kFilmWords, colours, ticks);
   }
   if (touching)
     text += fmt::format(
@@ -84,12 +87,29 @@ std::string legend(double lowest, bool touching) {
 
 }  // namespace
 
-std::string particles_page(const Playback& playback, const std::string& title) {
+std::string particles_page(const Playback& original, const std::string& title) {
+  const auto playback = in_plane(original);
+  const bool has_axis = original.dimension == 1;
   const double lowest = lowest_gamma(playback);
-  const auto data = page_data(playback, lowest);
+  const auto extent = flow_extent(playback, has_axis);
+  ViewBox box;
+  FlowOfPage flow{.settings = "null", .blocks = {}, .controls = "", .legend = ""};
+  if (extent) {
+    std::vector<std::size_t> all(playback.frames.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    box = view_box_of(playback, all, box_of(extent));
+    const auto shown = shown_flows(playback);
+    flow = flow_of_page(
+        read_flows(playback, has_axis, common_part(*extent, box), shown.frames, shown.points),
+        playback);
+  }
+  std::size_t bytes_of_flow = 0;
+  for (const auto& [name, bytes] : flow.blocks) bytes_of_flow += base64_size(bytes.size());
+  const auto data = page_data(playback, lowest, bytes_of_flow);
+  if (!extent) box = view_box_of(playback, data.frames);
   const bool touching = std::ranges::any_of(playback.frames, has_contact_without_film);
   const bool flat = playback.dimension == 2;
-  const auto words = words_for(playback, data);
+  const auto words = words_for(original, data);
   // The Content-Security-Policy forbids the browser to load anything from elsewhere.
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
@@ -108,18 +128,19 @@ std::string particles_page(const Playback& playback, const std::string& title) {
       "<input type=range id=time step=any aria-label=Time>\n<output id=clock for=time></output>\n"
       "<label>Speed <select id=speed><option value=.1>× 0.1<option value=.25>× 0.25<option "
       "value=.5>× 0.5<option value=1 selected>× 1<option value=2>× 2<option value=4>× 4</select>"
-      "</label>\n<label><input type=checkbox id=films checked> Contacts</label>\n"
+      "</label>\n<label><input type=checkbox id=films checked> Contacts</label>\n{}"
       "<button type=button id=whole>Whole view</button>\n</div>\n{}</main>\n"
       "<p class=hint>The space bar plays and pauses. The keys ← and → go back and forward "
       "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
       "see "
       "its values.</p>\n",
-      escaped(words), legend(lowest, touching),
+      escaped(words), flow.controls, legend(lowest, touching, flow),
       flat ? "Drag to move the picture; use the wheel or pinch to zoom."
            : "Drag to turn the picture, or with Shift or two fingers to move it; use the wheel or "
              "pinch to zoom.");
-  page += data_of(playback, data, lowest);
-  page += fmt::format("<script>\n{}</script>\n</body></html>\n", particles_script());
+  page += data_of(playback, data, lowest, box, flow, has_axis);
+  page += fmt::format("<script>\n{}</script>\n<script>\n{}</script>\n</body></html>\n",
+                      flow_script(), particles_script());
   return page;
 }
 

@@ -12,6 +12,9 @@
 
 #include "viscontact/report/html/html.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/flow/flow_frames.hpp"
+#include "viscontact/report/particles/flow/flow_picture.hpp"
+#include "viscontact/report/particles/flow/speed_colours.hpp"
 #include "viscontact/report/particles/frame_picture.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
@@ -63,25 +66,55 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-std::string colour_bar(double lowest, bool touching, double left, double top, double width) {
+/// A scale of colours with its numbers below.
+struct ColourBar {
+  std::vector<std::string> colours;                   ///< from left to right
+  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, and texts
+  std::string words;
+};
+
+ColourBar film_bar(double lowest, bool touching) {
+  ColourBar bar;
+  for (int c = kContactColours; c-- > 0;) bar.colours.push_back(film_colour(c, kContactColours));
+  for (const double tick : film_ticks(lowest))
+    bar.ticks.emplace_back(1 - tick / lowest, film_tick_text(tick));
+  bar.words = kFilmWords + std::string(touching ? "; thin and grey: touching, no film" : "");
+  return bar;
+}
+
+ColourBar speed_bar(double top) {
+  constexpr int kColours = 20;
+  ColourBar bar;
+  for (int c = 0; c < kColours; ++c)
+    bar.colours.push_back(speed_colour(static_cast<double>(c) / (kColours - 1)));
+  for (const auto& [speed, text] : speed_ticks(top)) bar.ticks.emplace_back(speed / top, text);
+  bar.words = std::string(kSpeedWords) + "; equal flow between streamlines";
+  return bar;
+}
+
+std::string picture_of(const ColourBar& bar, double left, double top, double width) {
   constexpr int kHeight = 12;  // [page units]
   std::string text;
-  const double step = width / kContactColours;
-  for (int c = 0; c < kContactColours; ++c)
+  const double step = width / static_cast<double>(bar.colours.size());
+  for (std::size_t c = 0; c < bar.colours.size(); ++c)
     text += fmt::format(
         "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n",
-        left + width - (c + 1) * step, top, step + 0.3, kHeight, film_colour(c, kContactColours));
+        left + static_cast<double>(c) * step, top, step + (c + 1 < bar.colours.size() ? 0.3 : 0),
+        kHeight, bar.colours[c]);
   text += "<g font-size=\"12\" text-anchor=\"middle\">\n";
-  for (const double tick : film_ticks(lowest)) {
-    const double x = left + width * (1 - tick / lowest);
+  for (const auto& [share, number] : bar.ticks)
     text += fmt::format(
         "<path d=\"M{0:.2f} {1:.2f}v4\" stroke=\"#333\"/>"
         "<text x=\"{0:.2f}\" y=\"{2:.2f}\">{3}</text>\n",
-        x, top + kHeight, top + kHeight + 16, film_tick_text(tick));
-  }
-  return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}{}</text></g>\n", left + width / 2,
-                            top + kHeight + 34, kFilmWords,
-                            touching ? "; thin and grey: touching, no film" : "");
+        left + width * share, top + kHeight, top + kHeight + 16, number);
+  return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text></g>\n", left + width / 2,
+                            top + kHeight + 34, bar.words);
+}
+
+/// The flow behind the particles of frame `f`; empty if there is none.
+std::string flow_behind(const FlowFrames& flows, std::size_t f, const Projection& view) {
+  const auto flow = std::ranges::find(flows.frames, f, &FlowFrame::frame);
+  return flow == flows.frames.end() ? "" : flow_picture(flows, *flow, view);
 }
 
 /// Returns the size of the projected box [L], and puts its upper left corner into that of the
@@ -119,16 +152,23 @@ std::string opening(const std::string& title, double height) {
 
 }  // namespace
 
-std::string particles_picture(const Playback& playback, const std::string& title, int panels) {
-  // More than 20000 particles in a panel could not be told apart.
-  constexpr std::size_t kMostInPanel = 20000;
+std::string particles_picture(const Playback& original, const std::string& title, int panels) {
+  // More than 20000 particles in a panel could not be told apart, nor more points of a flow.
+  constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
+  const auto playback = in_plane(original);
+  const bool has_axis = original.dimension == 1;
   const auto chosen = chosen_frames(playback, panels);
   const int count = static_cast<int>(chosen.size());
+  const auto extent = flow_extent(playback, has_axis);
   PanelSettings panel{.playback = playback,
-                      .box = view_box_of(playback, chosen),
+                      .box = view_box_of(playback, chosen, box_of(extent)),
                       .view = view_of(playback.dimension),
                       .lowest = lowest_gamma(playback),
-                      .every = playback.radii.size() / (kMostInPanel + 1) + 1};
+                      .every = playback.radii.size() / (kMostInPanel + 1) + 1,
+                      .is_in_fluid = extent.has_value()};
+  FlowFrames flows;
+  if (extent)
+    flows = read_flows(playback, has_axis, common_part(*extent, panel.box), chosen, kPointsOfFlow);
   const auto [wide, high] = show_box(panel.view, panel.box);
   const int columns = columns_for(std::max(count, 1), wide / high);
   const int rows = (count + columns - 1) / columns;
@@ -137,13 +177,19 @@ std::string particles_picture(const Playback& playback, const std::string& title
   if (rows > 0) scale = std::min(scale, (kMostHeight / rows - kCaption) / high);
   panel.width = scale * wide;
   panel.height = scale * high;
-  const bool films = panel.lowest < 0;
   const double bottom = kTitle + rows * (panel.height + kCaption) + 6;
-  auto svg = opening(title, bottom + (films ? 60 : 0));
+  std::vector<ColourBar> bars;
+  if (flows.top_speed > 0) bars.push_back(speed_bar(flows.top_speed));
+  if (panel.lowest < 0)
+    bars.push_back(film_bar(panel.lowest, std::ranges::any_of(chosen, [&](std::size_t f) {
+                              return has_contact_without_film(playback.frames[f]);
+                            })));
+  auto svg = opening(title, bottom + (bars.empty() ? 0 : 60));
   // If the height limits the scale, the panels are spread over the width.
   const double place = kPictureWidth / columns;
   for (int i = 0; i < count; ++i) {
-    const auto& frame = playback.frames[chosen[static_cast<std::size_t>(i)]];
+    const auto f = chosen[static_cast<std::size_t>(i)];
+    const auto& frame = playback.frames[f];
     const int row = i / columns;
     const double left = place * (i % columns) + (place - panel.width) / 2;
     const double top = kTitle + row * (panel.height + kCaption);
@@ -152,7 +198,8 @@ std::string particles_picture(const Playback& playback, const std::string& title
         "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
         "{:.4g}</text>\n",
-        left, top, panel.width, panel.height, frame_picture(panel, frame), left + panel.width / 2,
+        left, top, panel.width, panel.height,
+        frame_picture(panel, frame, flow_behind(flows, f, panel.view)), left + panel.width / 2,
         top + panel.height + 20, frame.time);
   }
   if (panel.every > 1)
@@ -160,10 +207,11 @@ std::string particles_picture(const Playback& playback, const std::string& title
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "
         "is drawn</text>\n",
         kPictureWidth - kEdge, bottom + 4, panel.every);
-  if (films) {
-    const bool touching = std::ranges::any_of(
-        chosen, [&](std::size_t f) { return has_contact_without_film(playback.frames[f]); });
-    svg += colour_bar(panel.lowest, touching, kPictureWidth / 2 - 180, bottom, 360);
+  constexpr double kBar = 360;  // width of a colour bar
+  for (std::size_t b = 0; b < bars.size(); ++b) {
+    const double middle =
+        kPictureWidth * (static_cast<double>(b) + 0.5) / static_cast<double>(bars.size());
+    svg += picture_of(bars[b], middle - kBar / 2, bottom, kBar);
   }
   return svg + "</svg>\n";
 }

@@ -66,7 +66,8 @@ void extend_to_plane(ViewBox& box, const PlanePosition& plane, int dimension) {
 
 }  // namespace
 
-ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames) {
+ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& frames,
+                    const std::optional<ViewBox>& domain) {
   // If the extent of all particles is more than 1.5 times that of the central ones, some particles
   // have flown away.
   constexpr double kFlownAway = 1.5;
@@ -93,6 +94,9 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
   for (const auto f : frames)
     for (const auto& plane : playback.frames[f].planes)
       extend_to_plane(box, plane, playback.dimension);
+  // In a domain more than this many times as large as the box, the particles would be too small.
+  constexpr double kTooLarge = 16;
+  if (domain && size_of(*domain, playback.dimension) <= kTooLarge * size) box = *domain;
   // Margin, and smallest size in any direction, both in sizes of the box.
   constexpr double kMargin = 0.04, kFlattest = 0.15;
   size = std::max(size, size_of(box, playback.dimension));
@@ -102,6 +106,11 @@ ViewBox view_box_of(const Playback& playback, const std::vector<std::size_t>& fr
     box.low[axis] -= more;
     box.high[axis] += more;
   }
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    if (const double period = playback.cell.lengths[axis]; period > 0) {
+      box.low[axis] = playback.cell.from[axis];
+      box.high[axis] = box.low[axis] + period;
+    }
   return box;
 }
 

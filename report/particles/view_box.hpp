@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "viscontact/particles/io/playback.hpp"
@@ -28,9 +29,11 @@ struct ViewBox {
 };
 
 /// The box that a view of these frames should show: all particles (or the central 98 % of each
-/// frame, if the others have flown far away), and the planes next to them. The box has a positive
-/// size in each direction of the playback's dimension.
-ViewBox view_box_of(const particles::Playback& playback, const std::vector<std::size_t>& frames);
+/// frame, if the others have flown far away), and the planes next to them. If there is a `domain`
+/// and the particles can be seen in it, it shows all of the domain. In the directions of periods it
+/// is the cell. The box has a positive size in each direction of the playback's dimension.
+ViewBox view_box_of(const particles::Playback& playback, const std::vector<std::size_t>& frames,
+                    const std::optional<ViewBox>& domain = {});
 
 using Polygon = std::vector<particles::Vector>;  ///< convex, its corners in order [L]
 

@@ -9,6 +9,7 @@
     dark: {paper: '#1f2326', solid: '#3b4044', edge: '#c8c8c4', patch: 'rgba(200,200,190,.10)', grid: 'rgba(200,200,190,.25)', mark: '#ffb000'},
   };
   const kDisc = {fill: '#a9c3da', edge: '#4f728f'};
+  const kDiscInFluid = {fill: '#f1ece0', edge: '#3c3a34', mark: '#4a4a44'};
   const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];  // from the brightest point to the rim
 
   // ---- The motion
@@ -21,11 +22,18 @@
   }
   const motion = JSON.parse(text('motion'));
   const dim = motion.dimension, flat = dim === 2;
+  const disc = motion.flow ? kDiscInFluid : kDisc;
+  // Lower left corner and lengths of the cell; a length is 0 where the motion has no period.
+  const [cellX, cellY, periodX, periodY] = motion.cell;
   const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));
   // The ids of the particles in the files. Without this block, the id of particle k is k.
   const ids = document.getElementById('ids') ? new Int32Array(bytes('ids')) : null;
   const written = motion.bytes === 2 ? new Uint16Array(bytes('positions')) : new Float32Array(bytes('positions'));
   const planeNumbers = new Float32Array(bytes('planes'));
+  const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
+  const writtenAngles = optional('angles', Float32Array);
+  // Of each pair: x + 3 y, where the second particle is shifted by x and y periods.
+  const images = optional('images', Int8Array);
   const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets')), contactBytes = new Uint8Array(bytes('contacts'));
   const count = radii.length, frames = times.length, planeCount = frames ? planeNumbers.length / 6 / frames : 0;
   const low = flat ? [...motion.roomLow, 0] : motion.roomLow, high = flat ? [...motion.roomHigh, 0] : motion.roomHigh;
@@ -34,6 +42,7 @@
   const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] : 0;
 
   const positions = new Float32Array(count * dim);  // at the present time
+  const angles = new Float32Array(writtenAngles ? count : 0);
   // At the present time: {point, normal, radius}. With a radius > 0 it is a circle about `point`, whose
   // normal is 0.
   let planes = [];
@@ -54,9 +63,19 @@
   function setTime(time) {
     const {frame, share} = placeOf(time), n = count * dim;
     const from = frame * n, to = Math.min(frame + 1, frames - 1) * n;
-    for (let d = 0; d < dim; ++d)
-      for (let i = d; i < n; i += dim)
-        positions[i] = motion.low[d] + motion.step[d] * ((1 - share) * written[from + i] + share * written[to + i]);
+    for (let d = 0; d < dim; ++d) {
+      const period = [periodX, periodY, 0][d], begin = [cellX, cellY, 0][d];
+      for (let i = d; i < n; i += dim) {
+        const here = motion.low[d] + motion.step[d] * written[from + i];
+        let move = motion.low[d] + motion.step[d] * written[to + i] - here;
+        // A particle that leaves the cell comes in again at the other side.
+        if (period) move -= period * Math.round(move / period);
+        const x = here + share * move;
+        positions[i] = period ? x - period * Math.floor((x - begin) / period) : x;
+      }
+    }
+    const fromAngle = frame * count, toAngle = Math.min(frame + 1, frames - 1) * count;
+    for (let k = 0; k < angles.length; ++k) angles[k] = (1 - share) * writtenAngles[fromAngle + k] + share * writtenAngles[toAngle + k];
     const m = planeCount * 6, fromPlane = frame * m, toPlane = Math.min(frame + 1, frames - 1) * m;
     planes = [];
     for (let i = 0; i < m; i += 6) {
@@ -159,12 +178,14 @@
   // ---- Drawing
 
   let theme = kThemes.light, hovered = -1, withContacts = true;
+  const flow = motion.flow ? viscontactFlow(motion.flow, bytes, (x, y) => project(x, y, 0)) : null;
+  const flowField = document.getElementById('flow'), streamlines = document.getElementById('streamlines');
 
   function paintParticle(p, x, y, r) {
     const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
     if (flat) {
-      p.fillStyle = kDisc.fill;
-      p.strokeStyle = kDisc.edge;
+      p.fillStyle = disc.fill;
+      p.strokeStyle = disc.edge;
     } else {
       const light = p.createRadialGradient(x - 0.28 * r, y - 0.36 * r, 0, x - 0.28 * r, y - 0.36 * r, 1.44 * r);
       for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, kBall[i]);
@@ -345,6 +366,7 @@
 
   /** The line of a contact, from a centre to the other centre or to the foot on the plane. */
   function traceContact(i) {
+    const image = images ? images[lines.pair[i]] : 0;
     const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
     if (first < 0) {
       const {point, normal, radius} = planes[-1 - first];
@@ -352,6 +374,12 @@
       const foot = radius ? plus(point, radius / (Math.hypot(...from) || 1), from) : plus(x, -dot(normal, from), normal);
       const p = project(...foot);
       pen.moveTo(p.x, p.y);
+    } else if (image) {
+      // Across a period the line is drawn at both sides of the cell.
+      const x = ((image + 4) % 3 - 1) * periodX * view.scale, y = -(Math.floor((image + 4) / 3) - 1) * periodY * view.scale;
+      pen.moveTo(pageX[first], pageY[first]);
+      pen.lineTo(pageX[second] + x, pageY[second] + y);
+      pen.moveTo(pageX[first] - x, pageY[first] - y);
     } else {
       pen.moveTo(pageX[first], pageY[first]);
     }
@@ -421,10 +449,58 @@
     }
   }
 
+  /** A dot at the rim, which shows how far a disc has turned. */
+  function drawMark(k, x, y) {
+    const r = pageRadius[k];
+    if (r < 4 * dots) return;
+    pen.beginPath();
+    pen.arc(x + 0.66 * r * Math.cos(angles[k]), y - 0.66 * r * Math.sin(angles[k]), 0.13 * r, 0, 2 * Math.PI);
+    pen.fillStyle = disc.mark || disc.edge;
+    pen.fill();
+  }
+
   function drawDiscs() {
-    pen.fillStyle = kDisc.fill;
-    for (let k = 0; k < count; ++k)
-      if (isSeen(k)) particle(pageX[k], pageY[k], pageRadius[k]);
+    for (let k = 0; k < count; ++k) {
+      const x = positions[2 * k], y = positions[2 * k + 1], r = radii[k];
+      // The image at the other side of the cell, if the disc sticks out of it.
+      const besideX = !periodX ? 0 : x - r < cellX ? periodX : x + r > cellX + periodX ? -periodX : 0;
+      const besideY = !periodY ? 0 : y - r < cellY ? periodY : y + r > cellY + periodY ? -periodY : 0;
+      for (const shiftX of besideX ? [0, besideX] : [0])
+        for (const shiftY of besideY ? [0, besideY] : [0]) {
+          const pageAtX = pageX[k] + view.scale * shiftX, pageAtY = pageY[k] - view.scale * shiftY, size = pageRadius[k];
+          if (pageAtX < -size || pageAtX > canvas.width + size || pageAtY < -size || pageAtY > canvas.height + size) continue;
+          pen.fillStyle = disc.fill;
+          particle(pageAtX, pageAtY, size);
+          if (angles.length) drawMark(k, pageAtX, pageAtY);
+        }
+    }
+  }
+
+  /** Draws only in the cell, where the motion has periods. */
+  function clipToCell() {
+    const from = {...project(cellX, cellY, 0)}, to = {...project(cellX + periodX, cellY + periodY, 0)};
+    pen.beginPath();
+    pen.rect(periodX ? from.x : 0, periodY ? to.y : 0, periodX ? to.x - from.x : canvas.width, periodY ? from.y - to.y : canvas.height);
+    pen.clip();
+  }
+
+  /** The sides of the cell that are one, as dashed lines. */
+  function drawPeriods() {
+    const from = {...project(cellX, cellY, 0)}, to = {...project(cellX + periodX, cellY + periodY, 0)};
+    pen.strokeStyle = theme.edge;
+    pen.lineWidth = dots;
+    pen.setLineDash([6 * dots, 5 * dots]);
+    pen.beginPath();
+    for (const x of periodX ? [from.x, to.x] : []) {
+      pen.moveTo(x, periodY ? from.y : 0);
+      pen.lineTo(x, periodY ? to.y : canvas.height);
+    }
+    for (const y of periodY ? [from.y, to.y] : []) {
+      pen.moveTo(periodX ? from.x : 0, y);
+      pen.lineTo(periodX ? to.x : canvas.width, y);
+    }
+    pen.stroke();
+    pen.setLineDash([]);
   }
 
   function draw() {
@@ -435,10 +511,15 @@
     pen.lineCap = 'round';
     placeParticles();
     if (flat) {
+      pen.save();
+      if (periodX || periodY) clipToCell();
+      if (flow) flow.draw(pen, player.time, flowField.value, streamlines.checked, dots);
       drawSolids();
       drawDiscs();
       drawLines();
       if (withContacts) drawContacts();
+      pen.restore();
+      if (periodX || periodY) drawPeriods();
     } else {
       drawPatches(true);
       drawSpheres();
@@ -482,7 +563,8 @@
     let contacts = 0;
     for (let i = 0; i < lines.count; ++i)
       if (pairs[2 * lines.pair[i]] === hovered || pairs[2 * lines.pair[i] + 1] === hovered) ++contacts;
-    const place = [...positions.subarray(hovered * dim, hovered * dim + dim)].map(number).join(', ');
+    // On an axis, the first coordinate is 0 for all particles.
+    const place = [...positions.subarray(hovered * dim + (motion.hasAxis ? 1 : 0), hovered * dim + dim)].map(number).join(', ');
     readout.textContent = `particle ${ids ? ids[hovered] : hovered * motion.every}: radius ${number(radii[hovered])}, at (${place}), ` +
         `${contacts} contact${contacts === 1 ? '' : 's'}`;
   }
@@ -544,6 +626,16 @@
   slider.addEventListener('input', () => player.seek(Number(slider.value)));
   button.addEventListener('click', () => (player.playing ? player.pause() : player.play()));
   document.getElementById('films').addEventListener('change', event => { withContacts = event.target.checked; redraw(); });
+  if (flow) {
+    flowField.addEventListener('change', () => {
+      for (const field of ['speed', 'pressure']) {
+        const scale = document.getElementById(`${field}-scale`);
+        if (scale) scale.hidden = flowField.value !== field;
+      }
+      redraw();
+    });
+    streamlines.addEventListener('change', redraw);
+  }
   document.getElementById('whole').addEventListener('click', () => {
     Object.assign(view, {turn: Math.PI / 6, above: Math.PI / 9});
     showAll();
