@@ -1,0 +1,40 @@
+// Exact solutions of Stokes flow around discs, for viscosity 1 and disc radius 1 unless they are
+// arguments; forces and torques are per unit length.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace viscontact::freefem_flow {
+
+/// Mobility of a disc of radius a at the centre of a round container of radius b: velocity over
+/// force (Happel & Brenner 1983).
+inline double concentric_mobility(double b, double a = 1) {
+  const double a2 = a * a, b2 = b * b;
+  return (std::log(b / a) - (b2 - a2) / (b2 + a2)) / (4 * std::numbers::pi);
+}
+
+/// The same for rotation: angular velocity over torque.
+inline double concentric_rotational_mobility(double b, double a = 1) {
+  return (1 / (a * a) - 1 / (b * b)) / (4 * std::numbers::pi);
+}
+
+/// Relative error of the mean velocity that a disc of viscosity lambda has in place of a rigid one,
+/// docs/physics.md section 6.
+inline double penalty_law(double b, double lambda, double a = 1) {
+  const double a2 = a * a, b2 = b * b, a4 = a2 * a2, b4 = b2 * b2;
+  return std::pow(b2 - a2, 3) /
+         (2 * (lambda * (b4 - a4) + a4 + b4) * ((a2 + b2) * std::log(b / a) - (b2 - a2)));
+}
+
+/// Drag of a disc of radius 1 whose centre is `distance` from a plane, in unbounded fluid (Jeffrey &
+/// Onishi 1981).
+inline double drag_along_plane(double distance) {
+  return 4 * std::numbers::pi / std::acosh(distance);
+}
+inline double drag_towards_plane(double distance) {
+  const double alpha = std::acosh(distance);
+  return 4 * std::numbers::pi / (alpha - std::tanh(alpha));
+}
+
+}  // namespace viscontact::freefem_flow

@@ -1,0 +1,241 @@
+// Flows whose walls move or let fluid through, periodic cells, and spheres in a cylinder, solved by
+// FreeFEM, against exact values. Viscosity 1.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "tests/freefem_flow/placed_flow.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using particles::BoxDomain;
+using particles::CylinderDomain;
+using particles::DiscDomain;
+using particles::FluidMesh;
+using particles::LinearFlow;
+using particles::RigidConstraint;
+using particles::SideVelocities;
+using particles::WallVelocity;
+using std::numbers::pi;
+
+constexpr std::array kConstraints = {RigidConstraint::kPenalty, RigidConstraint::kRigid};
+// The penalty 1e-6 makes the matrix so stiff that rounding reaches 1e-9 of the largest number.
+constexpr double kRounding = 1e-7;
+
+constexpr WallVelocity parabolic(double speed) {
+  return {WallVelocity::Kind::kParabolic, {speed, 0}};
+}
+constexpr WallVelocity moving(double x, double y) {
+  return {WallVelocity::Kind::kConstant, {x, y}};
+}
+
+TEST(Channel, WithParabolasAtBothEndsIsPoiseuilleFlow) {
+  // A parabola is among the quadratic functions of the mesh.
+  auto fluid = fluid_with(12);
+  fluid.boundary = SideVelocities{parabolic(2), parabolic(-2), {}, {}};
+  PlacedFlow flow(fluid, BoxDomain{{0, 0}, {4, 1}, {}}, {});
+  flow.velocities();
+  const auto field = flow.solver().flow();
+  ASSERT_FALSE(field.x.empty());
+  const double pressure = field.pressure[0] + 16 * field.x[0];
+  for (std::size_t i = 0; i < field.x.size(); ++i) {
+    EXPECT_NEAR(field.velocity_x[i], 8 * field.y[i] * (1 - field.y[i]), kRounding);
+    EXPECT_NEAR(field.velocity_y[i], 0, kRounding);
+    EXPECT_NEAR(field.pressure[i], pressure - 16 * field.x[i], 1e3 * kRounding);
+  }
+  EXPECT_NEAR(flow.solver().quantities().dissipation, 256.0 / 3, 1e2 * kRounding);
+}
+
+TEST(Channel, WithAnOpenEndIsPoiseuilleFlowAwayFromIt) {
+  // The shear stress of Poiseuille flow is not 0, as that of an open end, so that the flow differs
+  // near the end; exp(-4.2 x/H) of the difference is left at a distance x (Moffatt 1964).
+  auto fluid = fluid_with(12);
+  fluid.boundary = SideVelocities{parabolic(2), {WallVelocity::Kind::kOpen, {}}, {}, {}};
+  PlacedFlow flow(fluid, BoxDomain{{0, 0}, {6, 1}, {}}, {});
+  flow.velocities();
+  const auto field = flow.solver().flow();
+  for (std::size_t i = 0; i < field.x.size(); ++i)
+    if (field.x[i] < 3) {
+      EXPECT_NEAR(field.velocity_x[i], 8 * field.y[i] * (1 - field.y[i]), 1e-4);
+    }
+}
+
+TEST(Channel, PeriodicAlongItIsSheared) {
+  auto fluid = fluid_with(12);
+  fluid.boundary = SideVelocities{WallVelocity{}, {}, moving(-1, 0), moving(1, 0)};
+  PlacedFlow flow(fluid, BoxDomain{{0, 0}, {4, 2}, {true, false}}, {});
+  flow.velocities();
+  EXPECT_NEAR(flow.solver().quantities().dissipation, 8, kRounding);
+}
+
+TEST(Channel, PeriodicWithOneDiscHasTheExactSpinAndViscosity) {
+  // docs/physics.md section 6: midway in Couette flow, k = 2/H = 0.5. A period of 8 widths is long
+  // enough: neighbours change the numbers by less than 1e-3.
+  const double width = 4, length = 32;
+  for (const auto constraint : kConstraints) {
+    auto fluid = fluid_with(24, constraint);
+    fluid.boundary = LinearFlow{{0, 1, 0, 0}};
+    // The disc crosses the side of the box.
+    PlacedFlow flow(fluid, BoxDomain{{0, -width / 2}, {length, width / 2}, {true, false}},
+                    {{0.3, 0}});
+    EXPECT_NEAR(flow.velocities()[2], -0.419573, 1e-3);
+    const auto quantities = flow.solver().quantities();
+    const double area = width * length;
+    EXPECT_NEAR((quantities.dissipation / area - 1) * area / pi, 3.217261, 5e-3 * 3.217261);
+    EXPECT_NEAR(quantities.apparent_viscosity, quantities.dissipation / area, 1e-12);
+  }
+}
+
+TEST(MovingWalls, OfABoxWithoutParticlesMoveTheFluidAsTheyDo) {
+  // A linear flow is exact on every mesh, in a box, a disc and an empty cell.
+  const LinearFlow strain = {{0.5, 2, -1, -0.5}};
+  for (const particles::Domain& domain :
+       {particles::Domain(BoxDomain{{-1, 0}, {1, 3}, {}}), particles::Domain(DiscDomain{{1, 0}, 2}),
+        particles::Domain(BoxDomain{{-1, 0}, {1, 3}, {true, true}})}) {
+    auto fluid = fluid_with(12);
+    fluid.boundary = strain;
+    PlacedFlow flow(fluid, domain, {});
+    flow.velocities();
+    const double area = std::holds_alternative<DiscDomain>(domain) ? 4 * pi : 6;
+    // 2 D:D = 2 (2 * 0.5^2 + 2 * 0.5^2)
+    EXPECT_NEAR(flow.solver().quantities().dissipation, 2 * area, 1e-4 * area);
+    EXPECT_NEAR(flow.solver().quantities().apparent_viscosity, 1, 1e-4);
+  }
+}
+
+TEST(RoundWall, ThatStrainsAConcentricDiscHasTheExactViscosity) {
+  // Exactly 1 + 2 phi (1 + phi + phi^2)/(1 - phi)^3, here with phi = 1/16.
+  const double phi = 1.0 / 16;
+  for (const auto constraint : kConstraints) {
+    auto fluid = fluid_with(24, constraint);
+    fluid.boundary = LinearFlow{{1, 0, 0, -1}};
+    PlacedFlow flow(fluid, DiscDomain{{}, 4}, {{}});
+    flow.velocities();
+    EXPECT_NEAR(flow.solver().quantities().apparent_viscosity,
+                1 + 2 * phi * (1 + phi + phi * phi) / std::pow(1 - phi, 3), 5e-4);
+  }
+}
+
+struct Lattice {
+  double area_fraction, drag, along_axes, along_diagonals;
+};
+
+TEST(SquareLattice, HasTheExactDragAndViscosities) {
+  // Drag over viscosity and mean velocity: Sangani & Acrivos 1982. Viscosities: docs/physics.md
+  // section 6.
+  for (const auto& [phi, drag, along_axes, along_diagonals] :
+       {Lattice{0.1, 24.83, 1.263338, 1.192224}, {0.3, 102.90, 2.53839, 1.598116}})
+    for (const auto constraint : kConstraints) {
+      SCOPED_TRACE(::testing::Message() << "area fraction " << phi);
+      const BoxDomain cell = {{0, 0}, {1, 1}, {true, true}};
+      const std::vector<Body> disc = {{0.3, 0.9, std::sqrt(phi / pi)}};  // crosses the top
+      PlacedFlow pulled(fluid_with(24, constraint), cell, disc);
+      // The mean velocity of the mixture is 0, so that the disc moves with minus that of the flow.
+      EXPECT_NEAR(1 / pulled.velocities({1, 0, 0})[0], drag, 5e-3 * drag);
+      for (const bool axes : {true, false}) {
+        auto fluid = fluid_with(24, constraint);
+        fluid.boundary = LinearFlow{axes ? std::array<double, 4>{1, 0, 0, -1}
+                                         : std::array<double, 4>{0, 1, 1, 0}};
+        PlacedFlow strained(fluid, cell, disc);
+        strained.velocities();
+        const double exact = axes ? along_axes : along_diagonals;
+        EXPECT_NEAR(strained.solver().quantities().apparent_viscosity, exact, 5e-3 * exact);
+      }
+    }
+}
+
+TEST(Forces, DoTheWorkThatIsDissipated) {
+  // Power of the forces on free and driven bodies, walls at rest. On each mesh the two agree but for
+  // rounding, because the dissipation is that of the discrete flow.
+  const std::vector<Body> discs = {{1, 1, 0.5}, {3, 2, 0.7}};
+  const std::vector<double> forces = {1, -0.5, 0.2, 0, 0, 0};
+  for (const auto constraint : kConstraints)
+    for (const auto mesh : {FluidMesh::kFitted, FluidMesh::kFixed})
+      for (const bool periodic : {false, true}) {
+        SCOPED_TRACE(::testing::Message() << static_cast<int>(constraint) << static_cast<int>(mesh)
+                                          << static_cast<int>(periodic));
+        auto fluid = fluid_with(12, constraint);
+        fluid.mesh = mesh;
+        PlacedFlow flow(fluid, BoxDomain{{0, 0}, {4, 3}, {periodic, periodic}}, discs,
+                        {{1, {0.5, 0, 0.2}}});
+        const auto v = flow.velocities(forces);
+        const auto q = flow.solver().quantities();
+        EXPECT_EQ((std::array{v[3], v[4], v[5]}), (std::array{0.5, 0.0, 0.2}));
+        const double power =
+            v[0] - 0.5 * v[1] + 0.2 * v[2] - 0.5 * q.fluid_forces[3] - 0.2 * q.fluid_forces[5];
+        EXPECT_NEAR(q.dissipation, power, 1e-5 * power);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(q.fluid_forces[i], -forces[i]);
+        // Without driving, driven bodies are at rest and velocities are linear in the forces.
+        const auto at_rest = flow.solver().velocities(forces, false);
+        EXPECT_EQ(at_rest[3], 0);
+        auto twice = forces;
+        for (double& force : twice) force *= 2;
+        EXPECT_NEAR(flow.solver().velocities(twice, false)[0], 2 * at_rest[0],
+                    1e-5 * std::abs(at_rest[0]));
+      }
+}
+
+TEST(DrivenDisc, FeelsTheForceThatWouldMoveItSo) {
+  for (const auto constraint : kConstraints) {
+    const DiscDomain domain = {{}, 5};
+    PlacedFlow free(fluid_with(24, constraint), domain, {{2, 0}});
+    const auto velocities = free.velocities({0.3, 1, -0.2});
+    PlacedFlow driven(fluid_with(24, constraint), domain, {{2, 0}},
+                      {{0, {velocities[0], velocities[1], velocities[2]}}});
+    driven.velocities();
+    const auto forces = driven.solver().quantities().fluid_forces;
+    EXPECT_THAT(forces, ::testing::Pointwise(::testing::DoubleNear(1e-5), {-0.3, -1.0, 0.2}));
+  }
+}
+
+TEST(Inertia, AddsToTheResistance) {
+  for (const auto constraint : kConstraints) {
+    const DiscDomain domain = {{}, 5};
+    PlacedFlow without(fluid_with(24, constraint), domain, {{}});
+    const double u = without.velocities({1, 0, 0})[0], w = without.velocities({0, 0, 1})[2];
+    PlacedFlow with(fluid_with(24, constraint), domain, {{}}, {}, {7, 7, 3});
+    const auto v = with.velocities({1, 0, 2});
+    EXPECT_NEAR(v[0], 1 / (1 / u + 7), 1e-5);
+    EXPECT_NEAR(v[2], 2 / (1 / w + 3), 1e-5);
+    // The fluid exerts F, with f + F = I U.
+    EXPECT_NEAR(with.solver().quantities().fluid_forces[0], 7 * v[0] - 1, 1e-9);
+  }
+}
+
+// Drag over 6 pi mu r U of a sphere on the axis of a closed cylinder of radius 5 and height 10,
+// bispherical solution plus regular fields that cancel it on side and lid, to 8 digits.
+const std::map<double, double> kDragAtGap = {{0.1, 11.5022038}, {1, 2.24503189}, {4, 1.68919777}};
+
+TEST(Sphere, InAClosedCylinderHasTheExactDrag) {
+  for (const auto& [gap, drag] : kDragAtGap)
+    for (const auto constraint : kConstraints) {
+      SCOPED_TRACE(::testing::Message() << "gap " << gap);
+      PlacedFlow flow(fluid_with(24, constraint), CylinderDomain{5, 10}, {{0, 1 + gap}});
+      const auto estimated = flow.estimate({-1});
+      const double velocity = 1 / (6 * pi * drag);
+      const double error = std::abs(-estimated.velocities[0] / velocity - 1);
+      EXPECT_LT(error, 1e-4);
+      EXPECT_LT(error, estimated.relative_error);
+    }
+}
+
+TEST(Spheres, OnAnAxisAreDrivenAndDissipate) {
+  for (const auto constraint : kConstraints) {
+    PlacedFlow flow(fluid_with(12, constraint), CylinderDomain{4, 10}, {{0, 3, 1}, {0, 6, 0.5}},
+                    {{1, {0.5}}});
+    const auto v = flow.velocities({1, 0});
+    const auto q = flow.solver().quantities();
+    EXPECT_EQ(v[1], 0.5);
+    const double power = v[0] - 0.5 * q.fluid_forces[1];
+    EXPECT_NEAR(q.dissipation, power, 1e-5 * power);
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::freefem_flow
