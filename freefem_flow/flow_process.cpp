@@ -87,11 +87,19 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
       components_(radii.size() * particles::motion_components(dimension)),
       make_boundary_(std::move(make_boundary)),
       dissipation_alone_(dissipation_alone(fluid, domain)),
-      most_unknowns_to_refine_(limits.most_unknowns_to_refine) {
-  // The opening is made first, because it throws if the domain is wrong.
-  const std::string text = opening(fluid, domain, radii, dimension);
-  solver_ = std::make_unique<SolverDialogue>(command, limits.answer, limits.stop);
-  solver_->ask("viscontact-fluid", text);
+      command_(command),
+      limits_(limits),
+      opening_(opening(fluid, domain, radii, dimension)) {
+  start();
+}
+
+void FlowProcess::start() {
+  if (solver_)
+    peak_memory_of_earlier_ = std::max(peak_memory_of_earlier_, solver_->peak_memory_kb());
+  solver_.reset();
+  largest_system_ = 0;
+  solver_ = std::make_unique<SolverDialogue>(command_, limits_.answer, limits_.stop);
+  solver_->ask("viscontact-fluid", opening_);
   // FreeFEM prints lines about its libraries when it starts.
   solver_->expect("ready", true);
   const std::string wants = solver_->word();
@@ -113,8 +121,9 @@ void FlowProcess::place(const FluidParticles& bodies) {
   placement_ += '\n';
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
+  if (largest_system_ > command_.most_unknowns_reproduced) start();
   ask_to_place(boundary_);
-  if (wants_boundary_ && unknowns_ > most_unknowns_to_refine_)
+  if (wants_boundary_ && unknowns_ > limits_.most_unknowns_to_refine)
     coarser_boundary_ = words_of(make_boundary_(bodies, kCoarsening));
 }
 
@@ -124,6 +133,7 @@ void FlowProcess::ask_to_place(const std::string& boundary) {
   // A double holds all whole numbers up to this one, so that every solver can write them.
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
   unknowns_ = static_cast<std::size_t>(solver_->whole_number(kMost));
+  largest_system_ = std::max(largest_system_, unknowns_);
 }
 
 std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool driving) {
@@ -151,6 +161,7 @@ particles::FlowQuantities FlowProcess::quantities() {
 particles::EstimatedVelocities FlowProcess::estimate(std::span<const double> forces) {
   assert(forces.size() == components_);
   if (!coarser_boundary_.empty()) return estimate_from_coarser_mesh(forces);
+  largest_system_ = std::max(largest_system_, 4 * unknowns_);  // of the refined mesh
   std::string text = "estimate";
   append(text, forces, "a force");
   solver_->ask("estimate", text + '\n');
@@ -179,7 +190,7 @@ particles::EstimatedVelocities FlowProcess::estimate_from_coarser_mesh(
 }
 
 double FlowProcess::peak_memory_mebibytes() const {
-  return static_cast<double>(solver_->peak_memory_kb()) / 1024;
+  return static_cast<double>(std::max(peak_memory_of_earlier_, solver_->peak_memory_kb())) / 1024;
 }
 
 particles::FlowField FlowProcess::flow() {

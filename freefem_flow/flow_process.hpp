@@ -36,7 +36,8 @@ struct SolverLimits {
   std::size_t most_unknowns_to_refine = 100'000;
 };
 
-/// The process starts with the object and ends with it. It also ends with the thread that made the
+/// The process starts with the object and ends with it; a command may ask for a new process from
+/// time to time (SolverCommand). It also ends with the thread that made the
 /// object, so that this thread must live as long as the object. Functions of the base class throw
 /// Error(kExternalProgram), which names the solver, the request and the solver's last lines, if the
 /// solver ends, is silent beyond the limit, reports an error, or answers with anything but the
@@ -62,6 +63,7 @@ class FlowProcess : public particles::FluidSolver {
   double peak_memory_mebibytes() const override;
 
  private:
+  void start();
   void ask_to_place(const std::string& boundary);
   particles::EstimatedVelocities estimate_from_coarser_mesh(std::span<const double> forces);
 
@@ -69,9 +71,14 @@ class FlowProcess : public particles::FluidSolver {
   std::size_t components_;  ///< of the motions of all particles
   MeshBoundaryMaker make_boundary_;
   double dissipation_alone_;  ///< of the fluid without particles, 0: not known
+  SolverCommand command_;
+  SolverLimits limits_;
+  std::string opening_;
   std::unique_ptr<SolverDialogue> solver_;
   bool wants_boundary_ = false;
-  std::size_t unknowns_ = 0, most_unknowns_to_refine_;
+  std::size_t largest_system_ = 0;   ///< that this process has solved
+  long peak_memory_of_earlier_ = 0;  ///< of processes that were replaced [kB]
+  std::size_t unknowns_ = 0;
   // The last request `place`: places, driven particles and inertia; the boundary; and, for a mesh
   // that is too large to be refined, a coarser boundary.
   std::string placement_, boundary_, coarser_boundary_;

@@ -31,9 +31,16 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   const std::string script = script_of(fluid.mesh, dimension);
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
-  return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),
+  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers, which go on
+  // from one system to the next, and orders with several threads differently each time.
+  command.environment.emplace_back("SCOTCH_PTHREAD_NUMBER=1");
+  constexpr std::size_t kMostReproduced = 4000;
+  return {std::move(command.arguments),
+          std::move(command.environment),
+          std::move(command.folder),
           std::string(freefem::kHowToInstall),
-          "too little memory can make FreeFEM hang (ulimit -v); " + silent};
+          "too little memory can make FreeFEM hang (ulimit -v); " + silent,
+          kMostReproduced};
 }
 
 SolverLimits solver_limits(const StopToken& stop) {

@@ -1,6 +1,8 @@
 // How the process of a fluid solver is started.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,10 @@ struct SolverCommand {
   /// What a user can do if the program cannot be run, and if it does not answer in time: each ends
   /// the message of the error. May be empty.
   std::string remedy_if_missing{}, remedy_if_silent{};
+  /// A solver that has solved a system of more unknowns gives other rounding errors afterwards, and
+  /// is replaced by a new process before the next placement. A run that is continued after an
+  /// interrupt then gives the same bits.
+  std::size_t most_unknowns_reproduced = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace viscontact::freefem_flow
