@@ -118,14 +118,14 @@ void ContactProblem::solve(bool is_rough) {
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     for (auto& contact : contacts_) contact.impulse = std::max(contact.impulse, contact.gamma);
-    auto allowed =
-        contact_tolerances(contacts_, free_velocities_, h_, layout_, settings, mean_radius_)
-            .allowed;
+    auto allowed = contact_tolerances(contacts_, free_velocities_, h_, layout_, settings,
+                                      mean_radius_, kErrorOfSums)
+                       .allowed;
     // Half of it is left for the difference between this problem and the final velocities.
     for (auto& residual : allowed) residual /= 2;
     is_dense ? solve_dense(allowed) : solve_by_products(allowed);
     converged_ = measure_residuals(contacts_, free_velocities_, velocities_, h_, layout_, settings,
-                                   mean_radius_)
+                                   mean_radius_, kErrorOfSums)
                      .converged;
     if (converged_ || iterations_ >= settings_.max_iterations) return;
   }

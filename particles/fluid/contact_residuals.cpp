@@ -14,7 +14,7 @@ double contact_residual(const FluidContact& contact, double gap_after) {
 ContactTolerances contact_tolerances(std::span<const FluidContact> contacts,
                                      std::span<const double> free_velocities, double h,
                                      const MotionLayout& layout, const SolverSettings& settings,
-                                     double mean_radius) {
+                                     double mean_radius, double velocity_error) {
   std::vector<double> of_particle(free_velocities.size() / layout.components, 0.0);
   const auto for_particles = [](const FluidContact& contact, const auto& visit) {
     for (const auto k : {contact.first, contact.second})
@@ -31,9 +31,8 @@ ContactTolerances contact_tolerances(std::span<const FluidContact> contacts,
   }
   double fastest = 0;
   for (const double v : free_velocities) fastest = std::max(fastest, std::abs(v));
-  // Rounding errors of the gap, and of the velocities that a fluid solver finds.
-  constexpr double kGapError = 1e-14, kVelocityError = 1e-12;
-  const double rounding = kGapError * mean_radius + kVelocityError * h * fastest;
+  constexpr double kGapError = 1e-14;  // rounding errors of positions
+  const double rounding = kGapError * mean_radius + velocity_error * h * fastest;
   ContactTolerances tolerances;
   for (const auto& contact : contacts) {
     double at_work = std::numeric_limits<double>::infinity();
@@ -50,9 +49,9 @@ ContactResiduals measure_residuals(std::span<const FluidContact> contacts,
                                    std::span<const double> free_velocities,
                                    std::span<const double> velocities, double h,
                                    const MotionLayout& layout, const SolverSettings& settings,
-                                   double mean_radius) {
-  const auto tolerances =
-      contact_tolerances(contacts, free_velocities, h, layout, settings, mean_radius);
+                                   double mean_radius, double velocity_error) {
+  const auto tolerances = contact_tolerances(contacts, free_velocities, h, layout, settings,
+                                             mean_radius, velocity_error);
   ContactResiduals residuals;
   residuals.impulse_errors.resize(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -170,7 +170,7 @@ void FluidSimulation::examine(const Motion& motion, double h, StepReport& report
                             "precision of a double; check the forces and the time step",
                             longest, report.time));
   const auto residuals = measure_residuals(motion.contact.contacts, motion.free, motion.moved, h,
-                                           layout_, setting_.solver, mean_radius_);
+                                           layout_, setting_.solver, mean_radius_, kErrorOfSolver);
   if (!residuals.converged && -residuals.smallest_gap > mean_radius_)
     throw Error(ErrorKind::kNotConverged,
                 fmt::format("no solution of the step to time {} was found: particles would overlap "
@@ -189,7 +189,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   state_.pairs = std::move(motion.contact.pairs.pairs);
   state_.walls = std::move(motion.contact.pairs.walls);
   const auto errors = measure_residuals(motion.contact.contacts, motion.free, motion.moved, h,
-                                        layout_, setting_.solver, mean_radius_)
+                                        layout_, setting_.solver, mean_radius_, kErrorOfSolver)
                           .impulse_errors;
   const auto radius = [&](std::int32_t k) {
     return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];

@@ -1,0 +1,134 @@
+// A run of particles in a fluid that is killed or interrupted at any moment continues by the same
+// command, and its files become those of a run that nothing disturbed: with a solver of the user's
+// own, and with FreeFEM.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A disc with mass and two without meet each other and the floor. `fluid` is added to [fluid].
+std::string case_in_fluid(const std::string& fluid, const std::string& time_step) {
+  return fmt::format(R"(title = "Three discs in a fluid"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+edges_per_particle = 8
+threshold_gap = 0.1
+{}
+[domain]
+box = {{ from = [0.0, 0.0], to = [7.0, 6.0] }}
+[viscous_contact]
+time_step = {}
+end_time = 1.0
+[output]
+every = 0.1
+[[particle]]
+centre = [1.2, 1.2]
+radius = 1.0
+mass = 2.0
+force = [ {{ until = 0.55, value = [0.0, -100.0] }}, {{ until = 1.0, value = [40.0, 100.0] }} ]
+[[particle]]
+centre = [3.4, 1.2]
+radius = 1.0
+mass = 0.0
+force = [-100.0, -100.0]
+[[particle]]
+centre = [5.0, 4.0]
+radius = 0.8
+mass = 0.0
+force = [-20.0, -50.0]
+torque = 3.0
+)",
+                     fluid, time_step);
+}
+
+/// A file without the lines and the column that hold times of computation and memory.
+std::string numbers_of(const fs::path& file, const std::string& text) {
+  std::istringstream lines(text);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);) {
+    const auto begin = line.substr(0, 100);
+    const auto has = [&](const char* words) { return begin.find(words) != std::string::npos; };
+    if (has("provenance") || has("# record after step ") || has("seconds\": ") ||
+        has("peak_memory"))
+      continue;
+    // The last column of steps.csv is fluid_seconds.
+    rest += file.filename() == "steps.csv" ? line.substr(0, line.rfind(',')) : line;
+    rest += '\n';
+  }
+  return rest;
+}
+
+std::map<std::string, std::string> numbers_below(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& [file, text] : files_below(folder))
+    files[fs::path(file).filename()] = numbers_of(file, text);
+  return files;
+}
+
+class KilledInFluid : public ParticlesCommand {
+ protected:
+  /// Runs the command, and sends the signal after that time in seconds, if there is one.
+  ProgramResult run_until(const std::string& folder, const std::string& signal = "",
+                          double seconds = 0) const {
+    const auto shell =
+        signal.empty() ? "" : fmt::format("(sleep {:.3f}; kill -{} $$) &", seconds, signal);
+    return run_viscontact({"particles", path("case.toml"), "-o", path(folder)}, {}, shell);
+  }
+
+  /// Disturbs a run at random moments within `seconds` of each start, then compares.
+  void expect_same_files(const std::string& text, double seconds) {
+    put_case(text);
+    expect_done(run_until("whole"));
+    EXPECT_GT(read_file(path("whole/final_contacts.csv")).size(), 0U);
+    constexpr unsigned kSeed = 20071115;
+    std::mt19937 random(kSeed);
+    int disturbed = 0;
+    for (const std::string signal : {"KILL", "INT", "KILL", "TERM", "KILL"}) {
+      const double share = static_cast<double>(random()) / std::mt19937::max();
+      const auto result = run_until("parts", signal, 0.02 + share * seconds);
+      if (result.exit_status == 0) break;
+      EXPECT_TRUE(result.exit_status == 128 + 9 ||
+                  result.exit_status == results::exit_code_of(ErrorKind::kInterrupted))
+          << result.exit_status << result.errors;
+      ++disturbed;
+    }
+    EXPECT_GE(disturbed, 2) << "the run was done before it could be disturbed";
+    expect_done(run_until("parts"));
+    const auto whole = numbers_below(path("whole")), parts = numbers_below(path("parts"));
+    ASSERT_EQ(whole.size(), parts.size());
+    for (const auto& [name, numbers] : whole) {
+      ASSERT_TRUE(parts.contains(name)) << name;
+      EXPECT_TRUE(parts.at(name) == numbers) << name << " differs";
+    }
+  }
+};
+
+TEST_F(KilledInFluid, GoesOnWithASolverOfTheUsersOwn) {
+  expect_same_files(case_in_fluid("solver = [\"python3\", \"" VISCONTACT_SOURCE_FOLDER
+                                  "/examples/stokes_drag.py\"]",
+                                  "0.0005"),
+                    0.5);
+}
+
+TEST_F(KilledInFluid, GoesOnWithFreeFem) { expect_same_files(case_in_fluid("", "0.05"), 2.5); }
+
+}  // namespace
+}  // namespace viscontact
