@@ -1,0 +1,109 @@
+// A fluid solver that fails in the middle of a run: exit code 5, its last lines, everything up to
+// then is kept, and the same command continues the run when the solver works again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/common/regular_expressions.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char* kFallingDisc = R"(title = "A disc falls"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+[domain]
+disc = { radius = 8.0 }
+[viscous_contact]
+time_step = 0.1
+end_time = 1.0
+[output]
+every = 0.1
+[[particle]]
+centre = [0.0, 2.0]
+radius = 1.0
+force = [0.5, -1.0]
+)";
+
+class FailingFluidSolver : public ::testing::Test {
+ protected:
+  FailingFluidSolver() { scratch_.file("case.toml", kFallingDisc); }
+
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  /// Runs the case with a program in FreeFEM's place that answers as examples/stokes_drag.py does,
+  /// until awk does something else with the answers.
+  ProgramResult run(const std::string& folder, const std::string& awk = "") const {
+    const auto fake = scratch_.file("freefem", "#!/bin/sh\npython3 " VISCONTACT_SOURCE_FOLDER
+                                               "/examples/stokes_drag.py | awk '" +
+                                                   awk + "{ print; fflush() }'\n");
+    make_executable(fake);
+    return run_viscontact({"particles", path("case.toml"), "-o", path(folder)},
+                          {"VISCONTACT_FREEFEM=" + fake.string()});
+  }
+
+  /// Rows of steps.csv, without the line of names.
+  static std::ptrdiff_t steps_in(const std::string& file) {
+    const auto rows = replaced_matches(read_file(file), "#[^\n]*\n", "");
+    return std::ranges::count(rows, '\n') - 1;
+  }
+
+  /// What a run computes: final_particles.csv and motion.csv without comments.
+  std::string results_in(const std::string& folder) const {
+    return replaced_matches(
+        read_file(path(folder + "/final_particles.csv")) + read_file(path(folder + "/motion.csv")),
+        "#[^\n]*\n", "");
+  }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(FailingFluidSolver, IsNamedAndTheRunUpToThenIsKeptAndContinued) {
+  expect_done(run("undisturbed"));
+  ASSERT_EQ(steps_in(path("undisturbed/steps.csv")), 10);
+  struct Way {
+    std::string folder, awk;
+    std::vector<std::string> said;
+  };
+  for (const auto& [folder, awk, said] :
+       {Way{"dies",
+            R"(/^velocities/ && ++n == 7 { print "no memory" > "/dev/stderr"; exit 3 } )",
+            {"status 3", "its last lines: ", "no memory"}},
+        Way{"answers_nan",
+            R"(/^velocities/ && ++n == 7 { print "velocities nan 0 0"; fflush(); next } )",
+            {"it answered 'nan' in place of a finite number"}}}) {
+    SCOPED_TRACE(folder);
+    const auto result = run(folder, awk);
+    EXPECT_EQ(result.exit_status, 5);
+    EXPECT_THAT(result.errors, AllOf(HasSubstr("viscontact: the fluid solver ("),
+                                     HasSubstr("failed at request"), HasSubstr("'solve'")));
+    for (const auto& part : said) EXPECT_THAT(result.errors, HasSubstr(part));
+    EXPECT_EQ(steps_in(path(folder + "/steps.csv")), 6);
+    EXPECT_TRUE(std::filesystem::exists(path(folder + "/restart.bin")));
+    EXPECT_TRUE(std::filesystem::exists(path(folder + "/particles_00006.vtp")));
+    expect_done(run(folder));
+    EXPECT_EQ(steps_in(path(folder + "/steps.csv")), 10);
+    EXPECT_EQ(results_in(folder), results_in("undisturbed"));
+  }
+}
+
+TEST_F(FailingFluidSolver, ThatIsMissingIsSaidWithWhatToDo) {
+  const auto result = run_viscontact({"particles", path("case.toml"), "-o", path("out")},
+                                     {"VISCONTACT_FREEFEM=no-such-freefem"});
+  expect_refusal(result, ErrorKind::kExternalProgram,
+                 AllOf(HasSubstr("no-such-freefem"), HasSubstr("apt-get install freefem++")));
+}
+
+}  // namespace
+}  // namespace viscontact
