@@ -1,14 +1,13 @@
 // Contact of particles in a fluid: what gamma books, when a film lets go, walls, images, given
 // motions, and steps that fail.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "tests/common/failure.hpp"
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/particles/io/restart.hpp"
 
 namespace viscontact::particles {
