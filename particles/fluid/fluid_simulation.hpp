@@ -53,8 +53,9 @@ class FluidSimulation {
   /// The flow of the last step: where the particles were at the beginning of the step.
   FlowField flow() { return solver_->flow(); }
 
-  /// The flow around the particles where they are now. It solves the problem of the next step, whose
-  /// length is that of the setting, and changes nothing else. Throws the errors of FluidSolver.
+  /// The flow around the particles where they are now. It solves the problem of the next step,
+  /// whose length is that of the setting, and changes nothing else. Throws the errors of
+  /// FluidSolver.
   FlowField flow_at_present();
 
   /// Forces and torques of the fluid on the particles in the last step, motion_components() each;
