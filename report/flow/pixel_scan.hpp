@@ -20,19 +20,19 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
                     const Visit& visit) {
   const double width = window.width() / static_cast<double>(columns);
   const double height = window.height() / static_cast<double>(rows);
+  // A barycentric coordinate may be this far below 0, and a pixel centre this share of a pixel
+  // outside, so that a centre on a side belongs to at least one triangle in spite of round-off.
+  constexpr double kSlack = 1e-9;
   // The range of pixels in one direction whose centres are between two coordinates.
   const auto range = [](double low, double high, double start, double step, std::size_t count) {
     const auto clamp = [&](double place) {
       return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count)));
     };
-    return std::pair(clamp(std::ceil((low - start) / step - 0.5)),
-                     clamp(std::floor((high - start) / step - 0.5) + 1));
+    return std::pair(clamp(std::ceil((low - start) / step - 0.5 - kSlack)),
+                     clamp(std::floor((high - start) / step - 0.5 + kSlack) + 1));
   };
   const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (area == 0) return;
-  // A barycentric coordinate may be this far below 0, so that a pixel centre on a side belongs to
-  // at least one of the two triangles in spite of round-off.
-  constexpr double kSlack = -1e-9;
   const auto [left, right] = std::ranges::minmax(x);
   const auto [bottom, top] = std::ranges::minmax(y);
   const auto [first_column, end_column] = range(left, right, window.left, width, columns);
@@ -43,7 +43,7 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
       const double py = window.bottom + (static_cast<double>(row) + 0.5) * height;
       const double w1 = ((px - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (py - y[0])) / area;
       const double w2 = ((x[1] - x[0]) * (py - y[0]) - (px - x[0]) * (y[1] - y[0])) / area;
-      if (w1 < kSlack || w2 < kSlack || w1 + w2 > 1 - kSlack) continue;
+      if (w1 < -kSlack || w2 < -kSlack || w1 + w2 > 1 + kSlack) continue;
       visit(row * columns + column, w1, w2);
     }
 }

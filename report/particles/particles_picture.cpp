@@ -150,6 +150,30 @@ std::string opening(const std::string& title, double height) {
       std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)));
 }
 
+/// The panels of the chosen frames with their times, in rows of `columns`.
+std::string panels_of(const PanelSettings& panel, const FlowFrames& flows,
+                      const std::vector<std::size_t>& chosen, int columns) {
+  std::string text;
+  // If the height limits the scale, the panels are spread over the width.
+  const double place = kPictureWidth / columns;
+  for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
+    const auto f = chosen[static_cast<std::size_t>(i)];
+    const auto& frame = panel.playback.frames[f];
+    const int row = i / columns;
+    const double left = place * (i % columns) + (place - panel.width) / 2;
+    const double top = kTitle + row * (panel.height + kCaption);
+    text += fmt::format(
+        "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
+        "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
+        "{:.4g}</text>\n",
+        left, top, panel.width, panel.height,
+        frame_picture(panel, frame, flow_behind(flows, f, panel.view)), left + panel.width / 2,
+        top + panel.height + 20, frame.time);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string particles_picture(const Playback& original, const std::string& title, int panels) {
@@ -185,23 +209,7 @@ std::string particles_picture(const Playback& original, const std::string& title
                               return has_contact_without_film(playback.frames[f]);
                             })));
   auto svg = opening(title, bottom + (bars.empty() ? 0 : 60));
-  // If the height limits the scale, the panels are spread over the width.
-  const double place = kPictureWidth / columns;
-  for (int i = 0; i < count; ++i) {
-    const auto f = chosen[static_cast<std::size_t>(i)];
-    const auto& frame = playback.frames[f];
-    const int row = i / columns;
-    const double left = place * (i % columns) + (place - panel.width) / 2;
-    const double top = kTitle + row * (panel.height + kCaption);
-    svg += fmt::format(
-        "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\">\n{}"
-        "<rect width=\"100%\" height=\"100%\" fill=\"none\" stroke=\"#ccc\"/>\n</svg>\n"
-        "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
-        "{:.4g}</text>\n",
-        left, top, panel.width, panel.height,
-        frame_picture(panel, frame, flow_behind(flows, f, panel.view)), left + panel.width / 2,
-        top + panel.height + 20, frame.time);
-  }
+  svg += panels_of(panel, flows, chosen, columns);
   if (panel.every > 1)
     svg += fmt::format(
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "

@@ -63,6 +63,18 @@ struct Samples {
   }
 };
 
+/// The mean value at the points outside the particles; 0 if there is no such point.
+double mean_outside(const std::vector<double>& field, const std::vector<char>& is_body) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < field.size(); ++i)
+    if (is_body[i] == 0 && std::isfinite(field[i])) {
+      sum += field[i];
+      ++count;
+    }
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
 /// The place of a plane whose components are z and the distance from the axis, in the plane (x, z).
 particles::PlanePosition in_half_plane(const particles::PlanePosition& plane, double side) {
   return {{side * plane.point[1], plane.point[0], 0},
@@ -144,7 +156,9 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const Window& win
     found.frame = f;
     for (std::size_t i = 0; i < flows.grid.size(); ++i)
       found.speed.push_back(static_cast<float>(std::hypot(flow.velocity_x[i], flow.velocity_y[i])));
-    found.pressure.assign(flow.pressure.begin(), flow.pressure.end());
+    const double mean = mean_outside(flow.pressure, is_body);
+    for (const double pressure : flow.pressure)
+      found.pressure.push_back(static_cast<float>(pressure - mean));
     found.lines = stream_lines.of(flow, is_body, has_axis ? kLines * 2 / 3 : kLines);
     speeds.add(found.speed, is_body);
     pressures.add(found.pressure, is_body);

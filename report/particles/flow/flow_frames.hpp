@@ -19,7 +19,9 @@ namespace viscontact::report {
 /// The flow around the particles of a frame, at the points of FlowFrames::grid.
 struct FlowFrame {
   std::size_t frame = 0;  ///< its number in the playback
-  /// [L/T], [M/(L T^2)]; NaN where there is no flow. Single precision is enough for a picture.
+  /// [L/T], [M/(L T^2)]; NaN where there is no flow. Single precision is enough for a picture. The
+  /// mean of the pressure over the points outside the particles is 0, because the pressure in a
+  /// closed domain is known up to a constant.
   std::vector<float> speed, pressure;
   std::vector<StreamLine> lines;
 };

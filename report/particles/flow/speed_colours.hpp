@@ -15,7 +15,7 @@ std::string speed_colour(double share);
 std::vector<std::pair<double, std::string>> speed_ticks(double top);
 
 inline constexpr const char* kSpeedWords = "speed of the fluid [length/time]";
-inline constexpr const char* kPressureWords = "pressure [viscosity/time]";
+inline constexpr const char* kPressureWords = "pressure less its mean [viscosity/time]";
 inline constexpr const char* kStreamLineColour = "#12233f";
 
 }  // namespace viscontact::report

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/regular_expressions.hpp"
+#include "tests/report/particles/flow/flows.hpp"
 #include "tests/report/particles/playbacks.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/flow/speed_colours.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact::report {
@@ -115,6 +117,52 @@ TEST(ParticlesPicture, DrawsAContactAcrossAPeriodAtBothParticles) {
   const auto direct = particles_picture(playback, "Period", 1);
   expect_well_formed(across);
   EXPECT_EQ(count_of("M", across), count_of("M", direct) + 1);
+}
+
+TEST(ParticlesPicture, ShowsTheFlowBehindTheDiscs) {
+  const TemporaryFolder folder;
+  auto playback = disc_in_flow(folder, 3, turning);
+  playback.frames[1].flow.clear();
+  const auto svg = particles_picture(playback, "Flow", 3);
+  expect_well_formed(svg);
+  EXPECT_THAT(svg, HasSubstr(kSpeedWords));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  // The panel without a flow has a disc with its mark, and no streamlines.
+  EXPECT_EQ(count_of("stroke-opacity=\".6\"", svg), 2U);
+  EXPECT_EQ(count_of("<circle ", svg), 6U);
+  EXPECT_LT(svg.find("stroke-opacity=\".6\""), svg.find("<circle "));
+  // The whole box is shown, although the disc stays near its middle.
+  const auto box = view_box_of(playback, {0, 1, 2}, ViewBox{{0, 0, 0}, {4, 2, 0}});
+  EXPECT_LE(box.low[0], 0);
+  EXPECT_GE(box.high[0], 4);
+}
+
+TEST(ParticlesPicture, MirrorsTheFlowAtTheAxis) {
+  const TemporaryFolder folder;
+  auto playback = disc_in_flow(folder, 1, turning);
+  playback.dimension = 1;
+  playback.frames[0].positions = {1};
+  playback.frames[0].angles.clear();
+  const auto svg = particles_picture(playback, "Axis", 1);
+  expect_well_formed(svg);
+  EXPECT_EQ(count_of("scale(-1 1)", svg), 1U);
+  EXPECT_EQ(count_of("stroke-opacity=\".6\"", svg), 2U);
+  EXPECT_EQ(count_of("<circle ", svg), 1U);
+}
+
+TEST(ParticlesPicture, ShowsTheCellWithImagesOfDiscsAtItsSides) {
+  auto playback = one_particle();
+  playback.cell = {{3, 0}, {10, 8}};
+  const auto box = view_box_of(playback, {0});
+  EXPECT_EQ(box.low[0], 3);
+  EXPECT_EQ(box.high[0], 13);
+  EXPECT_EQ(box.high[1], 8);
+  // The disc of radius 0.5 at (3, 4) is cut by the left side.
+  EXPECT_EQ(count_of("<circle ", particles_picture(playback, "Cell", 1)), 2U);
+  playback.frames[0].positions = {3, 0};
+  EXPECT_EQ(count_of("<circle ", particles_picture(playback, "Corner", 1)), 4U);
+  playback.frames[0].positions = {8, 4};
+  EXPECT_EQ(count_of("<circle ", particles_picture(playback, "Inside", 1)), 1U);
 }
 
 TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
