@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/common/regular_expressions.hpp"
 #include "tests/common/temporary_folder.hpp"
@@ -42,12 +44,29 @@ class FailingFluidSolver : public ::testing::Test {
 
   std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
-  /// Runs the case with a program in FreeFEM's place that answers as examples/stokes_drag.py does,
-  /// until awk does something else with the answers.
-  ProgramResult run(const std::string& folder, const std::string& awk = "") const {
-    const auto fake = scratch_.file("freefem", "#!/bin/sh\npython3 " VISCONTACT_SOURCE_FOLDER
-                                               "/examples/stokes_drag.py | awk '" +
-                                                   awk + "{ print; fflush() }'\n");
+  /// Runs the case with a program in FreeFEM's place that answers as examples/stokes_drag.py does.
+  /// `at_failure` is what it does, in Python, in place of answering with velocities for the seventh
+  /// time.
+  ProgramResult run(const std::string& folder, const std::string& at_failure = "") const {
+    const auto fake = scratch_.file("freefem", R"(#!/usr/bin/python3
+import runpy
+import sys
+
+solver = runpy.run_path(")" VISCONTACT_SOURCE_FOLDER R"(/examples/stokes_drag.py")
+times = 0
+def failing(solve):
+    def answer(*arguments):
+        global times
+        times += 1
+        if times == 7:
+            )" + (at_failure.empty() ? "pass" : at_failure) +
+                                                   R"(
+        return solve(*arguments)
+    return answer
+StokesDrag = solver["StokesDrag"]
+StokesDrag.solve = failing(StokesDrag.solve)
+StokesDrag(solver["words"]()).run()
+)");
     make_executable(fake);
     return run_viscontact({"particles", path("case.toml"), "-o", path(folder)},
                           {"VISCONTACT_FREEFEM=" + fake.string()});
@@ -73,18 +92,18 @@ TEST_F(FailingFluidSolver, IsNamedAndTheRunUpToThenIsKeptAndContinued) {
   expect_done(run("undisturbed"));
   ASSERT_EQ(steps_in(path("undisturbed/steps.csv")), 10);
   struct Way {
-    std::string folder, awk;
+    std::string folder, at_failure;
     std::vector<std::string> said;
   };
-  for (const auto& [folder, awk, said] :
+  for (const auto& [folder, at_failure, said] :
        {Way{"dies",
-            R"(/^velocities/ && ++n == 7 { print "no memory" > "/dev/stderr"; exit 3 } )",
+            R"(print("no memory", file=sys.stderr); sys.exit(3))",
             {"status 3", "its last lines: ", "no memory"}},
         Way{"answers_nan",
-            R"(/^velocities/ && ++n == 7 { print "velocities nan 0 0"; fflush(); next } )",
+            R"(print("velocities nan 0 0", flush=True); sys.stdin.read())",
             {"it answered 'nan' in place of a finite number"}}}) {
     SCOPED_TRACE(folder);
-    const auto result = run(folder, awk);
+    const auto result = run(folder, at_failure);
     EXPECT_EQ(result.exit_status, 5);
     EXPECT_THAT(result.errors, AllOf(HasSubstr("viscontact: the fluid solver ("),
                                      HasSubstr("failed at request"), HasSubstr("'solve'")));
