@@ -67,8 +67,12 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // sections of a case of particles
                   Found("case_file/particles_case.cpp", "viscous_contact"),
                   Found("case_file/particles_case.cpp", "plane"),
+                  // obstacles in words
+                  Found("case_file/particles_start.cpp", "plane"),
+                  Found("case_file/fluid_start.cpp", "plane"),
+                  Found("particles/simulation.cpp", "plane"),
                   // a key in the head of a file of a sweep
-                  Found("sweep/sweep_file.cpp", "reference"),
+                  Found("sweep/sweep.cpp", "reference"),
                   // a part of the boundary, which FreeFEM's scripts print
                   Found("freefem_axi/row_picture.cpp", "sphere"),
                   // the body in words
