@@ -86,6 +86,22 @@ std::vector<std::string> pressure_scale(const PressureColours& colours) {
   return scale;
 }
 
+/// The places and texts on the scale of the pressure, without those that would touch another one.
+std::vector<std::pair<double, std::string>> pressure_ticks(const PressureColours& colours) {
+  constexpr double kApart = 0.11;  // of the width of the scale
+  std::vector<std::pair<double, std::string>> ticks;
+  for (auto [pressure, text] : colours.ticks()) {
+    const double share = share_of(colours, pressure);
+    if (share < 0 || share > 1 || std::ranges::any_of(ticks, [&](const auto& other) {
+          return std::abs(other.first - share) < kApart;
+        }))
+      continue;
+    if (text.starts_with("-")) text.replace(0, 1, "−");
+    ticks.emplace_back(share, text);
+  }
+  return ticks;
+}
+
 std::string legend_of(const FlowFrames& flows) {
   std::string text;
   if (flows.top_speed > 0) {
@@ -95,10 +111,7 @@ std::string legend_of(const FlowFrames& flows) {
     text += "<div id=speed-scale>" + scale_html(kSpeedWords, speed_scale(), ticks) + "</div>\n";
   }
   const auto& colours = flows.pressure_colours;
-  std::vector<std::pair<double, std::string>> ticks;
-  for (const auto& [pressure, number] : colours.ticks())
-    if (const double share = share_of(colours, pressure); share >= 0 && share <= 1)
-      ticks.emplace_back(share, number);
+  const auto ticks = pressure_ticks(colours);
   std::string words = kPressureWords;
   if (colours.linear_below > 0)
     words += fmt::format(", logarithmic beyond {:.3g}", colours.linear_below);
