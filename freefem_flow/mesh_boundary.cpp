@@ -62,13 +62,14 @@ class BoundaryMaker {
   }
 
   void add_curve(const std::vector<Point>& points, int label) {
-    boundary_.curves.push_back({static_cast<int>(boundary_.points.size()),
-                                static_cast<int>(points.size()) - 1, label});
+    boundary_.curves.push_back(
+        {static_cast<int>(boundary_.points.size()), static_cast<int>(points.size()) - 1, label});
     boundary_.points.insert(boundary_.points.end(), points.begin(), points.end());
   }
 
   template <class EdgeLength>
-  static std::vector<Point> line(const Point& from, const Point& to, const EdgeLength& edge_length) {
+  static std::vector<Point> line(const Point& from, const Point& to,
+                                 const EdgeLength& edge_length) {
     const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
     const auto at = [&](double s) {
       return Point{from[0] + s / length * (to[0] - from[0]),

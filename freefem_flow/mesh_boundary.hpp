@@ -14,7 +14,8 @@ namespace viscontact::freefem_flow {
 /// Labels of curves. Walls have those of the protocol: a box 1 left, 2 right, 3 bottom, 4 top; a
 /// disc 1; a cylinder 1 side, 2 floor, 3 lid. A curve with kInsideLabel is inside a particle and bounds
 /// nothing.
-inline constexpr int kAxisLabel = 5, kInsideLabel = 8, kPeriodicLabel = 9, kFirstParticleLabel = 100;
+inline constexpr int kAxisLabel = 5, kInsideLabel = 8, kPeriodicLabel = 9,
+                     kFirstParticleLabel = 100;
 
 /// Curves, each a chain of straight edges. The fluid is on the left of each outer curve.
 struct MeshBoundary {

@@ -40,12 +40,13 @@ double size_of(const particles::Domain& domain) {
 void check_edge_length(double edge, double length) {
   constexpr double kShortest = 1e-7;
   if (edge > kShortest * length) return;  // false for NaN
-  throw Error(ErrorKind::kNotConverged,
-              fmt::format("the mesh of the fluid needs an edge of {:.3g} on a curve of length {:.3g}, "
-                          "but does not resolve less than {:.0e} of it: particles, or a particle "
-                          "and a wall, overlap or have too narrow a gap; use a larger "
-                          "fluid.threshold_gap or a shorter time_step",
-                          edge, length, kShortest));
+  throw Error(
+      ErrorKind::kNotConverged,
+      fmt::format("the mesh of the fluid needs an edge of {:.3g} on a curve of length {:.3g}, "
+                  "but does not resolve less than {:.0e} of it: particles, or a particle "
+                  "and a wall, overlap or have too narrow a gap; use a larger "
+                  "fluid.threshold_gap or a shorter time_step",
+                  edge, length, kShortest));
 }
 
 double distance_to(const Circle& circle, const Point& x) {
@@ -78,9 +79,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
   for (int i = -shifts(periods[0]); i <= shifts(periods[0]); ++i)
     for (int j = -shifts(periods[1]); j <= shifts(periods[1]); ++j)
       for (const auto& circle : circles_)
-        images_.push_back(
-            {{circle.centre[0] + i * periods[0], circle.centre[1] + j * periods[1]},
-             circle.radius});
+        images_.push_back({{circle.centre[0] + i * periods[0], circle.centre[1] + j * periods[1]},
+                           circle.radius});
   // Further neighbours leave the edges as long as they are.
   const double reach = longest_ / of_gap_;
   for (const auto& circle : circles_) {
@@ -100,7 +100,8 @@ double EdgeLengths::distance_to_wall(const Point& x) const {
   double distance = kFar;
   if (const auto* box = std::get_if<particles::BoxDomain>(&domain_))
     for (std::size_t d = 0; d < 2; ++d)
-      if (!box->periodic[d]) distance = std::min({distance, x[d] - box->from[d], box->to[d] - x[d]});
+      if (!box->periodic[d])
+        distance = std::min({distance, x[d] - box->from[d], box->to[d] - x[d]});
   return distance;
 }
 

@@ -22,8 +22,8 @@ ParticleSimulation::ParticleSimulation(const particles::Setting& setting, partic
   };
   auto solver = freefem_flow::start_fluid_solver(fluid, setting.domain, p.radii, p.dimension,
                                                  make_boundary, stop);
-  in_fluid_ = std::make_unique<particles::FluidSimulation>(setting, std::move(state),
-                                                           std::move(solver));
+  in_fluid_ =
+      std::make_unique<particles::FluidSimulation>(setting, std::move(state), std::move(solver));
 }
 
 particles::StepReport ParticleSimulation::step(double end) {

@@ -28,7 +28,7 @@ struct StepTotals {
   double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
   // With a fluid only.
   bool has_fluid = false;
-  double fluid_seconds = 0;  ///< computing time of the fluid solver [s]
+  double fluid_seconds = 0;    ///< computing time of the fluid solver [s]
   std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
   /// Estimates of the relative error of the velocities at the first and at the last step, < 0 if
   /// there is none: extrapolated, and of one mesh.

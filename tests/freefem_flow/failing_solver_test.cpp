@@ -24,7 +24,8 @@ class OneDisc {
  public:
   explicit OneDisc(const std::string& script, std::chrono::milliseconds limit = 10min)
       : solver_(fluid(), particles::DiscDomain{{}, 8}, std::vector{1.0}, 2, {{"sh", "-c", script}},
-                [](const particles::FluidParticles&, double) { return MeshBoundary{}; }, {limit, {}}) {
+                [](const particles::FluidParticles&, double) { return MeshBoundary{}; },
+                {limit, {}}) {
     disc_.positions = {0, 0};
     disc_.radii = {1};
   }
