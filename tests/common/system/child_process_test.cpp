@@ -66,6 +66,15 @@ TEST(ChildProcess, AnswersManyTimes) {
   EXPECT_EQ(shell.finish(10min), "ended with status 0");
 }
 
+TEST(ChildProcess, TellsThePeakOfItsMemory) {
+  Shell shell("x=$(head -c 32000000 /dev/zero | tr '\\0' x); x=; echo done; read wait");
+  EXPECT_EQ(shell.word(), "done");
+  EXPECT_GE(shell.peak_memory_kb(), 32'000'000 / 1024);
+  EXPECT_LT(shell.peak_memory_kb(), 1'000'000);
+  shell.finish(10min);
+  EXPECT_EQ(shell.peak_memory_kb(), 0);
+}
+
 TEST(ChildProcess, GivesLinesAndPutsAWordBack) {
   Shell shell("printf 'first line\\n second  3\\n'; read end");
   EXPECT_EQ(shell.word(), "first");
