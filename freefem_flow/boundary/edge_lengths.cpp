@@ -72,7 +72,8 @@ EdgeLengths::EdgeLengths(const particles::Fluid& fluid, const particles::Domain&
       std::min(coarsening * 2 * std::numbers::pi * smallest / fluid.edges_per_particle, cap_);
   growth_ = coarsening * kGrowthAt24Edges * ratio;
   of_gap_ = coarsening * std::min(kOfGapAt24Edges * ratio, kLargestOfGap);
-  further_ = coarsening * kFurtherAt24Edges * ratio;
+  // A few spheres on an axis cost little, and their films carry all of the load.
+  further_ = p.dimension == 1 ? 0 : coarsening * kFurtherAt24Edges * ratio;
   narrow_ = kNarrow * smallest;
   const auto periods = particles::periods_of(domain);
   const auto shifts = [](double period) { return period > 0 ? 1 : 0; };
