@@ -83,8 +83,7 @@ class Mprgp {
     if (restart_) start_directions();
     before_ = graph_.z;
     ++steps_between_same_;
-    // Where contacts contradict each other, the objective falls almost without end along the
-    // direction.
+    // Where contacts contradict each other, the objective falls almost without end.
     constexpr double kEndless = 1e12;
     const double length = slope_ / curvature_;
     if (!(length < kEndless)) return go_to_bound();
