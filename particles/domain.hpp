@@ -15,8 +15,8 @@ struct DiscDomain {
   double radius = 0;  ///< [L], > 0
 };
 
-/// A rectangle, in two dimensions. Its walls are the obstacles -1, -2, ... in the order left, right,
-/// bottom, top; a side that is periodic is no obstacle and has no number.
+/// A rectangle, in two dimensions. Its walls are the obstacles -1, -2, ... in the order left,
+/// right, bottom, top; a side that is periodic is no obstacle and has no number.
 struct BoxDomain {
   std::array<double, 2> from{}, to{};  ///< corners [L], from < to in both components
   std::array<bool, 2> periodic{};      ///< whether the left and right, bottom and top sides are one

@@ -18,7 +18,7 @@ constexpr std::size_t index_of(std::int32_t number) { return static_cast<std::si
 /// Flat arrays. Entry k of `radii`, `masses` and `ids` belongs to particle k, and so do `dimension`
 /// entries from dimension * k on of `positions` and `velocities`.
 struct Particles {
-  /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder, which is component 0 of a Vector.
+  /// 2: discs, 3: spheres, 1: spheres on the axis z of a cylinder. z is component 0 of a Vector.
   int dimension = 2;
   std::vector<double> positions;   ///< of the centres [L]
   std::vector<double> velocities;  ///< [L/T]

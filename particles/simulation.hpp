@@ -49,9 +49,10 @@ struct Setting {
 
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
-  double dissipation = 0;         ///< of the flow [M L^2/T^3], in two dimensions per unit length
-  double apparent_viscosity = 0;  ///< over the fluid's; 0 if the boundary is at rest
-  double seconds = 0;             ///< computing time of the fluid solver [s]
+  double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
+  /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
+  double apparent_viscosity = 0;
+  double seconds = 0;  ///< computing time of the fluid solver [s]
   /// Estimate of the relative error of the velocities, extrapolated and of one mesh; < 0 if it was
   /// not made in this step.
   double velocity_error = -1, velocity_error_of_one_mesh = -1;

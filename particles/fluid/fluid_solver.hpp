@@ -31,7 +31,8 @@ struct FluidParticles {
 /// Quantities of the flow that the last call of velocities() with `driving` computed.
 struct FlowQuantities {
   double dissipation = 0;  ///< 2 mu integral of D(u):D(u) [M L^2/T^3]
-  /// Dissipation over that of the fluid alone with the same boundary; 0 if the boundary is at rest.
+  /// Dissipation over that of the fluid alone with the same boundary. 0 if the boundary is at rest,
+  /// or if the dissipation of the fluid alone is not known.
   double apparent_viscosity = 0;
   /// Force and torque of the fluid on each particle, motion_components() numbers each.
   std::vector<double> fluid_forces;

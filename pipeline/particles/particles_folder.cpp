@@ -1,5 +1,5 @@
-// Recognises frames by their names, particles_NNNNN.vtp and flow_NNNNN.vtu, and files that Viscontact wrote by their
-// provenance. The form of the name must agree with ParticleFrames::add.
+// Recognises frames by their names, particles_NNNNN.vtp and flow_NNNNN.vtu, and files that
+// Viscontact wrote by their provenance. The form of the names must agree with ParticleFrames.
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 
 #include <algorithm>
