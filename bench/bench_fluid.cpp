@@ -15,7 +15,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
-#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "tests/particles/box2d/box2d_case.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/contact/current_contacts.hpp"
 
 namespace {
 

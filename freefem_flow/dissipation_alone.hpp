@@ -2,7 +2,7 @@
 // a closed form. Lengths, masses and times are in the units of the case.
 #pragma once
 
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 
 namespace viscontact::freefem_flow {

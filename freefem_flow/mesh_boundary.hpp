@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/particles/periods.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {

@@ -11,9 +11,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/film.hpp"
+#include "viscontact/particles/contact/film.hpp"
+#include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
-#include "viscontact/particles/obstacles.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 
 namespace viscontact::particles {

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact_law.hpp"
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/contact/contact_law.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/given_motion.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/plane.hpp"
 #include "viscontact/particles/projection/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 

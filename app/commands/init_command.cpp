@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "viscontact/app/arguments/command_options.hpp"
-#include "viscontact/app/commands/case_template.hpp"
 #include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/commands/template/case_template.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/shell_words.hpp"

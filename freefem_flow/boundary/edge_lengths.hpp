@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 
 namespace viscontact::particles {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/fluid/fluid_contact.hpp"
+#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"

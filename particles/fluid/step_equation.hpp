@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/fluid/fluid_contact.hpp"
+#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/contact/current_contacts.hpp"
 
 namespace viscontact::particles {
 

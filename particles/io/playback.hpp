@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "viscontact/particles/current_contacts.hpp"
-#include "viscontact/particles/plane.hpp"
+#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/domain/plane.hpp"
 
 namespace viscontact::particles {
 

@@ -7,9 +7,9 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/io/appended_data.hpp"
 #include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/periods.hpp"
 
 namespace viscontact::particles {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/periods.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::particles {
 

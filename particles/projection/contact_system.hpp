@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/dual_problem/dual_solver.hpp"
 
 namespace viscontact::particles {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/projection/contact_system.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/residual_scales.hpp"

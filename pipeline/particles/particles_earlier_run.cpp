@@ -12,9 +12,9 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/obstacles.hpp"
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"

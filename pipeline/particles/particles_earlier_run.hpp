@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 #include "viscontact/pipeline/particles/particles_record.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/pipeline/particles/particles_frames.hpp"
 
 namespace viscontact::pipeline {

@@ -13,11 +13,11 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/io/flow_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
-#include "viscontact/particles/obstacles.hpp"
 
 namespace viscontact::pipeline {
 namespace {

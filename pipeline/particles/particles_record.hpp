@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/particles/simulation.hpp"
 
 namespace viscontact::pipeline {

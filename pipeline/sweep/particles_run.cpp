@@ -16,7 +16,7 @@
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
-#include "viscontact/particles/arrangement.hpp"
+#include "viscontact/particles/arrangement/arrangement.hpp"
 #include "viscontact/pipeline/particles/particles_stage.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/terminal/progress.hpp"

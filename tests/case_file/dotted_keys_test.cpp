@@ -7,7 +7,7 @@
 #include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/case_file/particles_case.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 
 namespace viscontact::case_file {
 namespace {

@@ -59,24 +59,24 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
   }
   using Found = std::pair<std::string, std::string>;
   // These texts are other things of the same name.
-  EXPECT_THAT(
-      found,
-      UnorderedElementsAre(
-          // sections of a case, and its key sweep.reference
-          Found("case_file/case_file.cpp", "sphere"), Found("case_file/case_file.cpp", "reference"),
-          Found("sweep/sweep.cpp", "sphere"),
-          // sections of a case of particles
-          Found("case_file/particles_case.cpp", "viscous_contact"),
-          Found("case_file/particles_case.cpp", "plane"),
-          // obstacles in words
-          Found("case_file/particles_start.cpp", "plane"),
-          Found("case_file/fluid_start.cpp", "plane"), Found("particles/simulation.cpp", "plane"),
-          // a key in the head of a file of a sweep
-          Found("sweep/sweep.cpp", "reference"),
-          // a part of the boundary, which FreeFEM's scripts print
-          Found("freefem_axi/row_picture.cpp", "sphere"),
-          // the body in words
-          Found("report/particles/particles_page.cpp", "sphere")));
+  EXPECT_THAT(found,
+              UnorderedElementsAre(
+                  // sections of a case, and its key sweep.reference
+                  Found("case_file/case_file.cpp", "sphere"),
+                  Found("case_file/case_file.cpp", "reference"), Found("sweep/sweep.cpp", "sphere"),
+                  // sections of a case of particles
+                  Found("case_file/particles/particles_case.cpp", "viscous_contact"),
+                  Found("case_file/particles/particles_case.cpp", "plane"),
+                  // obstacles in words
+                  Found("case_file/particles/particles_start.cpp", "plane"),
+                  Found("case_file/fluid/fluid_start.cpp", "plane"),
+                  Found("particles/simulation.cpp", "plane"),
+                  // a key in the head of a file of a sweep
+                  Found("sweep/sweep.cpp", "reference"),
+                  // a part of the boundary, which FreeFEM's scripts print
+                  Found("freefem_axi/row_picture.cpp", "sphere"),
+                  // the body in words
+                  Found("report/particles/particles_page.cpp", "sphere")));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(Opening, SaysAllThatTheSolverMustKnow) {
             "viscontact-fluid 1\n"
             "dimension 2\n"
             "viscosity 0.1\n"
-            "constraint penalty 1e-06\n"
+            "constraint penalty 1e-07\n"
             "mesh fitted\n"
             "edges 24\n"
             "domain disc 1 -2 8\n"

@@ -12,7 +12,7 @@
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
-#include "viscontact/particles/domain.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "tests/program/particles/particles_command.hpp"
 #include "tests/program/program.hpp"
@@ -15,7 +14,6 @@ namespace viscontact {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -48,53 +46,6 @@ TEST_F(ParticlesCommand, WritesWhatTheInterfacePromises) {
   // Glued since they fell: gravity and push have given the floor all that it remembers.
   EXPECT_THAT(content(out() / "final_contacts.csv"),
               ::testing::ContainsRegex("2,-1,[^,]*,-2,[^,]*\n"));
-}
-
-/// What VTK reads, by name.
-std::map<std::string, std::vector<double>> read_by_vtk(const fs::path& file) {
-  // Debian's python3, for which python3-vtk9 is.
-  const std::string command = "/usr/bin/python3 " VISCONTACT_SOURCE_FOLDER
-                              "/tests/program/particles/read_vtk.py " +
-                              file.string() + " > " + file.string() + ".txt 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(file.string() + ".txt");
-  std::map<std::string, std::vector<double>> read;
-  std::istringstream lines(read_file(file.string() + ".txt"));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string name, kind;
-    words >> name;
-    if (name == "cell") {
-      words >> kind;
-      name = kind;
-    }
-    auto& values = read[name];
-    for (double value = 0; words >> value;) values.push_back(value);
-  }
-  return read;
-}
-
-TEST_F(ParticlesCommand, VtkReadsTheFrames) {
-  expect_done(run(put_case(kCase), out()));
-  const auto end = particles::read_particles(out() / "final_particles.csv", 2).particles;
-  const auto frame = read_by_vtk(out() / "particles_00020.vtp");
-  EXPECT_EQ(frame.at("radius"), end.radii);
-  EXPECT_EQ(frame.at("id"), (std::vector<double>{0, 1, 2}));
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t d = 0; d < 3; ++d) {
-      EXPECT_EQ(frame.at("points")[3 * k + d], end.position(k)[d]);
-      EXPECT_EQ(frame.at("velocity")[3 * k + d], end.velocity(k)[d]);
-    }
-  // Vertices of the three on the floor, then the line between those that touch; as in
-  // final_contacts.csv.
-  EXPECT_EQ(frame.at("vtkVertex"), (std::vector<double>{0, 1, 2}));
-  EXPECT_EQ(frame.at("vtkLine"), (std::vector<double>{0, 2}));
-  EXPECT_EQ(frame.at("i"), (std::vector<double>{0, 1, 2, 0}));
-  EXPECT_EQ(frame.at("j"), (std::vector<double>{-1, -1, -1, 2}));
-  EXPECT_EQ(frame.at("gamma").size(), 4U);
-  EXPECT_EQ(frame.at("gap").size(), 4U);
-  const auto series = read_file(out() / "particles.pvd");
-  EXPECT_THAT(series, AllOf(HasSubstr("timestep=\"0\""), HasSubstr("timestep=\"10\""),
-                            HasSubstr("file=\"particles_00020.vtp\"")));
 }
 
 TEST_F(ParticlesCommand, FramesOfALongerRunDoNotStay) {

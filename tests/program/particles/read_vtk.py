@@ -1,8 +1,9 @@
-"""Reads a .pvd or .vtp file by VTK and prints what is in it, a line for each thing."""
+"""Reads a .pvd, .vtp or .vtu file by VTK and prints what is in it, a line for each thing."""
 import sys
 import xml.etree.ElementTree as xml
 
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
 
 def show(name, array):
@@ -14,17 +15,23 @@ if sys.argv[1].endswith(".pvd"):
     for data in xml.parse(sys.argv[1]).getroot().iter("DataSet"):
         print(data.get("timestep"), data.get("file"))
     sys.exit()
-reader = vtkXMLPolyDataReader()
+is_flow = sys.argv[1].endswith(".vtu")
+reader = vtkXMLUnstructuredGridReader() if is_flow else vtkXMLPolyDataReader()
 reader.SetFileName(sys.argv[1])
 reader.Update()
 if reader.GetErrorCode():
     sys.exit("VTK cannot read it")
 data = reader.GetOutput()
 show("points", data.GetPoints().GetData())
-for name in ("radius", "velocity", "id"):
+for name in ("velocity", "pressure") if is_flow else ("radius", "velocity", "id"):
     show(name, data.GetPointData().GetArray(name))
-for name in ("gap", "gamma", "i", "j"):
+for name in () if is_flow else ("gap", "gamma", "i", "j"):
     show(name, data.GetCellData().GetArray(name))
+if is_flow:
+    sizes = vtkCellSizeFilter()
+    sizes.SetInputData(data)
+    sizes.Update()
+    show("areas", sizes.GetOutput().GetCellData().GetArray("Area"))
 for k in range(data.GetNumberOfCells()):
     cell = data.GetCell(k)
     points = range(cell.GetNumberOfPoints())

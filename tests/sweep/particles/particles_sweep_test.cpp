@@ -113,6 +113,18 @@ TEST_F(ParticlesSweepTest, RowOfTheCaseThatATaskGetsHasTheSameIdentity) {
   EXPECT_NE(sweep.identity(0, "1"), before);
 }
 
+// A run of a sweep has a folder of its own, from which files beside the case must still be found.
+TEST_F(ParticlesSweepTest, RowNamesTheFilesOfAFluidSolverWhereTheyAre) {
+  put_text(path("my_solver.py"), "");
+  put_text(path("case.toml"),
+           small_particles_case(
+               "[fluid]\nviscosity = 1.0\nsolver = [\"python3\", \"my_solver.py\", \"--fast\"]\n"));
+  put_text(path("elsewhere/row.toml"), ParticlesSweep(plan_).case_text(0));
+  const auto row = case_file::read_particles_case(path("elsewhere/row.toml"));
+  EXPECT_EQ(row.setting.fluid->solver,
+            (std::vector<std::string>{"python3", path("my_solver.py").string(), "--fast"}));
+}
+
 TEST_F(ParticlesSweepTest, RowHasKeysResultsAndFailure) {
   const ParticlesSweep sweep(plan_);
   const auto found = lines(sweep);

@@ -1,0 +1,134 @@
+// Checks particles in a fluid before the fluid solver starts (fluid_start.hpp). Lengths are in the
+// unit of the case.
+#include "viscontact/case_file/fluid/fluid_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <variant>
+
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::case_file {
+namespace {
+
+using particles::WallVelocity;
+
+/// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
+constexpr double kLeastGapOfMesh = 1e-3;
+
+/// True if each side of the domain is open or periodic, and at least one is open.
+bool has_only_open_sides(const ParticlesCase& c) {
+  const auto* box = std::get_if<particles::BoxDomain>(&c.setting.domain);
+  const auto* sides = std::get_if<particles::SideVelocities>(&c.setting.fluid->boundary);
+  if (box == nullptr || sides == nullptr) return false;
+  bool any_open = false;
+  for (std::size_t side = 0; side < sides->size(); ++side) {
+    if (box->periodic[side / 2]) continue;
+    if ((*sides)[side].kind != WallVelocity::Kind::kOpen) return false;
+    any_open = true;
+  }
+  return any_open;
+}
+
+/// True if the body is an obstacle or a particle whose motion is given, which no impulse moves.
+bool is_driven(const ParticlesCase& c, std::int32_t body) {
+  return body < 0 || c.setting.given_motions.contains(body);
+}
+
+void check_masses(const TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
+  if (c.setting.fluid->coupling != particles::Coupling::kSplitting) return;
+  for (std::size_t k = 0; k < c.particles.count(); ++k)
+    if (c.particles.masses[k] == 0 && !is_driven(c, static_cast<std::int32_t>(k)))
+      root.section("fluid").fail(
+          "coupling",
+          fmt::format("is 'splitting', which needs masses > 0, because the velocities are "
+                      "projected in the norm of the masses, but the mass of {} is 0; it must be "
+                      "\"constrained\", or the particle must have a mass",
+                      names(k)));
+}
+
+/// Throws an error if the fitted mesh cannot resolve the gap between a sphere on the axis and the
+/// side of its cylinder.
+void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) {
+  const auto* cylinder = std::get_if<particles::CylinderDomain>(&c.setting.domain);
+  if (cylinder == nullptr || c.setting.fluid->mesh != particles::FluidMesh::kFitted) return;
+  for (std::size_t k = 0; k < c.particles.count(); ++k) {
+    const double radius = c.particles.radii[k], gap = cylinder->radius - radius;
+    if (gap < kLeastGapOfMesh * radius)
+      throw_bad_input(names.at(k),
+                      fmt::format("{} has a gap of {:.3g} to the side of the cylinder, which the "
+                                  "mesh does not resolve; it must be at least a thousandth of the "
+                                  "radius, {:.3g}",
+                                  names(k), gap, kLeastGapOfMesh * radius));
+  }
+}
+
+void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
+  const auto& fluid = *c.setting.fluid;
+  const auto& p = c.particles;
+  const auto j = particles::index_of(at.second);
+  const bool is_pair = at.first >= 0;
+  const double radius =
+      is_pair ? std::min(p.radii[particles::index_of(at.first)], p.radii[j]) : p.radii[j];
+  const auto other = is_pair ? names(particles::index_of(at.first))
+                             : obstacle_name(c, static_cast<std::size_t>(-1 - at.first));
+  const bool is_plane = !is_pair && other.starts_with("plane");
+  if (fluid.mesh == particles::FluidMesh::kFitted && !is_plane && at.gap < kLeastGapOfMesh * radius)
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} and {} have a gap of {:.3g} at the start, which the mesh does not resolve; "
+                    "it must be at least a thousandth of the smaller radius, {:.3g}",
+                    other, names(j), at.gap, kLeastGapOfMesh * radius));
+  const double allowed = c.setting.solver.tolerance * particles::mean_radius(p);
+  if (at.gap < fluid.threshold_gap - allowed &&
+      !(is_driven(c, at.first) && is_driven(c, at.second)))
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} and {} have a gap of {:.3g} at the start, less than fluid.threshold_gap, "
+                    "{:.3g}, at which contact is made; the gap must be larger or "
+                    "fluid.threshold_gap smaller",
+                    other, names(j), at.gap, fluid.threshold_gap));
+}
+
+/// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
+double limit_within_periods(const ParticlesCase& c, double asked) {
+  const double diameter = 2 * std::ranges::max(c.particles.radii);
+  // A little less, because close_pairs_in_period() needs sums of extents below the period.
+  constexpr double kLess = 0.999;
+  for (const double period : particles::periods_of(c.setting.domain))
+    if (period > 0) asked = std::min(asked, kLess * (period - diameter));
+  return asked;
+}
+
+}  // namespace
+
+void set_default_threshold_gap(ParticlesCase& c) {
+  constexpr double kOfRadius = 0.05;
+  const double longest = kOfRadius * std::ranges::min(c.particles.radii);
+  double threshold = longest;
+  for (const double period : particles::periods_of(c.setting.domain))
+    if (period > 0)
+      threshold = std::min(threshold, (period - 2 * std::ranges::max(c.particles.radii)) / 2);
+  for (const auto& at : gaps_at_start(c, limit_within_periods(c, 2 * longest)))
+    threshold = std::min(threshold, std::max(0.0, at.gap) / 2);
+  c.setting.fluid->threshold_gap = threshold;
+}
+
+void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
+                       const ParticleLines& lines) {
+  const ParticleNames names(c, lines);
+  if (has_only_open_sides(c) && c.setting.given_motions.empty())
+    root.section("fluid").fail(
+        "velocity",
+        "makes each side open that is not periodic, so that nothing balances the forces on the "
+        "particles; at least one side must be a wall, or the motion of a particle must be given");
+  check_masses(root, c, names);
+  check_side_of_cylinder(c, names);
+  const double limit = std::max(c.setting.fluid->threshold_gap,
+                                kLeastGapOfMesh * std::ranges::max(c.particles.radii));
+  for (const auto& at : gaps_at_start(c, limit_within_periods(c, limit))) check_gap(c, names, at);
+}
+
+}  // namespace viscontact::case_file

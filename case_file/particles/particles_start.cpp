@@ -1,0 +1,177 @@
+// Checks the state at the start of a case of many particles (particles_start.hpp). Lengths are in
+// the unit of the case. Messages must name the line of the CSV file, because it can be long.
+#include "viscontact/case_file/particles/particles_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+
+namespace viscontact::case_file {
+
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
+
+std::string ParticleNames::operator()(std::size_t k) const {
+  const auto x = case_.particles.position(k);
+  const int dimension = case_.particles.dimension;
+  std::string place = fmt::format("{}", x[0]);
+  for (std::size_t d = 1; d < static_cast<std::size_t>(dimension); ++d)
+    place += fmt::format(", {}", x[d]);
+  return fmt::format("particle {} ({}centre {}, radius {})", case_.particles.id(k),
+                     k < lines_.in_file.size() ? fmt::format("line {}, ", lines_.in_file[k]) : "",
+                     place, case_.particles.radii[k]);
+}
+
+FilePosition ParticleNames::at(std::size_t k) const {
+  if (k < lines_.in_file.size()) return {case_.particles_file.string(), lines_.in_file[k]};
+  const auto table = k - lines_.in_file.size();
+  return {case_.path.string(), table < lines_.in_case.size() ? lines_.in_case[table] : 0};
+}
+
+std::string obstacle_name(const ParticlesCase& c, std::size_t k) {
+  std::vector<std::string> walls;
+  if (std::holds_alternative<particles::DiscDomain>(c.setting.domain))
+    walls = {"the wall of the disc"};
+  if (std::holds_alternative<particles::CylinderDomain>(c.setting.domain))
+    walls = {"the side of the cylinder", "the floor of the cylinder", "the lid of the cylinder"};
+  if (const auto* box = std::get_if<particles::BoxDomain>(&c.setting.domain)) {
+    if (!box->periodic[0]) walls = {"the left side of the box", "the right side of the box"};
+    if (!box->periodic[1])
+      walls.insert(walls.end(), {"the bottom of the box", "the top of the box"});
+  }
+  return k < walls.size() ? walls[k] : fmt::format("plane {}", k - walls.size() + 1);
+}
+
+std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
+  const auto& p = c.particles;
+  const auto cell = particles::cell_of(c.setting.domain);
+  std::vector<double> extents = p.radii;
+  for (auto& extent : extents) extent += limit / 2;
+  ThreadPool pool(1);
+  std::vector<StartGap> gaps;
+  for (const auto& [first, second, image] :
+       cell.is_periodic() ? particles::close_pairs_in_period(cell, p.positions, extents, pool)
+                          : particles::close_pairs(p.dimension, p.positions, extents, pool)) {
+    const auto i = particles::index_of(first), j = particles::index_of(second);
+    const auto apart = p.position(j) + particles::shift_of(cell, image) - p.position(i);
+    gaps.push_back({first, second, particles::norm(apart) - p.radii[i] - p.radii[j]});
+  }
+  const auto obstacles = particles::obstacles_of(c.setting);
+  const bool on_axis = std::holds_alternative<particles::CylinderDomain>(c.setting.domain);
+  for (std::size_t w = on_axis ? 1 : 0; w < obstacles.size(); ++w) {
+    const auto place = obstacles[w].at(0);
+    for (std::size_t k = 0; k < p.count(); ++k)
+      if (const double gap = particles::gap(place, p.position(k), p.radii[k]); gap < limit)
+        gaps.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k), gap});
+  }
+  return gaps;
+}
+
+namespace {
+
+void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& names) {
+  const auto& p = c.particles;
+  const double tolerance = c.setting.solver.tolerance;
+  const double allowed = tolerance * particles::mean_radius(p);
+  const auto smallest =
+      static_cast<std::size_t>(std::ranges::min_element(p.radii) - p.radii.begin());
+  if (constexpr double kOfRadius = 0.01; allowed > kOfRadius * p.radii[smallest])
+    throw_bad_input(names.at(smallest),
+                    fmt::format("{} is too small for solver.tolerance, {}: the tolerance times "
+                                "the mean radius is {:.3g}; it must be at most a hundredth of each "
+                                "radius",
+                                names(smallest), tolerance, allowed));
+  const double farthest =
+      particles::largest_resolved_distance(tolerance, particles::mean_radius(p));
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (const double x : p.position(k))
+      if (std::abs(x) > farthest)
+        throw_bad_input(names.at(k),
+                        fmt::format("{} is too far from the origin for its gaps to be known to "
+                                    "solver.tolerance; each coordinate must be at most {:.3g} in "
+                                    "magnitude",
+                                    names(k), farthest));
+}
+
+/// Says what is wrong with the place of a particle in the domain, or nothing.
+struct PlaceInDomain {
+  particles::Vector x;
+  double radius;
+
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(const particles::DiscDomain& disc) const {
+    if (particles::norm(x - disc.centre) < disc.radius) return "";
+    return fmt::format("its centre must be less than {} from {}, {}", disc.radius, disc.centre[0],
+                       disc.centre[1]);
+  }
+  std::string operator()(const particles::BoxDomain& box) const {
+    for (std::size_t d = 0; d < 2; ++d)
+      if (!(x[d] >= box.from[d] && x[d] <= box.to[d]))
+        return fmt::format("{} of its centre must be from {} to {}{}", d == 0 ? "x" : "y",
+                           box.from[d], box.to[d], box.periodic[d] ? ", which is one period" : "");
+    return "";
+  }
+  std::string operator()(const particles::CylinderDomain& cylinder) const {
+    if (!(x[0] > 0 && x[0] < cylinder.height))
+      return fmt::format("z of its centre must be between 0 and {}", cylinder.height);
+    if (!(radius < cylinder.radius))
+      return fmt::format("its radius must be less than that of the cylinder, {}", cylinder.radius);
+    return "";
+  }
+};
+
+/// Checks that all centres are in the domain and that no particle touches an image of itself.
+void check_domain(const ParticlesCase& c, const ParticleNames& names) {
+  const auto& p = c.particles;
+  const auto periods = particles::periods_of(c.setting.domain);
+  // The gap to an image never changes. Therefore it must be at least the threshold gap in a fluid,
+  // and wide enough for a mesh; without a fluid the neighbour list needs a little room in it.
+  constexpr double kLeastGapInRadii = 0.01;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);
+    if (!wrong.empty())
+      throw_bad_input(names.at(k), fmt::format("{} is outside the domain; {}", names(k), wrong));
+    const double least = std::max(kLeastGapInRadii * p.radii[k],
+                                  c.setting.fluid ? c.setting.fluid->threshold_gap : 0.0);
+    for (const double period : periods)
+      if (period > 0 && !(2 * p.radii[k] + least <= period))
+        throw_bad_input(
+            names.at(k),
+            fmt::format("{} is too large for the period of the domain, {}: it would touch its own "
+                        "image; its radius must be at most {:.6g}",
+                        names(k), period, (period - least) / 2));
+  }
+}
+
+}  // namespace
+
+void check_start(const ParticlesCase& c, const ParticleLines& lines) {
+  const ParticleNames names(c, lines);
+  check_radii_and_distances(c, names);
+  check_domain(c, names);
+  const double allowed = c.setting.solver.tolerance * particles::mean_radius(c.particles);
+  for (const auto& [first, second, gap] : gaps_at_start(c, 0)) {
+    if (!(gap < -allowed)) continue;
+    const auto j = particles::index_of(second);
+    if (first >= 0)
+      throw_bad_input(
+          names.at(j),
+          fmt::format("{} and {} overlap by {:.3g} at the start; at most {:.3g} is allowed",
+                      names(particles::index_of(first)), names(j), -gap, allowed));
+    const auto obstacle = obstacle_name(c, static_cast<std::size_t>(-1 - first));
+    throw_bad_input(
+        names.at(j),
+        fmt::format("{} is {:.3g} into {} at the start, or behind it; {}", names(j), -gap, obstacle,
+                    obstacle.starts_with("plane") ? "a plane's normal must point into the free side"
+                                                  : "it must be inside the domain"));
+  }
+}
+
+}  // namespace viscontact::case_file

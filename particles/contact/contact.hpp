@@ -1,0 +1,203 @@
+// Contact of a pair: its gap and normal, docs/physics.md (5.1), and whether given displacements
+// close the gap. Units are any one consistent system.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/state.hpp"
+
+namespace viscontact::particles {
+
+/// A contact in the projection: two particles that may touch in this step, or a particle and a
+/// plane.
+template <int D>
+struct Contact {
+  std::int32_t first = -1;       ///< number of a particle; -1 if `second` meets a plane
+  std::int32_t second = 0;       ///< number of a particle
+  std::array<double, D> normal;  ///< e_ij, unit normal from first (or the plane) to second
+  /// D_ij at the beginning of the step, plus `tolerated` [L]. A plane is taken at its position at
+  /// the end of the step.
+  double gap = 0;
+  double gamma = 0;  ///< gamma_ij^n [M L/T], <= 0
+  /// p_ij = h lambda_ij [M L/T], >= gamma: before the solution a guess, then the solution.
+  double impulse = 0;
+  /// Largest residual with which the contact counts as converged [L], > 0.
+  double allowed = 0;
+  double tolerated = 0;    ///< overlap that is left as it is [L], >= 0
+  std::int32_t image = 0;  ///< Pair::image
+};
+
+/// Vector from the centre of particle `first` to that of the image `image` of particle `second`
+/// [L].
+template <int D>
+std::array<double, D> separation(const Particles& p, std::int32_t first, std::int32_t second,
+                                 std::int32_t image) {
+  const auto i = index_of(first), j = index_of(second);
+  std::array<double, D> x;
+  for (std::size_t d = 0; d < D; ++d) x[d] = p.positions[j * D + d] - p.positions[i * D + d];
+  if (image != 0) {
+    const Vector shift = shift_of(p.cell, image);
+    for (std::size_t d = 0; d < D; ++d) x[d] += shift[d];
+  }
+  return x;
+}
+
+/// Contact of a particle with a plane or circle at `place`, as contact_of() gives it for a pair.
+template <int D>
+Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition& place) {
+  const auto j = index_of(pair.second);
+  Contact<D> contact{-1, pair.second, {}, 0, pair.gamma, pair.impulse};
+  const Vector normal = normal_at(place, p.position(j));
+  for (std::size_t d = 0; d < D; ++d) contact.normal[d] = normal[d];
+  contact.gap = gap(place, p.position(j), p.radii[j]);
+  return contact;
+}
+
+/// Contact of a pair, with gap D_ij and normal e_ij of docs/physics.md (5.1); obstacles are at
+/// `places`. D is 1, 2 or 3. If both centres coincide, the normal is the first axis, because every
+/// direction separates them.
+template <int D>
+Contact<D> contact_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  if (pair.first < 0) return contact_of<D>(p, pair, places[pair.plane()]);
+  Contact<D> contact{pair.first, pair.second, {}, 0, pair.gamma, pair.impulse};
+  contact.image = pair.image;
+  contact.normal = separation<D>(p, pair.first, pair.second, pair.image);
+  double square = 0;
+  for (std::size_t d = 0; d < D; ++d) square += contact.normal[d] * contact.normal[d];
+  const double distance = std::sqrt(square);
+  if (distance > 0)
+    for (auto& x : contact.normal) x /= distance;
+  else
+    contact.normal[0] = 1;
+  contact.gap = distance - p.radii[index_of(pair.first)] - p.radii[index_of(pair.second)];
+  return contact;
+}
+
+/// Linearised gap D + h G v [L] after the displacements h v, a flat array [L].
+template <int D>
+double gap_after(const Contact<D>& contact, std::span<const double> displacements) {
+  const double* wj = &displacements[index_of(contact.second) * D];
+  double sum = contact.gap;
+  if (contact.first < 0) {
+    for (std::size_t d = 0; d < D; ++d) sum += contact.normal[d] * wj[d];
+  } else {
+    const double* wi = &displacements[index_of(contact.first) * D];
+    for (std::size_t d = 0; d < D; ++d) sum += contact.normal[d] * (wj[d] - wi[d]);
+  }
+  return sum;
+}
+
+/// Returns a contact that contact_of made, with its gap changed to the one that the step is to
+/// close.
+///
+/// The gap is set to 0 if it is no larger than the rounding errors of the positions and radii that
+/// it is computed from. Otherwise these errors would cause impulses m D/h, which exceed any load if
+/// the step is short. An overlap of up to `tolerated` [L] counts as gap 0: the projection keeps it
+/// from growing but does not remove it, because a packing may have no space for that, and because
+/// removing it would move particles without a force.
+template <int D>
+Contact<D> resolved(Contact<D> contact, const Particles& p, const Pair& pair,
+                    std::span<const PlanePosition> places, double tolerated) {
+  // The rounding error of the gap is taken as 4 units in the last place of the sum of the sizes.
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const auto j = index_of(pair.second);
+  double sizes = p.radii[j];
+  for (std::size_t d = 0; d < D; ++d) sizes += std::abs(p.positions[j * D + d]);
+  if (pair.first >= 0) sizes += p.radii[index_of(pair.first)];
+  const double* partner =
+      pair.first < 0 ? places[pair.plane()].point.data() : &p.positions[index_of(pair.first) * D];
+  for (std::size_t d = 0; d < D; ++d) sizes += std::abs(partner[d]);
+  if (pair.first < 0) sizes += places[pair.plane()].radius;
+  if (pair.image != 0) sizes += p.cell.lengths[0] + p.cell.lengths[1];
+  if (contact.gap < 0) {
+    contact.tolerated = std::min(tolerated, -contact.gap);
+    contact.gap += contact.tolerated;
+  }
+  if (std::abs(contact.gap) <= kRounding * sizes) contact.gap = 0;
+  return contact;
+}
+
+/// True if two particles are so far from each other that these displacements cannot close their
+/// linearised gap: |x_j - x_i| > r_i + r_j + |w|_1, where w is the relative displacement and |w|_1,
+/// the sum of its components' magnitudes, is at least its length. This test is fast, because it
+/// needs no square root and no division, and it decides for most pairs of a list.
+template <int D>
+bool cannot_close(const Particles& p, const Pair& pair, std::span<const double> displacements) {
+  const auto i = index_of(pair.first), j = index_of(pair.second);
+  const auto apart = separation<D>(p, pair.first, pair.second, pair.image);
+  double square = 0, moved = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    square += apart[d] * apart[d];
+    moved += std::abs(displacements[j * D + d] - displacements[i * D + d]);
+  }
+  // The margin is larger than the rounding errors that resolved() takes for contact.
+  constexpr double kAbove = 1 + 1e-9;
+  const double farthest = kAbove * (p.radii[i] + p.radii[j] + moved);
+  return square > farthest * farthest;
+}
+
+/// Largest tangential displacement of a pair in a step, divided by the sum of its radii, for which
+/// the linearised gap may stand for the gap. Gap and linearised gap differ by half the square of
+/// this ratio, times the sum of the radii.
+inline constexpr double kLargestTurn = 0.5;
+
+/// Displacement of the second particle relative to the first [L].
+template <int D>
+std::array<double, D> relative_displacement(const Contact<D>& contact,
+                                            std::span<const double> displacements) {
+  std::array<double, D> w{};
+  for (std::size_t d = 0; d < D; ++d)
+    w[d] = displacements[index_of(contact.second) * D + d] -
+           displacements[index_of(contact.first) * D + d];
+  return w;
+}
+
+/// True if particle `contact.second` turns about particle `contact.first` by more than kLargestTurn
+/// in the step. Always false for a plane, whose linearised gap is exact, and for a circle, of which
+/// the projection takes the tangent where the free motion ends.
+template <int D>
+bool turns_too_far(const Particles& p, const Contact<D>& contact,
+                   std::span<const double> displacements) {
+  if (contact.first < 0) return false;
+  const auto w = relative_displacement(contact, displacements);
+  double square = 0, normal = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    square += w[d] * w[d];
+    normal += w[d] * contact.normal[d];
+  }
+  const double sum = p.radii[index_of(contact.first)] + p.radii[index_of(contact.second)];
+  return square - normal * normal > kLargestTurn * kLargestTurn * sum * sum;
+}
+
+/// True if two particles touch while they move along straight lines by `displacements`. Also true
+/// for all pairs that do not turn too far: for them the linearised gap decides.
+template <int D>
+bool paths_meet(const Particles& p, const Contact<D>& contact,
+                std::span<const double> displacements) {
+  if (!turns_too_far(p, contact, displacements)) return true;
+  const auto w = relative_displacement(contact, displacements);
+  const auto apart = separation<D>(p, contact.first, contact.second, contact.image);
+  double square = 0, along = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    square += w[d] * w[d];
+    along -= w[d] * apart[d];
+  }
+  const double at = std::clamp(along / square, 0.0, 1.0);
+  double nearest = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const double x = apart[d] + at * w[d];
+    nearest += x * x;
+  }
+  const double sum = p.radii[index_of(contact.first)] + p.radii[index_of(contact.second)];
+  return nearest < sum * sum;
+}
+
+}  // namespace viscontact::particles

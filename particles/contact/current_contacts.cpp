@@ -1,0 +1,62 @@
+// Contacts and overlaps of a state, in the units of the case (current_contacts.hpp).
+#include "viscontact/particles/contact/current_contacts.hpp"
+
+#include <algorithm>
+
+#include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePosition> places) {
+  if (p.dimension == 1) return contact_of<1>(p, pair, places).gap;
+  return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
+}
+
+}  // namespace
+
+std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
+                                             const CurrentContact& contact) {
+  const auto second = particles.id(index_of(contact.second));
+  if (contact.first < 0) return {second, contact.first};
+  return {particles.id(index_of(contact.first)), second};
+}
+
+double largest_overlap(const Setting& setting, const State& state) {
+  double smallest = 0;
+  const auto& p = state.particles;
+  ThreadPool pool(1);
+  for (const auto& pair : p.cell.is_periodic()
+                              ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
+                              : close_pairs(p.dimension, p.positions, p.radii, pool))
+    smallest = std::min(smallest, gap_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
+  for (const auto& place : positions_of(obstacles_of(setting), state.time))
+    for (std::size_t k = 0; k < p.count(); ++k)
+      smallest = std::min(smallest, gap(place, p.position(k), p.radii[k]));
+  return (0 - smallest) / mean_radius(p);  // the subtraction returns 0 instead of -0
+}
+
+double largest_gamma_error(const State& state) {
+  double largest = 0;
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs) largest = std::max(largest, pair.gamma_error);
+  return largest;
+}
+
+std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state) {
+  std::vector<CurrentContact> contacts;
+  const auto& p = state.particles;
+  const auto places = positions_of(obstacles_of(setting), state.time);
+  const double touching = setting.solver.tolerance * mean_radius(p);
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs)
+      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
+        contacts.push_back(
+            {pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image});
+  return contacts;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,35 @@
+// Computes the position of a plane at a given time: a rotation about its pivot, then a translation.
+// Units are those of plane.hpp.
+#include "viscontact/particles/domain/plane.hpp"
+
+#include <cmath>
+
+namespace viscontact::particles {
+namespace {
+
+/// Vector `a` turned by `angle` [rad] about the unit vector `axis` (Rodrigues' formula).
+Vector turned(const Vector& a, const Vector& axis, double angle) {
+  const double c = std::cos(angle);
+  return c * a + std::sin(angle) * cross(axis, a) + (1 - c) * dot(axis, a) * axis;
+}
+
+}  // namespace
+
+PlanePosition Plane::at(double t) const {
+  PlanePosition place = start;
+  if (const double speed = norm(angular_velocity); speed > 0 && t > 0) {
+    const Vector axis = (1 / speed) * angular_velocity;
+    place.point = pivot + turned(start.point - pivot, axis, speed * t);
+    place.normal = turned(start.normal, axis, speed * t);
+  }
+  place.point = place.point + velocity.integral(t);
+  return place;
+}
+
+std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
+  std::vector<PlanePosition> places;
+  for (const auto& plane : planes) places.push_back(plane.at(t));
+  return places;
+}
+
+}  // namespace viscontact::particles

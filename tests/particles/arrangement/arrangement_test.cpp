@@ -1,0 +1,152 @@
+// Random arrangements: their gaps, their count, their bits, and what does not fit.
+#include "viscontact/particles/arrangement/arrangement.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "tests/common/failure.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kGap = 0.05;
+
+double shortest(double difference, double period) {
+  return period > 0 ? std::remainder(difference, period) : difference;
+}
+
+/// The smallest gap of two discs of radius 1, across periodic sides too.
+double smallest_gap(const std::vector<double>& x, const Domain& domain) {
+  const auto periods = periods_of(domain);
+  double gap = 1e300;
+  for (std::size_t i = 0; i < x.size(); i += 2)
+    for (std::size_t j = 0; j < i; j += 2)
+      gap = std::min(gap, std::hypot(shortest(x[i] - x[j], periods[0]),
+                                     shortest(x[i + 1] - x[j + 1], periods[1])) -
+                              2);
+  return gap;
+}
+
+/// The smallest gap of a disc of radius 1 and a wall; large if there is no wall.
+double smallest_gap_to_walls(const std::vector<double>& x, const Domain& domain) {
+  double gap = 1e300;
+  for (std::size_t i = 0; i < x.size(); i += 2) {
+    if (const auto* disc = std::get_if<DiscDomain>(&domain)) {
+      gap = std::min(
+          gap, disc->radius - 1 - std::hypot(x[i] - disc->centre[0], x[i + 1] - disc->centre[1]));
+      continue;
+    }
+    const auto& box = std::get<BoxDomain>(domain);
+    for (const std::size_t d : {0U, 1U}) {
+      EXPECT_GE(x[i + d], box.from[d]);
+      EXPECT_LE(x[i + d], box.to[d]);
+      if (!box.periodic[d])
+        gap = std::min({gap, x[i + d] - box.from[d] - 1, box.to[d] - x[i + d] - 1});
+    }
+  }
+  return gap;
+}
+
+const std::vector<Domain>& domains() {
+  static const std::vector<Domain> all = {
+      BoxDomain{{-3, 5}, {17, 25}, {true, true}}, BoxDomain{{0, 0}, {30, 14}, {true, false}},
+      BoxDomain{{0, 0}, {20, 20}, {false, false}}, DiscDomain{{2, -1}, 10},
+      BoxDomain{{0, 0}, {5, 5}, {true, true}}};
+  return all;
+}
+
+TEST(Arrangement, HasItsGapsInEachDomainUpToTheAreaFraction06) {
+  for (const auto& domain : domains())
+    for (const double fraction : {0.02, 0.3, 0.5, 0.6})
+      for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const auto count = count_of(fraction, 1, domain);
+        const auto x = arrange({count, 1, kGap, seed}, domain, {});
+        ASSERT_EQ(x.size(), 2 * count);
+        // The test computes distances in another order, with other rounding errors.
+        EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13) << fraction << " " << seed;
+        EXPECT_GE(smallest_gap_to_walls(x, domain), kGap - 1e-13) << fraction << " " << seed;
+      }
+}
+
+TEST(Arrangement, IsDecidedByItsSeed) {
+  const auto& domain = domains()[0];
+  const auto one = arrange({64, 1, kGap, 1}, domain, {});
+  EXPECT_EQ(arrange({64, 1, kGap, 1}, domain, {}), one);
+  EXPECT_NE(arrange({64, 1, kGap, 2}, domain, {}), one);
+}
+
+TEST(Arrangement, HasTheSameBitsOnEveryMachine) {
+  const auto x = arrange({64, 1, kGap, 1}, domains()[0], {});
+  EXPECT_EQ(sha256({reinterpret_cast<const char*>(x.data()), x.size() * sizeof(double)}),
+            "e66ec1fb135deca48cf7587e436930724ff0e6af2557178f6d13409944d9390f");
+}
+
+TEST(Arrangement, LeavesTheGapsToPresentParticles) {
+  const auto& domain = domains()[3];
+  Particles present;
+  present.positions = {2, -1};
+  present.radii = {5};
+  const auto x = arrange({25, 1, kGap, 1}, domain, present);
+  for (std::size_t i = 0; i < x.size(); i += 2)
+    EXPECT_GE(std::hypot(x[i] - 2, x[i + 1] + 1), 6 + kGap - 1e-13);
+  EXPECT_GE(smallest_gap(x, domain), kGap - 1e-13);
+}
+
+TEST(Arrangement, CountIsTheNearestToTheFraction) {
+  const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
+  EXPECT_EQ(count_of(0.5, 1, box), 64U);  // 63.66
+  EXPECT_EQ(count_of(0.3, 1, box), 38U);  // 38.20
+  EXPECT_EQ(count_of(0.3, 2, box), 10U);  // 9.55
+  EXPECT_EQ(count_of(1e-6, 1, box), 1U);
+  EXPECT_EQ(count_of(0.3, 1, DiscDomain{{}, 10}), 30U);
+  EXPECT_DOUBLE_EQ(area_of(DiscDomain{{}, 10}), 100 * std::numbers::pi);
+}
+
+TEST(Arrangement, IsUniformInAPeriodicBox) {
+  // Each quarter of a periodic box has a quarter of all centres on average. The number of 64 discs
+  // in a quarter varies by less than that of independent points, sqrt(64 * 3/16) = 3.5; the mean
+  // over 100 seeds is therefore within 4 * 0.35 of 16.
+  const Domain box = BoxDomain{{0, 0}, {20, 20}, {true, true}};
+  double first = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const auto x = arrange({64, 1, kGap, seed}, box, {});
+    for (std::size_t i = 0; i < x.size(); i += 2) first += x[i] < 10 && x[i + 1] < 10 ? 1 : 0;
+  }
+  EXPECT_NEAR(first / 100, 16, 1.4);
+}
+
+TEST(Arrangement, OfTwoDiscsHasAllPlacesEquallyOften) {
+  // Two discs in a periodic box: all places with a gap are equally likely, so the share of seeds in
+  // which the centres are closer than s is (s^2 - d^2) pi/(A - pi d^2), d = 2.05. At s = 4, A = 100
+  // it is 0.427; 1000 seeds give it with the standard deviation 0.016.
+  const Domain box = BoxDomain{{0, 0}, {10, 10}, {true, true}};
+  int close = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed)
+    close += smallest_gap(arrange({2, 1, kGap, seed}, box, {}), box) < 2 ? 1 : 0;
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(close / 1000.0, (16 - 2.05 * 2.05) * pi / (100 - pi * 2.05 * 2.05), 4 * 0.016);
+}
+
+TEST(Arrangement, WhatDoesNotFitIsRefused) {
+  const auto refused = [](const Arrangement& asked, const Domain& domain) {
+    return bad_input([&] { arrange(asked, domain, {}); });
+  };
+  const Domain box = BoxDomain{{0, 0}, {20, 20}, {}};
+  EXPECT_THAT(refused({110, 1, kGap, 1}, box), HasSubstr("the densest lattice has no room"));
+  EXPECT_THAT(refused({95, 1, 0, 1}, BoxDomain{{0, 0}, {2.1, 180}, {}}),
+              HasSubstr("95 discs of radius 1 with gaps of at least 0 do not fit (10 random"));
+  EXPECT_THAT(refused({1, 1, kGap, 1}, DiscDomain{{}, 1.04}), HasSubstr("narrower than one disc"));
+  EXPECT_THAT(refused({1, 1, kGap, 1}, BoxDomain{{0, 0}, {2.04, 9}, {true, true}}),
+              HasSubstr("a period is shorter than one disc"));
+}
+
+}  // namespace
+}  // namespace viscontact::particles

@@ -1,0 +1,248 @@
+// Periodic domains: images of particles, positions in the cell, pairs across the sides and their
+// memory, and restarts.
+#include "viscontact/particles/domain/periods.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "tests/common/failure.hpp"
+#include "tests/common/temporary_folder.hpp"
+#include "tests/particles/systems.hpp"
+#include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particles/neighbours/close_pairs.hpp"
+#include "viscontact/particles/neighbours/neighbour_list.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+BoxDomain box(double width, double height, bool along_x, bool along_y) {
+  return {{-1, 2}, {-1 + width, 2 + height}, {along_x, along_y}};
+}
+
+TEST(Periods, NumbersOfImagesGiveTheirShifts) {
+  const auto cell = cell_of(box(4, 3, true, true));
+  EXPECT_EQ(shift_of(cell, 0), (Vector{0, 0, 0}));
+  std::set<std::int32_t> numbers;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      const auto image = image_number(x, y);
+      EXPECT_EQ(image, (x + 1) + 3 * (y + 1) - 4);
+      EXPECT_EQ(shift_of(cell, image), (Vector{4.0 * x, 3.0 * y, 0}));
+      numbers.insert(image);
+    }
+  EXPECT_EQ(numbers.size(), 9U);
+}
+
+TEST(Periods, BringACoordinateIntoTheCell) {
+  const auto cell = cell_of(box(4, 3, true, false));
+  EXPECT_EQ(periods_beyond(cell, 0, -1), 0);
+  EXPECT_EQ(periods_beyond(cell, 0, 3), 1);
+  EXPECT_EQ(periods_beyond(cell, 0, -1.5), -1);
+  EXPECT_EQ(periods_beyond(cell, 0, 11.5), 3);
+  EXPECT_EQ(periods_beyond(cell, 0, std::nextafter(-1.0, -2.0)), 0);  // but for rounding inside
+  EXPECT_EQ(periods_beyond(cell, 1, 100), 0);
+}
+
+/// All close pairs by definition, for every image.
+std::vector<ClosePair> all_close_pairs(const PeriodicCell& cell, const std::vector<double>& x,
+                                       const std::vector<double>& extents) {
+  std::vector<ClosePair> pairs;
+  const auto count = static_cast<std::int32_t>(extents.size());
+  for (std::int32_t i = 0; i < count; ++i)
+    for (std::int32_t j = i + 1; j < count; ++j)
+      for (std::int32_t image = -kLargestImage; image <= kLargestImage; ++image) {
+        const Vector shift = shift_of(cell, image);
+        const auto a = index_of(i), b = index_of(j);
+        if (image != 0 && norm(shift) == 0) continue;
+        if (cell.lengths[0] == 0 && periods_of_image(image)[0] != 0) continue;
+        if (cell.lengths[1] == 0 && periods_of_image(image)[1] != 0) continue;
+        if (std::hypot(x[2 * b] + shift[0] - x[2 * a], x[2 * b + 1] + shift[1] - x[2 * a + 1]) <
+            extents[a] + extents[b])
+          pairs.push_back({i, j, image});
+      }
+  return pairs;
+}
+
+TEST(ClosePairsInPeriod, AreThoseOfTheDefinition) {
+  Random random(3);
+  ThreadPool pool(1);
+  for (const auto& [along_x, along_y] : {std::pair(true, true), {true, false}, {false, true}}) {
+    const auto cell = cell_of(box(7, 5, along_x, along_y));
+    std::vector<double> x, extents;
+    for (int k = 0; k < 60; ++k) {
+      // Up to a tenth of a period outside the cell.
+      x.push_back(random.uniform(-1.7, 6.7));
+      x.push_back(random.uniform(1.5, 7.5));
+      extents.push_back(random.decades(-1.5, 0.3));
+    }
+    const auto expected = all_close_pairs(cell, x, extents);
+    EXPECT_EQ(close_pairs_in_period(cell, x, extents, pool), expected);
+    EXPECT_GT(std::ranges::count_if(expected, [](const auto& pair) { return pair.image != 0; }),
+              10);
+  }
+}
+
+TEST(ClosePairsInPeriod, ListTwoImagesOfOneParticle) {
+  ThreadPool pool(1);
+  const auto cell = cell_of(box(4, 100, true, false));
+  EXPECT_EQ(close_pairs_in_period(cell, std::vector<double>{0, 3, 2, 3},
+                                  std::vector<double>{1.1, 1.1}, pool),
+            (std::vector<ClosePair>{{0, 1, -1}, {0, 1, 0}}));
+}
+
+/// One simulation of the motion with a period and one in which all is shifted by `shift`: the
+/// sides of the cell are nothing that the motion sees.
+Simulation lively_discs(const Vector& shift) {
+  Setting setting;
+  setting.domain = box(12, 11, true, true);
+  setting.law.gamma_min = -0.5;
+  setting.time_step = 0.02;
+  Random random(11);
+  State state = random_cloud(
+      2, 30, 8, [&] { return random.uniform(0.4, 0.6); }, random);
+  auto& p = state.particles;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    for (std::size_t d = 0; d < 2; ++d) {
+      p.positions[2 * k + d] += 4 + shift[d];
+      p.velocities[2 * k + d] = random.uniform(-1, 1);
+    }
+  return {setting, state, 1};
+}
+
+TEST(PeriodicSimulation, DoesNotSeeTheSidesOfTheCell) {
+  auto here = lively_discs({});
+  auto there = lively_discs({5.5, 3.25, 0});
+  run(here, 2);
+  run(there, 2);
+  const auto &p = here.state().particles, &q = there.state().particles;
+  std::size_t across = 0;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double x = q.positions[2 * k + d] - (d == 0 ? 5.5 : 3.25) - p.positions[2 * k + d];
+      const double period = d == 0 ? 12 : 11;
+      // Collisions make rounding errors grow.
+      EXPECT_NEAR(std::remainder(x, period), 0, 1e-8) << k;
+      EXPECT_NEAR(q.velocities[2 * k + d], p.velocities[2 * k + d], 1e-7) << k;
+      if (std::abs(x) > period / 2) ++across;
+    }
+    EXPECT_GE(p.positions[2 * k], -1);
+    EXPECT_LT(p.positions[2 * k], 11);
+    EXPECT_GE(p.positions[2 * k + 1], 2);
+    EXPECT_LT(p.positions[2 * k + 1], 13);
+  }
+  EXPECT_GT(across, 5U);
+}
+
+TEST(PeriodicSimulation, KeepsMomentumAndGapsAcrossTheSides) {
+  auto simulation = lively_discs({});
+  const Vector before = momentum(simulation.state().particles);
+  std::size_t glued_across = 0;
+  run(simulation, 4, [&](const StepReport& report) {
+    ASSERT_TRUE(report.converged);
+    ASSERT_LT(largest_overlap(simulation.setting(), simulation.state()), 2e-6);
+    for (const auto& pair : simulation.state().pairs)
+      if (pair.gamma < 0 && pair.image != 0) ++glued_across;
+  });
+  EXPECT_LT(norm(momentum(simulation.state().particles) - before), 1e-12);
+  EXPECT_GT(glued_across, 10U);
+}
+
+/// Two discs that are pressed together, fly across a side and are pulled apart there: the film
+/// keeps its gamma when the positions are wrapped, first those of one disc, then of the other.
+TEST(PeriodicSimulation, KeepsGammaWithThePair) {
+  Setting setting;
+  setting.domain = box(20, 20, true, false);
+  setting.law.gamma_min = -100;
+  setting.time_step = 0.25;
+  State state = no_particles(2);
+  add_particle(state, {15, 10, 0}, 1, 1, {2, 0, 0});
+  add_particle(state, {17.5, 10, 0}, 1, 1, {1, 0, 0});
+  Simulation simulation(setting, state, 1);
+  std::set<std::int32_t> images;
+  run(simulation, 6, [&](const StepReport&) {
+    const auto& pairs = simulation.state().pairs;
+    ASSERT_EQ(pairs.size(), 1U);
+    if (simulation.state().time < 0.6) return;
+    images.insert(pairs[0].image);
+    EXPECT_NEAR(pairs[0].gamma, -0.5, 1e-9);  // half of the relative momentum
+    EXPECT_NEAR(contacts_of(simulation.setting(), simulation.state()).at(0).gap, 0, 1e-12);
+  });
+  EXPECT_THAT(images, ::testing::ElementsAre(0, 1));
+  EXPECT_NEAR(simulation.state().particles.positions[0], 15 + 1.5 * 6 - 20 + 0.25, 0.3);
+}
+
+TEST(PeriodicSimulation, TwoImagesOfOneParticleTouchAnother) {
+  // A disc lies on the floor, and another one falls between it and its image.
+  Setting setting;
+  setting.domain = box(4.2, 50, true, false);
+  setting.law.gamma_min = 0;
+  setting.gravity = {0, -1, 0};
+  setting.time_step = 0.05;
+  State state = no_particles(2);
+  add_particle(state, {0, 3.2, 0}, 1.2, 1);
+  add_particle(state, {2.1, 6, 0}, 1.2, 1);
+  Simulation simulation(setting, state, 1);
+  run(simulation, 20, [&](const StepReport& report) { ASSERT_TRUE(report.converged); });
+  const auto& s = simulation.state();
+  ASSERT_EQ(std::ranges::count_if(s.pairs, [](const Pair& pair) { return pair.impulse > 0; }), 2);
+  // Each of the two contacts carries half of the weight h m g of the upper disc along the vertical.
+  const double height = std::sqrt(2.4 * 2.4 - 2.1 * 2.1);
+  EXPECT_NEAR(s.particles.positions[3] - s.particles.positions[1], height, 1e-5);
+  for (const auto& pair : s.pairs) {
+    if (pair.impulse > 0) {
+      EXPECT_NEAR(pair.impulse, 0.05 / 2 * 2.4 / height, 1e-6);
+    }
+  }
+}
+
+TEST(PeriodicSimulation, ContinuesFromARestartWithTheSameBits) {
+  auto whole = lively_discs({});
+  run(whole, 2);
+  auto half = lively_discs({});
+  run(half, 1);
+  TemporaryFolder folder;
+  const auto file = folder.file("restart.bin", write_restart(half.state()));
+  const auto state = read_restart(file);
+  EXPECT_EQ(state.pairs, half.state().pairs);
+  EXPECT_TRUE(std::ranges::any_of(state.pairs, [](const Pair& pair) { return pair.image != 0; }));
+  Simulation rest(whole.setting(), state, 1);
+  run(rest, 2);
+  EXPECT_EQ(write_restart(rest.state()), write_restart(whole.state()));
+}
+
+TEST(PeriodicSimulation, RefusesStepsOfHalfAPeriod) {
+  auto simulation = lively_discs({});
+  auto setting = simulation.setting();
+  setting.time_step = 10;
+  Simulation fast(setting, simulation.state(), 1);
+  EXPECT_THAT(failure(ErrorKind::kNotConverged, [&] { fast.step(1e300); }),
+              ::testing::HasSubstr("period of 11; make the time step shorter"));
+}
+
+TEST(Wrapping, ChangesImagesSoThatSeparationsStay) {
+  State state = no_particles(2);
+  add_particle(state, {10.75, 5, 0}, 1, 1);
+  add_particle(state, {-0.75, 5, 0}, 1, 1);
+  state.particles.cell = cell_of(box(12, 9, true, true));
+  state.pairs = {{0, 1, -2, 0.5, 1e-3, 1}};
+  state.positions_at_listing = {10, 5, -1, 5};
+  const auto before = separation<2>(state.particles, 0, 1, 1);
+  state.particles.positions[0] += 0.5;
+  state.particles.positions[2] += 0.5;
+  wrap_into_cell(state);
+  EXPECT_EQ(state.particles.positions[0], -0.75);
+  EXPECT_EQ(state.positions_at_listing, (std::vector<double>{-2, 5, -1, 5}));
+  EXPECT_EQ(state.pairs[0], (Pair{0, 1, -2, 0.5, 1e-3, 0}));
+  EXPECT_EQ(separation<2>(state.particles, 0, 1, 0), before);
+}
+
+}  // namespace
+}  // namespace viscontact::particles

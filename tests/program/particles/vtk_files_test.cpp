@@ -1,0 +1,114 @@
+// VTK, and so ParaView, reads the frames that `viscontact particles` writes, with the numbers of the
+// other results.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// What VTK reads, by name.
+std::map<std::string, std::vector<double>> read_by_vtk(const fs::path& file) {
+  // Debian's python3, for which python3-vtk9 is.
+  const std::string command = "/usr/bin/python3 " VISCONTACT_SOURCE_FOLDER
+                              "/tests/program/particles/read_vtk.py " +
+                              file.string() + " > " + file.string() + ".txt 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << read_file(file.string() + ".txt");
+  std::map<std::string, std::vector<double>> read;
+  std::istringstream lines(read_file(file.string() + ".txt"));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name, kind;
+    words >> name;
+    if (name == "cell") {
+      words >> kind;
+      name = kind;
+    }
+    auto& values = read[name];
+    for (double value = 0; words >> value;) values.push_back(value);
+  }
+  return read;
+}
+
+TEST_F(ParticlesCommand, VtkReadsTheFrames) {
+  expect_done(run(put_case(kCase), out()));
+  const auto end = particles::read_particles(out() / "final_particles.csv", 2).particles;
+  const auto frame = read_by_vtk(out() / "particles_00020.vtp");
+  EXPECT_EQ(frame.at("radius"), end.radii);
+  EXPECT_EQ(frame.at("id"), (std::vector<double>{0, 1, 2}));
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_EQ(frame.at("points")[3 * k + d], end.position(k)[d]);
+      EXPECT_EQ(frame.at("velocity")[3 * k + d], end.velocity(k)[d]);
+    }
+  // Vertices of the three on the floor, then the line between those that touch; as in
+  // final_contacts.csv.
+  EXPECT_EQ(frame.at("vtkVertex"), (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(frame.at("vtkLine"), (std::vector<double>{0, 2}));
+  EXPECT_EQ(frame.at("i"), (std::vector<double>{0, 1, 2, 0}));
+  EXPECT_EQ(frame.at("j"), (std::vector<double>{-1, -1, -1, 2}));
+  EXPECT_EQ(frame.at("gamma").size(), 4U);
+  EXPECT_EQ(frame.at("gap").size(), 4U);
+  const auto series = read_file(out() / "particles.pvd");
+  EXPECT_THAT(series, AllOf(HasSubstr("timestep=\"0\""), HasSubstr("timestep=\"10\""),
+                            HasSubstr("file=\"particles_00020.vtp\"")));
+}
+
+// One disc that is driven along x in a round container.
+TEST_F(ParticlesCommand, VtkReadsTheFlow) {
+  expect_done(run(put_case(R"(title = "A driven disc"
+[space]
+dimension = 2
+[viscous_contact]
+time_step = 0.1
+end_time = 0.1
+[fluid]
+viscosity = 1.0
+edges_per_particle = 12
+[domain]
+disc = { radius = 4.0 }
+[[particle]]
+centre = [0.0, 0.0]
+radius = 1.0
+mass = 0.0
+velocity_given = { value = [1.0, 0.0] }
+)"),
+                  out()));
+  const auto flow = particles::read_flow(out() / "flow_00000.vtu");
+  const auto read = read_by_vtk(out() / "flow_00000.vtu");
+  const auto nodes = flow.x.size();
+  ASSERT_EQ(read.at("points").size(), 3 * nodes);
+  std::size_t on_disc = 0;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    EXPECT_EQ(read.at("points")[3 * k], flow.x[k]);
+    EXPECT_EQ(read.at("points")[3 * k + 1], flow.y[k]);
+    EXPECT_EQ(read.at("velocity")[3 * k], flow.velocity_x[k]);
+    EXPECT_EQ(read.at("velocity")[3 * k + 1], flow.velocity_y[k]);
+    EXPECT_EQ(read.at("pressure")[k], flow.pressure[k]);
+    if (std::hypot(flow.x[k], flow.y[k]) > 1.001) continue;
+    ++on_disc;
+    EXPECT_NEAR(read.at("velocity")[3 * k], 1, 1e-12);
+  }
+  EXPECT_GE(on_disc, 12U);
+  EXPECT_EQ(read.at("vtkQuadraticTriangle").size(), 6 * flow.triangles.size());
+  // The domain is covered once: the area of VTK's triangles, whose sides are curved, is pi R^2.
+  double area = 0;
+  for (const double part : read.at("areas")) area += part;
+  EXPECT_NEAR(area, 16 * std::acos(-1.0), 0.02);
+}
+
+}  // namespace
+}  // namespace viscontact
