@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/particles/periods.hpp"
 #include "viscontact/report/flow/triangle_fields.hpp"
 
 namespace viscontact::report {
