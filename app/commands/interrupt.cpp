@@ -15,6 +15,18 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void remember_signal(int) { signal_came = true; }
 
+// Whether the program was started with SIGHUP ignored, as nohup does. main() comes too late to ask:
+// libraries set handlers while they are loaded, such as the MPI that SUNDIALS of Debian 13 brings.
+// What is in .preinit_array runs before all libraries.
+bool hangup_is_ignored = false;
+
+void look_at_hangup() {
+  struct sigaction action = {};
+  hangup_is_ignored = sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+[[gnu::used, gnu::section(".preinit_array")]] void (*const kLookFirst)() = look_at_hangup;
+
 }  // namespace
 
 void catch_interrupts() {
@@ -23,8 +35,9 @@ void catch_interrupts() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  struct sigaction before = {};
-  if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+  if (hangup_is_ignored)
+    std::signal(SIGHUP, SIG_IGN);
+  else
     sigaction(SIGHUP, &action, nullptr);
   // With SIGXFSZ ignored, a limit on the size of files makes a write fail with an error, which is
   // reported, instead of ending the process.

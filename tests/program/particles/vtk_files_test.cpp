@@ -104,10 +104,11 @@ velocity_given = { value = [1.0, 0.0] }
   }
   EXPECT_GE(on_disc, 12U);
   EXPECT_EQ(read.at("vtkQuadraticTriangle").size(), 6 * flow.triangles.size());
-  // The domain is covered once: the area of VTK's triangles, whose sides are curved, is pi R^2.
+  // The domain is covered once. VTK measures each triangle by four straight ones, which leave out
+  // 0.04 at the wall; without the disc the area would be smaller by pi.
   double area = 0;
   for (const double part : read.at("areas")) area += part;
-  EXPECT_NEAR(area, 16 * std::acos(-1.0), 0.02);
+  EXPECT_NEAR(area, 16 * std::acos(-1.0), 0.1);
 }
 
 }  // namespace

@@ -119,6 +119,7 @@ TEST_F(ParticlesSweepTest, RowNamesTheFilesOfAFluidSolverWhereTheyAre) {
   put_text(path("case.toml"),
            small_particles_case(
                "[fluid]\nviscosity = 1.0\nsolver = [\"python3\", \"my_solver.py\", \"--fast\"]\n"));
+  make_folder(path("elsewhere"));
   put_text(path("elsewhere/row.toml"), ParticlesSweep(plan_).case_text(0));
   const auto row = case_file::read_particles_case(path("elsewhere/row.toml"));
   EXPECT_EQ(row.setting.fluid->solver,
