@@ -1,12 +1,24 @@
-# Writes a C++ file OUTPUT whose functions, declared in HEADER, return the texts of files:
-#   cmake -D OUTPUT=... -D HEADER=... "-D TEXTS=name=file|name=file" -P embed_texts.cmake
-set(code "// Generated from files by report/embed_texts.cmake.\n#include \"${HEADER}\"\n\nnamespace viscontact::report {\n")
+# Writes a C++ file OUTPUT whose functions, declared in HEADER, return the texts of files in FOLDER:
+#   cmake -D OUTPUT=... -D HEADER=... -D FOLDER=... "-D TEXTS=name=file|name=file,file" -P THIS
+# Several files with one name are a script. They are joined within one function of JavaScript, so
+# that they share their names, and no other script of the page sees these.
+set(code "// Generated from files by report/embed_texts.cmake.\n")
+string(APPEND code "#include \"${HEADER}\"\n\nnamespace viscontact::report {\n")
 string(REPLACE "|" ";" pairs "${TEXTS}")
 foreach(pair IN LISTS pairs)
   string(REPLACE "=" ";" parts "${pair}")
   list(GET parts 0 name)
-  list(GET parts 1 file)
-  file(READ "${file}" text)
+  list(GET parts 1 files)
+  string(REPLACE "," ";" files "${files}")
+  set(text "")
+  foreach(file IN LISTS files)
+    file(READ "${FOLDER}/${file}" part)
+    string(APPEND text "${part}")
+  endforeach()
+  list(LENGTH files count)
+  if(count GREATER 1)
+    set(text "'use strict';\n(() => {\n${text}})();\n")
+  endif()
   string(APPEND code "std::string_view ${name}() {\n  return R\"EMBEDDED(${text})EMBEDDED\";\n}\n")
 endforeach()
 string(APPEND code "}  // namespace viscontact::report\n")

@@ -1,4 +1,4 @@
-// The texts of the files in report/page and report/particles/page, which are built into the
+// The scripts and styles in report/page and report/particles/page, which are built into the
 // executable (report/embed_texts.cmake). report/CMakeLists.txt lists the same names with the files.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Writes the report: tables, warnings, plots and provenance. gnuplot draws the plots as still
-// pictures, and report/page/report.js draws them so that they can be zoomed. kPlotNames must
+// pictures, and report/page/panels.js draws them so that they can be zoomed. kPlotNames must
 // contain the name of every plot, because it decides which files in plots/ may be replaced or
 // removed.
 #include "viscontact/report/report.hpp"
@@ -84,7 +84,7 @@ std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure,
   return pictures;
 }
 
-/// The pictures with these names as HTML. Each has the data from which report.js draws a plot that
+/// The pictures with these names as HTML. Each has the data from which panels.js draws a plot that
 /// can be zoomed, and a still picture for browsers without scripts and for printing.
 std::string figures(const std::vector<Picture>& pictures,
                     std::initializer_list<std::string_view> names) {

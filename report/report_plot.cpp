@@ -1,5 +1,5 @@
 // Translates a plot into panels of gnuplot and into JSON. The keys of the JSON and the names of
-// kinds of points must agree with report/page/report.js.
+// kinds of points must agree with the scripts in report/page.
 #include "viscontact/report/report_plot.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ std::string doubled_percent(const std::string& text) {
 
 constexpr int kWidth = 860;  // [pixels]
 
-/// The names that gnuplot (pointtype) and report.js have for a kind of point. The rows must be in
+/// The names that gnuplot (pointtype) and curves.js have for a kind of point. The rows must be in
 /// the order of PointKind.
 struct PointName {
   PointKind kind;

@@ -1,5 +1,5 @@
 // A plot of the report as data. Both the still picture (gnuplot) and the plot that can be zoomed
-// (report/page/report.js) are made from it, so both must understand every member.
+// (report/page/panels.js) are made from it, so both must understand every member.
 #pragma once
 
 #include <optional>
@@ -62,7 +62,7 @@ bool shows_something(const Plot& plot);
 /// The plot as an SVG element by gnuplot. Throws Error(kExternalProgram) as draw_svg does.
 std::string svg_of(const Plot& plot, const StopToken& stop = {});
 
-/// The plot as JSON for report/page/report.js; the text may stand in a script element.
+/// The plot as JSON for report/page/panels.js; the text may stand in a script element.
 std::string json_of(const Plot& plot);
 
 }  // namespace viscontact::report

@@ -1,5 +1,5 @@
 // Chooses the frames, particles and contacts that fit into the page, and encodes them. The format
-// must agree with report/particles/page/particles.js, which reads it.
+// must agree with report/particles/page/motion.js, which reads it.
 #include "viscontact/report/particles/page_data.hpp"
 
 #include <openssl/evp.h>

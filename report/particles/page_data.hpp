@@ -1,5 +1,5 @@
 // The data of the page that plays a motion of particles, as binary numbers in the units of the
-// case. A change must agree with report/particles/page/particles.js, which reads them.
+// case. A change must agree with report/particles/page/motion.js, which reads them.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct PageData {
   std::vector<std::pair<const char*, Bytes>> blocks{};
 };
 
-/// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and encodes
-/// them. If even two frames are too large, the contacts are left out.
+/// Chooses as many frames as fit into a page of 24 MB, of which `other_bytes` are taken, and
+/// encodes them. If even two frames are too large, the contacts are left out.
 PageData page_data(const particles::Playback& playback, double lowest_gamma,
                    std::size_t other_bytes = 0);
 

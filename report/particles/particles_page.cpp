@@ -1,5 +1,6 @@
 // Writes the HTML of the page: words, controls, scale of gamma, and the data in blocks of base64.
-// The keys of the JSON and the ids of elements must agree with report/particles/page/particles.js.
+// The keys of the JSON and the ids of elements must agree with the scripts in
+// report/particles/page.
 #include "viscontact/report/particles/particles_page.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +23,8 @@ using particles::Playback;
 
 constexpr int kPageColours = 24;
 
-/// The JSON and the blocks of numbers that the script reads. `box` is the part that is seen at first.
+/// The JSON and the blocks of numbers that the script reads. `box` is the part that is seen at
+/// first.
 std::string data_of(const Playback& playback, const PageData& data, double lowest,
                     const ViewBox& box, const FlowOfPage& flow, bool has_axis) {
   std::string colours;

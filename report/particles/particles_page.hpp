@@ -1,5 +1,5 @@
-// A web page that plays a motion of particles (report/particles/page/particles.js). The layout of
-// its data must be changed here and in that script together.
+// A web page that plays a motion of particles by the scripts in report/particles/page. The layout
+// of its data must be changed here and in those scripts together.
 #pragma once
 
 #include <string>

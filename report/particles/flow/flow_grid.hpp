@@ -34,8 +34,8 @@ struct Grid {
 /// A grid with about `points` points, which are about as far apart along x as along y.
 Grid grid_of(const Window& window, std::size_t points);
 
-/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom, each
-/// row from the left; NaN where the flow has no triangle.
+/// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,
+/// each row from the left; NaN where the flow has no triangle.
 struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };

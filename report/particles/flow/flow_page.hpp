@@ -11,13 +11,13 @@
 
 namespace viscontact::report {
 
-/// The largest size of the flow in a page, before it is written in base64 [bytes], about: the points
-/// of all flows together, at one byte for the speed and one for the pressure. The streamlines add
-/// about a tenth.
+/// The largest size of the flow in a page, before it is written in base64 [bytes], about: the
+/// points of all flows together, at one byte for the speed and one for the pressure. The
+/// streamlines add about a tenth.
 inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 
-/// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are many,
-/// and the number of points of the grid of each.
+/// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are
+/// many, and the number of points of the grid of each.
 struct ShownFlows {
   std::vector<std::size_t> frames;
   std::size_t points = 0;

@@ -7,8 +7,8 @@
 
 namespace viscontact::report {
 
-/// The colour "#rrggbb" for share = speed / top speed from 0 (nearly white) to 1 (blue). The colours
-/// are evenly spaced in lightness, and dark lines can be seen on all of them.
+/// The colour "#rrggbb" for share = speed / top speed from 0 (nearly white) to 1 (blue). The
+/// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
 std::string speed_colour(double share);
 
 /// Round speeds from 0 to `top` > 0 for the scale, with their texts.

@@ -22,7 +22,8 @@ double distance(const Polyline::value_type& p, const Polyline::value_type& a,
   return length > 0 ? std::abs(x * py - y * px) / length : std::hypot(px, py);
 }
 
-/// The line without the points that are less than `tolerance` away from it (Douglas & Peucker 1973).
+/// The line without the points that are less than `tolerance` away from it (Douglas & Peucker
+/// 1973).
 Polyline simplified(const Polyline& line, double tolerance) {
   if (line.size() < 3) return line;
   std::vector<char> is_kept(line.size(), 0);

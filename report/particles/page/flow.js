@@ -1,6 +1,6 @@
 // Draws the flow behind the particles: speed or pressure as an image of a grid, and streamlines.
 // report/particles/flow/flow_page.cpp writes the data; their layout must be changed there and here
-// together. The script of the page (particles.js) calls viscontactFlow.
+// together. report/particles/page/picture.js calls viscontactFlow.
 'use strict';
 const viscontactFlow = (() => {
   const kNothing = 255, kLevels = 254;  // level of a point without flow; highest level
@@ -12,20 +12,25 @@ const viscontactFlow = (() => {
   function tableOf(colours) {
     const nodes = colours.map(rgb), table = [];
     for (let level = 0; level <= kLevels; ++level) {
-      const place = level / kLevels * (nodes.length - 1), i = Math.min(nodes.length - 2, Math.floor(place));
+      const place = level / kLevels * (nodes.length - 1);
+      const i = Math.min(nodes.length - 2, Math.floor(place));
       table.push(nodes[i].map((c, k) => c + (place - i) * (nodes[i + 1][k] - c)));
     }
     return table;
   }
 
   /**
-   * `bytes` returns the block of numbers with an id. `toPage` gives the place {x, y} of a point on the
-   * canvas. The result draws the flow that is nearest to a time.
+   * `bytes` returns the block of numbers with an id. `toPage` gives the place {x, y} of a point on
+   * the canvas. The result draws the flow that is nearest to a time.
    */
   return (settings, bytes, toPage) => {
     const [left, right, bottom, top] = settings.window, {columns, rows} = settings;
-    const times = new Float64Array(bytes('flow-times')), offsets = new Uint32Array(bytes('flow-offsets'));
-    const levels = {speed: new Uint8Array(bytes('flow-speed')), pressure: new Uint8Array(bytes('flow-pressure'))};
+    const times = new Float64Array(bytes('flow-times'));
+    const offsets = new Uint32Array(bytes('flow-offsets'));
+    const levels = {
+      speed: new Uint8Array(bytes('flow-speed')),
+      pressure: new Uint8Array(bytes('flow-pressure')),
+    };
     const numbers = new Uint16Array(bytes('flow-lines'));
     const tables = {speed: tableOf(settings.speed), pressure: tableOf(settings.pressure)};
     const image = document.createElement('canvas'), brush = image.getContext('2d');
@@ -35,7 +40,8 @@ const viscontactFlow = (() => {
 
     function nearest(time) {
       let best = 0;
-      for (let i = 1; i < times.length; ++i) if (Math.abs(times[i] - time) < Math.abs(times[best] - time)) best = i;
+      for (let i = 1; i < times.length; ++i)
+        if (Math.abs(times[i] - time) < Math.abs(times[best] - time)) best = i;
       return best;
     }
 
@@ -45,7 +51,8 @@ const viscontactFlow = (() => {
       const pixels = brush.createImageData(columns, rows), first = flow * columns * rows;
       for (let row = 0; row < rows; ++row)
         for (let column = 0; column < columns; ++column) {
-          const level = levels[field][first + (rows - 1 - row) * columns + column], at = 4 * (row * columns + column);
+          const level = levels[field][first + (rows - 1 - row) * columns + column];
+          const at = 4 * (row * columns + column);
           if (level === kNothing) continue;
           const colour = tables[field][level];
           for (let k = 0; k < 3; ++k) pixels.data[at + k] = colour[k];
@@ -62,11 +69,16 @@ const viscontactFlow = (() => {
       let at = offsets[flow];
       for (let count = numbers[at++]; count > 0; --count) {
         const points = numbers[at], arrow = numbers[at + 1], first = at + 2;
-        const x = i => origin.x + scaleX * numbers[first + 2 * i], y = i => origin.y + scaleY * numbers[first + 2 * i + 1];
+        const x = i => origin.x + scaleX * numbers[first + 2 * i];
+        const y = i => origin.y + scaleY * numbers[first + 2 * i + 1];
         path.moveTo(x(0), y(0));
-        for (let i = 1; i + 1 < points; ++i) path.quadraticCurveTo(x(i), y(i), (x(i) + x(i + 1)) / 2, (y(i) + y(i + 1)) / 2);
+        for (let i = 1; i + 1 < points; ++i)
+          path.quadraticCurveTo(x(i), y(i), (x(i) + x(i + 1)) / 2, (y(i) + y(i + 1)) / 2);
         path.lineTo(x(points - 1), y(points - 1));
-        if (arrow !== kNoArrow) addArrow(arrows, x(arrow), y(arrow), x(arrow) - x(arrow - 1), y(arrow) - y(arrow - 1), dots);
+        if (arrow !== kNoArrow) {
+          const dx = x(arrow) - x(arrow - 1), dy = y(arrow) - y(arrow - 1);
+          addArrow(arrows, x(arrow), y(arrow), dx, dy, dots);
+        }
         at = first + 2 * points;
       }
       return {path, arrows};
@@ -95,7 +107,8 @@ const viscontactFlow = (() => {
         const width = (to.x - from.x) / (columns - 1), height = (to.y - from.y) / (rows - 1);
         pen.imageSmoothingEnabled = true;
         pen.imageSmoothingQuality = 'high';
-        pen.drawImage(image, from.x - width / 2, from.y - height / 2, columns * width, rows * height);
+        pen.drawImage(image, from.x - width / 2, from.y - height / 2, columns * width,
+                      rows * height);
       }
       if (withLines) {
         const {path, arrows} = lines(flow, dots);

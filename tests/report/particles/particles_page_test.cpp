@@ -1,14 +1,11 @@
-// The page that plays a motion of particles, in a browser (chromium).
+// The page that plays a motion of particles, in a browser (chromium) and as text.
 #include "viscontact/report/particles/particles_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "tests/common/regular_expressions.hpp"
-#include "tests/program/browser.hpp"
-#include "tests/report/particles/flow/flows.hpp"
+#include "tests/report/particles/page_reader.hpp"
 #include "tests/report/particles/playbacks.hpp"
 #include "viscontact/report/particles/particles_picture.hpp"
 
@@ -17,7 +14,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-using Json = nlohmann::json;
 
 /// Appended to a page: looks at the canvas at both ends, plays, points, zooms, turns, and gives
 /// what it saw to tell().
@@ -106,22 +102,11 @@ constexpr std::string_view kReader = R"JS(
 })();
 )JS";
 
-/// Put before the page's own script: a browser with virtual time draws no frames of its own accord.
-constexpr std::string_view kFrames =
-    "<script>window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), "
-    "16);</script>";
-
-Json read_page(const std::string& page, int width) {
-  constexpr std::string_view kHead = "<head>";
-  auto prepared = page;
-  prepared.insert(page.find(kHead) + kHead.size(), kFrames);
-  return read_in_browser(prepared, kReader, width);
-}
-
 class ParticlesInBrowser : public ::testing::TestWithParam<int> {};
 
 TEST_P(ParticlesInBrowser, MotionIsPlayedReadOffAndLookedAtFromElsewhere) {
-  const auto found = read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), 390);
+  const auto found =
+      read_page(particles_page(falling_row(GetParam(), 5, 5), "Five in a row"), kReader, 390);
   ASSERT_TRUE(found.is_object());
   // A phone: nothing sticks out.
   EXPECT_EQ(found["width"], 390);
@@ -154,121 +139,8 @@ TEST_P(ParticlesInBrowser, MotionIsPlayedReadOffAndLookedAtFromElsewhere) {
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
 
-/// Appended to a page with a flow: chooses what is drawn of it, and gives a sum of the pixels for
-/// each choice to tell().
-constexpr std::string_view kFlowReader = R"JS(
-(async () => {
-  const pause = () => new Promise(done => setTimeout(done, 60));
-  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
-  const choice = document.getElementById('flow'), lines = document.getElementById('streamlines');
-  const copy = document.createElement('canvas');
-  const pixels = () => {
-    copy.width = canvas.width;
-    copy.height = canvas.height;
-    const pen = copy.getContext('2d', {willReadFrequently: true});
-    pen.drawImage(canvas, 0, 0);
-    return pen.getImageData(0, 0, copy.width, copy.height).data;
-  };
-  const look = () => {
-    let sum = 0;
-    for (const value of pixels()) sum = (sum * 31 + value) % 4294967291;
-    return sum;
-  };
-  const colour = (x, y) => {
-    const place = Math.round(y * canvas.height) * canvas.width + Math.round(x * canvas.width);
-    return [...pixels().slice(4 * place, 4 * place + 3)];
-  };
-  const choose = async (field, withLines) => {
-    choice.value = field;
-    choice.dispatchEvent(new Event('change'));
-    if (lines.checked !== withLines) lines.click();
-    await pause();
-    return look();
-  };
-  const found = {};
-  found.speedAndLines = await choose('speed', true);
-  found.speed = await choose('speed', false);
-  const isHidden = id => document.getElementById(id).hidden;
-  found.speedScale = !isHidden('speed-scale') && isHidden('pressure-scale');
-  found.pressure = await choose('pressure', false);
-  found.left = colour(0.1, 0.5);
-  found.right = colour(0.9, 0.5);
-  found.pressureScale = isHidden('speed-scale') && !isHidden('pressure-scale');
-  found.none = await choose('none', false);
-  found.noneWithLines = await choose('none', true);
-  found.again = await choose('speed', true);
-  player.seek(player.last);
-  await pause();
-  found.last = look();
-  tell(found);
-})();
-)JS";
-
-Json read_flow_page(const std::string& page) {
-  constexpr std::string_view kHead = "<head>";
-  auto prepared = page;
-  prepared.insert(page.find(kHead) + kHead.size(), kFrames);
-  return read_in_browser(prepared, kFlowReader, 900);
-}
-
-TEST(ParticlesPage, ShowsWhatIsChosenOfTheFlow) {
-  const TemporaryFolder folder;
-  const auto found = read_flow_page(particles_page(disc_in_flow(folder, 3, turning), "Flow"));
-  ASSERT_TRUE(found.is_object());
-  EXPECT_NE(found["speedAndLines"], found["speed"]);
-  EXPECT_NE(found["speed"], found["pressure"]);
-  EXPECT_NE(found["pressure"], found["none"]);
-  EXPECT_NE(found["none"], found["noneWithLines"]);
-  EXPECT_EQ(found["again"], found["speedAndLines"]);
-  EXPECT_NE(found["last"], found["again"]);
-  EXPECT_EQ(found["speedScale"], true);
-  EXPECT_EQ(found["pressureScale"], true);
-  // The pressure rises along x: blue is at the left, and red at the right.
-  EXPECT_GT(found["left"][2], found["left"][0]);
-  EXPECT_GT(found["right"][0], found["right"][2]);
-}
-
-TEST(ParticlesPage, ShowsAPeriodicFlowAndOneAroundAnAxis) {
-  const TemporaryFolder folder;
-  auto periodic = disc_in_flow(folder, 3, turning);
-  periodic.cell = {{1, 0}, {4, 2}};
-  periodic.radii = {0.5F, 0.5F};
-  for (auto& frame : periodic.frames) {
-    frame.positions = {1.2F, 0.6F, 4.7F, 1.8F};
-    frame.angles = {0, 0};
-    frame.contacts = {{0, 1, 0, -1, 0, particles::image_number(-1, -1)}};
-  }
-  EXPECT_TRUE(read_flow_page(particles_page(periodic, "Periodic")).is_object());
-
-  auto axis = disc_in_flow(folder, 3, turning);
-  axis.dimension = 1;
-  for (auto& frame : axis.frames) {
-    frame.positions = {static_cast<float>(0.5 + 0.3 * frame.time)};
-    frame.angles.clear();
-    frame.planes = {{.point = {0, -4, 0}, .normal = {0, 1, 0}},
-                    {.point = {0, 0, 0}, .normal = {1, 0, 0}},
-                    {.point = {2, 0, 0}, .normal = {-1, 0, 0}}};
-    frame.contacts = {{-2, 0, 0, -1}};
-  }
-  const auto page = particles_page(axis, "Axis");
-  EXPECT_THAT(page, HasSubstr("1 sphere, "));
-  EXPECT_TRUE(read_flow_page(page).is_object());
-}
-
-TEST(ParticlesPage, WithManyFlowsStaysSmall) {
-  const TemporaryFolder folder;
-  const auto page = particles_page(disc_in_flow(folder, 400, turning), "Many flows");
-  EXPECT_LT(page.size(), 20'000'000U);
-  EXPECT_GT(page.size(), 5'000'000U);
-  EXPECT_THAT(page, HasSubstr("t = 0 to 399 in 400 frames."));
-}
-
-TEST(ParticlesPage, WithoutAFlowHasNoChoiceOfOne) {
-  EXPECT_THAT(particles_page(falling_row(2, 3, 3), "Dry"), Not(HasSubstr("id=streamlines")));
-}
-
 TEST(ParticlesPage, OneParticleInOneFrameStands) {
-  const auto found = read_page(particles_page(one_particle(), "One"), 1200);
+  const auto found = read_page(particles_page(one_particle(), "One"), kReader, 1200);
   ASSERT_TRUE(found.is_object());
   EXPECT_GT(found["first"]["colours"], 2);
   EXPECT_EQ(found["last"]["contacts"], 0);
@@ -278,7 +150,7 @@ TEST(ParticlesPage, OneParticleInOneFrameStands) {
   // A particle that has an id is named by it.
   auto named = one_particle();
   named.ids = {1207};
-  EXPECT_EQ(read_page(particles_page(named, "One"), 1200)["readout"],
+  EXPECT_EQ(read_page(particles_page(named, "One"), kReader, 1200)["readout"],
             "particle 1207: radius 0.5, at (3, 4), 0 contacts");
 }
 

@@ -36,7 +36,8 @@ TEST(FlowFrames, HaveTheExtentOfTheFirstFlowOrOfTheCell) {
 TEST(FlowFrames, PressureHasNoMeanOutsideTheParticles) {
   const TemporaryFolder folder;
   const auto playback = disc_in_flow(folder, 1, [](double x, double y) {
-    // The triangles at the node (1, 1) are in the disc of radius 0.5, whose pressure must not count.
+    // The triangles at the node (1, 1) are in the disc of radius 0.5, whose pressure must not
+    // count.
     return std::array{0.0, 0.0, std::hypot(x - 1, y - 1) < 0.1 ? 1e6 : 7.0};
   });
   const auto flows = read_flows(playback, false, {0, 4, 0, 2}, {0}, 2000);

@@ -1,0 +1,163 @@
+// Draws the plots of the page with uPlot, so that they can be zoomed and values can be read by
+// pointer. Each figure contains its plot as JSON, which report/report_plot.cpp writes. Without this
+// script, and in print, the figure shows the still picture. This file is the last of the script and
+// draws all plots.
+
+function element(tag, className, parent, text) {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  if (text !== undefined) made.textContent = text;
+  parent.append(made);
+  return made;
+}
+
+/**
+ * The legend, which shows the values at the pointer: a row for x and one for each curve that has
+ * words; other curves belong to the row before.
+ */
+function makeLegend(parent, panel, toggle) {
+  const table = element('table', 'legend', parent);
+  const row = className => element('tr', className, table);
+  const head = row('abscissa');
+  element('td', '', head); element('td', '', head, panel.x.label);
+  const cells = {x: element('td', 'value', head, kBlank), curves: []};
+  panel.curves.forEach((curve, i) => {
+    if (!curve.legend && i > 0) { cells.curves.push(null); return; }
+    const line = row('curve');
+    element('td', '', line).innerHTML = sample(curve);
+    element('td', '', line, curve.legend || panel.y.label);
+    cells.curves.push(element('td', 'value', line, kBlank));
+    line.title = 'show or hide';
+    line.addEventListener('click', () => {
+      const hidden = line.classList.toggle('hidden');
+      for (let j = i; j < panel.curves.length && (j === i || !panel.curves[j].legend); ++j)
+        toggle(j + 1, !hidden);
+    });
+  });
+  return cells;
+}
+
+function makePanel(parent, panel, height) {
+  const place = element('div', 'panel', parent);
+  element('h3', '', place, panel.title);
+  const chart = element('div', 'chart', place);
+  const x = axisOf(panel.x, panel.curves.flatMap(c => c.x));
+  const y = axisOf(panel.y, panel.curves.flatMap(c => c.y));
+  const span = x.full[1] - x.full[0];
+  for (const curve of panel.curves) {
+    const heights = curve.y.map(v => (v === null ? null : y.inner(v)));
+    curve.inner = {x: separated(curve.x.map(x.inner), span), y: heights};
+  }
+
+  // uPlot needs all curves on one list of abscissae. A value is undefined where a curve has no
+  // point, and null where the curve is interrupted.
+  const abscissae = [...new Set(panel.curves.flatMap(c => c.inner.x))].sort((a, b) => a - b);
+  const index = new Map(abscissae.map((value, i) => [value, i]));
+  const data = [abscissae, ...panel.curves.map(curve => {
+    const ys = new Array(abscissae.length).fill(undefined);
+    curve.inner.x.forEach((value, i) => { ys[index.get(value)] = curve.inner.y[i]; });
+    return ys;
+  })];
+
+  let u = null;
+  const cells = makeLegend(place, panel, (series, show) => u.setSeries(series, {show}));
+  const rows = panel.rows;
+  const numberCell = (axis, v) =>
+    (v === null || v === undefined ? kBlank : short(axis.outer(v), 6));
+  const nameOfRow = v => rows[Math.round(v) - 1];
+
+  function readOff() {
+    const {left, top} = u.cursor;
+    const inside = left >= 0 && top >= 0;
+    const at = inside ? u.posToVal(left, 'x') : null;
+    const reach = 12 * (u.scales.x.max - u.scales.x.min) / (u.over.clientWidth || 1);
+    cells.x.textContent = numberCell(x, at);
+    panel.curves.forEach((curve, i) => {
+      if (!cells.curves[i]) return;
+      let value = inside ? valueAt(curve, at, reach) : null;
+      if (rows.length && value !== null) {
+        cells.curves[i].textContent =
+          curve.point ? nameOfRow(value) : numberCell(x, curve.inner.x[0]);
+        return;
+      }
+      const twin = panel.curves[i + 1];
+      let text = numberCell(y, value);
+      if (value !== null && twin && !twin.legend && curve.colour === twin.colour) {
+        const other = valueAt(twin, at, reach);
+        if (other !== null) text += ' / ' + numberCell(y, other);
+      } else if (value === null && inside && twin && !twin.legend) {
+        text = numberCell(y, valueAt(twin, at, reach));
+      }
+      cells.curves[i].textContent = text;
+    });
+  }
+  const reset = () => u.batch(() => {
+    u.setScale('x', {min: x.full[0], max: x.full[1]});
+    u.setScale('y', {min: y.full[0], max: y.full[1]});
+  });
+
+  const narrow = () => chart.clientWidth < 560;
+  const heightOf = () => (narrow() ? Math.min(height, 60 + chart.clientWidth * 0.75) : height);
+  const size = () => ({width: chart.clientWidth, height: Math.round(heightOf())});
+  const broken = name =>
+    (narrow() && name.length > 16 ? name.replace(/^(.{8,}?)_/, '$1_\n') : name);
+  /** Ticks that are about `apart` pixels from each other on an axis of this length. */
+  const ticksAlong = (axis, min, max, length, apart) =>
+    ticksOf(axis, min, max, Math.max(2, length / apart || 6));
+  const ticksOfX = (self, _, min, max) => ticksAlong(x, min, max, self.over.clientWidth, 90);
+  const ticksOfY = (self, _, min, max) => ticksAlong(y, min, max, self.over.clientHeight, 50);
+  const axisStyle = {
+    stroke: '#333', font: '12px system-ui,sans-serif', labelFont: '13px system-ui,sans-serif',
+    grid: {stroke: '#e3e3e3', width: 1}, ticks: {stroke: '#999', width: 1, size: 5},
+  };
+  u = new uPlot({
+    ...size(),
+    legend: {show: false},
+    padding: [10, 14, 0, 0],
+    cursor: {
+      x: true, y: true, points: {show: false},
+      drag: {x: true, y: true, uni: 30, setScale: true},
+      bind: {dblclick: () => () => { reset(); return null; }},
+    },
+    scales: {
+      x: {time: false, auto: false, range: (_, min, max) => [min, max]},
+      y: {auto: false, range: () => y.full},
+    },
+    axes: [
+      {...axisStyle, label: panel.x.label, labelSize: 24, size: 32,
+        splits: ticksOfX,
+        values: (_, ticks) => tickLabels(x, ticks)},
+      {...axisStyle, label: panel.y.label || null, labelSize: panel.y.label ? 24 : 0,
+        size: rows.length ? () => (narrow() ? 118 : 210) : 62,
+        splits: rows.length ? () => rows.map((_, i) => i + 1) : ticksOfY,
+        values: rows.length ? () => rows.map(broken) : (_, ticks) => tickLabels(y, ticks)},
+    ],
+    series: [{}, ...panel.curves.map(curve => ({
+      scale: 'y', stroke: curve.colour, width: curve.width,
+      dash: curve.dash.length ? curve.dash : undefined,
+      points: {show: false}, paths: curve.width === 0 ? () => null : undefined,
+    }))],
+    hooks: {
+      setCursor: [readOff],
+      draw: [self => panel.curves.forEach((curve, i) => drawPoints(self, curve, i + 1))],
+    },
+  }, data, chart);
+  reset();
+  addTouch(u, reset);
+  const fit = () => { if (chart.clientWidth && chart.clientWidth !== u.width) u.setSize(size()); };
+  // Resizing within the observer itself would be an endless loop, so it is done in the next
+  // frame.
+  new ResizeObserver(() => requestAnimationFrame(fit)).observe(chart);
+  place.uplot = u;  // for tests
+  place.full = {x: x.full, y: y.full};
+}
+
+for (const figure of document.querySelectorAll('figure[data-plot]')) {
+  const plot = JSON.parse(figure.querySelector('script').textContent);
+  const zoomable = element('div', 'zoomable', figure);
+  figure.querySelector('.still').after(zoomable);
+  document.documentElement.classList.add('live');  // shows the plot, so that it has a width
+  const usual = plot.panels.length > 1 ? 320 : 380;
+  for (const panel of plot.panels)
+    makePanel(zoomable, panel, panel.rows.length ? 90 + 34 * panel.rows.length : usual);
+}
