@@ -125,9 +125,9 @@ class StokesDrag:
         return ["velocities", *v]
 
     def estimate(self):
-        # There is no mesh, and so no error of it.
+        # There is no mesh and no penalty, and so no error of either.
         v = self.velocities(True, self.numbers(len(self.radii) * self.components))
-        return ["estimate", 0, 0, *v]
+        return ["estimate", 0, 0, 0, *v]
 
     def quantities(self):
         """The drag of each particle, and the power that the particles give to the fluid by it."""

@@ -72,22 +72,17 @@ std::string words_of(const MeshBoundary& boundary) {
   return text;
 }
 
-double largest_magnitude(std::span<const double> numbers) {
-  double largest = 0;
-  for (const double x : numbers) largest = std::max(largest, std::abs(x));
-  return largest;
-}
-
 }  // namespace
 
 FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-                         std::span<const double> radii, int dimension, const SolverCommand& command,
+                         std::span<const double> radii, int dimension, SolverCommand command,
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
     : dimension_(dimension),
       components_(radii.size() * particles::motion_components(dimension)),
+      radii_(radii.begin(), radii.end()),
       make_boundary_(std::move(make_boundary)),
       dissipation_alone_(dissipation_alone(fluid, domain)),
-      command_(command),
+      command_(std::move(command)),
       limits_(limits),
       opening_(opening(fluid, domain, radii, dimension)) {
   start();
@@ -169,8 +164,24 @@ particles::EstimatedVelocities FlowProcess::estimate(std::span<const double> for
   particles::EstimatedVelocities estimated;
   estimated.relative_error = solver_->number_from_zero();
   estimated.relative_error_of_one_mesh = solver_->number_from_zero();
+  estimated.relative_error_of_penalty = solver_->number_from_zero();
   estimated.velocities = solver_->numbers(components_);
   return estimated;
+}
+
+/// The largest speed: velocities, and angular velocities times radii [L/T].
+double FlowProcess::largest_speed(std::span<const double> motions) const {
+  const auto components = particles::motion_components(dimension_);
+  double largest = 0;
+  for (std::size_t k = 0; k < radii_.size(); ++k) {
+    const auto motion = motions.subspan(k * components, components);
+    if (components == 1)
+      largest = std::max(largest, std::abs(motion[0]));
+    else
+      largest =
+          std::max({largest, std::hypot(motion[0], motion[1]), radii_[k] * std::abs(motion[2])});
+  }
+  return largest;
 }
 
 /// At the end, the mesh of the placement is made again, because the flow on it may be asked for.
@@ -182,9 +193,9 @@ particles::EstimatedVelocities FlowProcess::estimate_from_coarser_mesh(
   particles::EstimatedVelocities estimated;
   estimated.velocities = velocities(forces, true);
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= estimated.velocities[i];
-  const double largest = largest_magnitude(estimated.velocities);
+  const double largest = largest_speed(estimated.velocities);
   if (largest > 0)
-    estimated.relative_error = kErrorOfDifference * largest_magnitude(difference) / largest;
+    estimated.relative_error = kErrorOfDifference * largest_speed(difference) / largest;
   estimated.relative_error_of_one_mesh = estimated.relative_error;
   return estimated;
 }

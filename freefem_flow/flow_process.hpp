@@ -50,7 +50,7 @@ class FlowProcess : public particles::FluidSolver {
   /// if `domain` does not fit the dimension or the velocities of the boundary, and
   /// Error(kExternalProgram) if the solver cannot be run or is not ready in time.
   FlowProcess(const particles::Fluid& fluid, const particles::Domain& domain,
-              std::span<const double> radii, int dimension, const SolverCommand& command,
+              std::span<const double> radii, int dimension, SolverCommand command,
               MeshBoundaryMaker make_boundary, const SolverLimits& limits = {});
   ~FlowProcess() override;
 
@@ -66,9 +66,11 @@ class FlowProcess : public particles::FluidSolver {
   void start();
   void ask_to_place(const std::string& boundary);
   particles::EstimatedVelocities estimate_from_coarser_mesh(std::span<const double> forces);
+  double largest_speed(std::span<const double> motions) const;
 
   int dimension_;
-  std::size_t components_;  ///< of the motions of all particles
+  std::size_t components_;     ///< of the motions of all particles
+  std::vector<double> radii_;  ///< of all particles [L]
   MeshBoundaryMaker make_boundary_;
   double dissipation_alone_;  ///< of the fluid without particles, 0: not known
   SolverCommand command_;

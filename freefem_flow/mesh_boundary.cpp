@@ -51,7 +51,7 @@ class BoundaryMaker {
     return std::move(boundary_);
   }
 
-  MeshBoundary of(const std::monostate&) { return {}; }
+  static MeshBoundary of(const std::monostate&) { return {}; }
 
  private:
   double on_wall(const Point& x) const {
@@ -105,8 +105,8 @@ class BoundaryMaker {
   }
 
   /// The surfaces of the particles. A body that is meshed gets a polygon inside, around which the
-  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a rigid motion
-  /// needs few of them.
+  /// mesh is coarse: FreeFEM takes the size of triangles from the nearest curves, and a few triangles
+  /// represent a rigid motion exactly.
   void add_particles() {
     if (!fitted_) return;
     for (std::size_t k = 0; k < lengths_.circles().size(); ++k) {

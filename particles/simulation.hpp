@@ -52,10 +52,10 @@ struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
   /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
   double apparent_viscosity = 0;
-  double seconds = 0;  ///< computing time of the fluid solver [s]
-  /// Estimate of the relative error of the velocities, extrapolated and of one mesh; < 0 if it was
-  /// not made in this step.
-  double velocity_error = -1, velocity_error_of_one_mesh = -1;
+  double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
+  /// Estimate of the relative error of the velocities, extrapolated and of one mesh, and the part of
+  /// both that is the error of the penalty; < 0 if it was not made in this step.
+  double velocity_error = -1, velocity_error_of_one_mesh = -1, velocity_error_of_penalty = -1;
 };
 
 /// What is recorded of one step.

@@ -30,6 +30,9 @@ struct Word {
   const char* name;
   Meaning meaning;
 };
+template <class Meaning>
+Word(const char*, Meaning) -> Word<Meaning>;  // clang 14 does not find it by itself
+
 constexpr std::array kConstraints = {Word{"penalty", particles::RigidConstraint::kPenalty},
                                      Word{"rigid", particles::RigidConstraint::kRigid}};
 constexpr std::array kMeshes = {Word{"fitted", particles::FluidMesh::kFitted},

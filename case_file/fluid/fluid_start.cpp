@@ -65,6 +65,28 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
+/// A mean flow deforms the lattice of images, but the cell of this version keeps its shape.
+void check_mean_flow(const TomlSection& root, const ParticlesCase& c) {
+  const auto* box = std::get_if<particles::BoxDomain>(&c.setting.domain);
+  const auto* flow = std::get_if<particles::LinearFlow>(&c.setting.fluid->boundary);
+  if (box == nullptr || !box->periodic[0] || !box->periodic[1] || flow == nullptr ||
+      flow->gradient == decltype(flow->gradient){})
+    return;
+  if (c.setting.fluid->mesh == particles::FluidMesh::kFixed)
+    root.section("fluid").fail("mesh",
+                               "is 'fixed'; it must be \"fitted\" in a box that is periodic both "
+                               "ways and sheared or strained, because a particle that the fixed "
+                               "mesh cuts has a different velocity on the other side");
+  constexpr double kRounding = 1e-9;
+  if (c.end_time > (1 + kRounding) * c.setting.time_step)
+    root.section("viscous_contact")
+        .fail("end_time",
+              fmt::format("is {}; it must be at most time_step, {}, in a box that is periodic both "
+                          "ways and sheared or strained, because the cell of this version keeps "
+                          "its shape and gives instantaneous velocities only",
+                          c.end_time, c.setting.time_step));
+}
+
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
   const auto& fluid = *c.setting.fluid;
   const auto& p = c.particles;
@@ -124,6 +146,7 @@ void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
         "velocity",
         "makes each side open that is not periodic, so that nothing balances the forces on the "
         "particles; at least one side must be a wall, or the motion of a particle must be given");
+  check_mean_flow(root, c);
   check_masses(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,

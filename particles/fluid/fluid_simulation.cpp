@@ -113,8 +113,18 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
     return velocities;
   };
   const auto places = positions_of(obstacles_, next);
-  const ContactConditions conditions{
-      h, setting_.fluid->threshold_gap, places, mean_radius_, setting_.solver, is_movable};
+  // Images of particles move with a linear flow; without periods there are none.
+  std::array<double, 4> gradient{};
+  const auto* flow = std::get_if<LinearFlow>(&setting_.fluid->boundary);
+  if (flow != nullptr && state_.particles.cell.is_periodic()) gradient = flow->gradient;
+  const ContactConditions conditions{h,
+                                     setting_.fluid->threshold_gap,
+                                     places,
+                                     mean_radius_,
+                                     error_of_answers(*setting_.fluid),
+                                     gradient,
+                                     setting_.solver,
+                                     is_movable};
   return solve_contacts(state_, free, mobility, conditions, pool_);
 }
 
@@ -132,7 +142,8 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.flow = solver_->velocities(forces, true);
     motion.free = free_velocities(equation, motion.flow, h);
     motion.contact = solve_contacts_of(equation, motion.free, h, next);
-    iterations = motion.contact.iterations += iterations;
+    iterations += motion.contact.iterations;
+    motion.contact.iterations = iterations;
     if (!equation.put_in_contact(motion.contact.contacts)) break;
   }
   motion.moved = motion.contact.velocities;
@@ -162,6 +173,7 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
   const auto estimate = solver_->estimate(forces);
   motion.fluid.velocity_error = estimate.relative_error;
   motion.fluid.velocity_error_of_one_mesh = estimate.relative_error_of_one_mesh;
+  motion.fluid.velocity_error_of_penalty = estimate.relative_error_of_penalty;
   if (setting_.fluid->coupling == Coupling::kSplitting) return;
   auto moved = motion.moved;
   for (std::size_t i = 0; i < moved.size(); ++i)
@@ -172,7 +184,7 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 /// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
 void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
-  const double longest = h * largest_of(motion.moved);
+  const double longest = h * fastest(motion.moved, layout_);
   if (!(longest < largest))
     throw Error(ErrorKind::kNotConverged,
                 fmt::format("a particle moves by {} in the step to time {}, too far for the "

@@ -45,6 +45,8 @@ struct EstimatedVelocities {
   double relative_error = 0;
   /// The same estimate for the velocities of one mesh, which velocities() returns.
   double relative_error_of_one_mesh = 0;
+  /// The part of both that is the error of the penalty; < 0 if it is not known and in neither.
+  double relative_error_of_penalty = -1;
 };
 
 /// Velocity and pressure at the nodes of a mesh of quadratic triangles. On an axis, x is the

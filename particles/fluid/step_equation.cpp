@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace viscontact::particles {
@@ -30,7 +31,6 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
     : setting_(setting),
       state_(state),
       h_(h),
-      next_(next),
       layout_{motion_components(state.particles.dimension)},
       forces_(mean_forces(setting, state.particles, layout_, state.time, next)),
       in_contact_(state.particles.count(), 0) {
@@ -66,6 +66,20 @@ void StepEquation::add_inertia() {
   }
 }
 
+double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
+  const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
+  if (u.size() != masses_.size() || f.size() != masses_.size())
+    return std::numeric_limits<double>::infinity();
+  const bool turns = component == layout_.directions();
+  const std::size_t first = k * layout_.components + (turns ? component : 0);
+  double force = 0, speed = 0;
+  for (std::size_t i = first; i < first + (turns ? 1 : layout_.directions()); ++i) {
+    force += f[i] * f[i];
+    speed += u[i] * u[i];
+  }
+  return speed > 0 ? std::sqrt(force / speed) : 0;
+}
+
 double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
   if (in_contact_[k] != 0) return 1;
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
@@ -75,7 +89,7 @@ double StepEquation::theta(std::size_t k, std::size_t component, double mass) co
   const double drag = layout_.components == 1 ? 6 * kPi * mu * r
                       : component == 2        ? 4 * kPi * mu * r * r
                                               : 4 * kPi * mu;
-  const double z = h_ * drag / mass;
+  const double z = h_ * std::max(drag, earlier_drag(k, component)) / mass;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 

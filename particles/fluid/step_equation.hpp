@@ -20,9 +20,11 @@ namespace viscontact::particles {
 ///     M (u^{n+1} - u^n)/h = f - R U + contact forces,   U = theta u^{n+1} + (1 - theta) u^n,
 ///
 /// that is (R + M/(theta h)) U = f + M/(theta h) u^n + contact forces. A particle without mass has
-/// theta = 1 and u^{n+1} = U. With z = h times the Stokes drag over the mass, the other particles
-/// have theta = (1 + z)/(2 + z): 1/2 + O(h), which makes the step one of second order, and close to
-/// 1 where the drag is stiff, so that no velocity oscillates. A particle in contact has theta = 1,
+/// theta = 1 and u^{n+1} = U. The other particles have theta = (1 + z)/(2 + z) with z = h c/m: 1/2 +
+/// O(h), which makes the step one of second order, and close to 1 where the drag is stiff, so that
+/// velocities do not oscillate. c is the Stokes drag or, if it is larger, the drag in the step
+/// before, because near a wall it is many times the Stokes drag. In the first step, theta = 1, which
+/// does not change the order. A particle in contact has theta = 1,
 /// because its velocity jumps: it is U at the end of the step (implicit Euler).
 class StepEquation {
  public:
@@ -57,12 +59,15 @@ class StepEquation {
  private:
   void add_inertia();
   double theta(std::size_t k, std::size_t component, double mass) const;
+  /// |F|/|U| of the force F on the fluid and the velocity U in the step before, or of torque and
+  /// angular velocity; 0 if there was no motion, infinite if there was no step.
+  double earlier_drag(std::size_t k, std::size_t component) const;
   double velocity(std::size_t k, std::size_t component) const;
   std::array<double, 3> given_motion(const GivenMotion& motion, double from, double to) const;
 
   const Setting& setting_;
   const State& state_;
-  double h_, next_;
+  double h_;
   MotionLayout layout_;
   std::vector<double> forces_;  // f [M L/T^2]
   std::vector<double> masses_;  // mass or moment of inertia of each component

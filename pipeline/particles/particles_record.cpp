@@ -52,6 +52,8 @@ void for_each_sum(Totals& sums, const Visit& visit) {
   visit("last_velocity_error", sums.last_velocity_error);
   visit("first_error_of_one_mesh", sums.first_error_of_one_mesh);
   visit("last_error_of_one_mesh", sums.last_error_of_one_mesh);
+  visit("first_error_of_penalty", sums.first_error_of_penalty);
+  visit("last_error_of_penalty", sums.last_error_of_penalty);
 }
 
 /// The header line of `text` and its rows up to the step `last_step`.
@@ -97,9 +99,11 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
     if (first_velocity_error < 0) {
       first_velocity_error = fluid.velocity_error;
       first_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
+      first_error_of_penalty = fluid.velocity_error_of_penalty;
     }
     last_velocity_error = fluid.velocity_error;
     last_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
+    last_error_of_penalty = fluid.velocity_error_of_penalty;
   }
   if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
   fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}", step,
@@ -154,6 +158,8 @@ std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record
         estimates(record.first_velocity_error, record.last_velocity_error);
     json["velocity_error_estimate_of_one_mesh"] =
         estimates(record.first_error_of_one_mesh, record.last_error_of_one_mesh);
+    json["velocity_error_estimate_of_penalty"] =
+        estimates(record.first_error_of_penalty, record.last_error_of_penalty);
     json["unknowns"] = record.unknowns;
     json["fluid_seconds"] = record.fluid_seconds;
   }

@@ -82,6 +82,7 @@ TEST(StokesDrag, OnAnAxisIsThatOfSpheres) {
   EXPECT_THAT(estimated.velocities, near(expected));
   EXPECT_EQ(estimated.relative_error, 0);
   EXPECT_EQ(estimated.relative_error_of_one_mesh, 0);
+  EXPECT_EQ(estimated.relative_error_of_penalty, 0);
   EXPECT_TRUE(solver.flow().x.empty());
 }
 
@@ -145,7 +146,7 @@ sed -u -n -e "w asked
 }
 /^solve/i velocities 0.1\n-2e-3 +5
 /^quantities/i quantities 12 4 1 2 3
-/^estimate/i estimate 1e-4 2e-3 4 5 6
+/^estimate/i estimate 1e-4 2e-3 5e-5 4 5 6
 /^flow/i flow 6 1  0 0 1 2 3  1 0 1 2 3  0 1 1 2 3  .5 0 1 2 3  .5 .5 1 2 3  0 .5 7 8 9  0 1 2 3 4 5
 /^end/q"
 )sh";
@@ -175,6 +176,7 @@ TEST(FlowProcess, WritesTheProtocolAndReadsIt) {
     const auto estimated = solver.estimate(std::vector{7.0, 8.0, 9.0});
     EXPECT_EQ(estimated.relative_error, 1e-4);
     EXPECT_EQ(estimated.relative_error_of_one_mesh, 2e-3);
+    EXPECT_EQ(estimated.relative_error_of_penalty, 5e-5);
     EXPECT_THAT(estimated.velocities, ElementsAre(4, 5, 6));
     const auto flow = solver.flow();
     EXPECT_THAT(flow.x, ElementsAre(0, 1, 0, 0.5, 0.5, 0));

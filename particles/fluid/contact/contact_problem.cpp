@@ -70,17 +70,19 @@ int estimate_w(std::span<FluidContact> contacts, std::size_t motions, const Mobi
 
 ContactProblem::ContactProblem(std::span<const double> free_velocities, double h,
                                const Mobility& mobility, MotionLayout layout,
-                               const SolverSettings& settings, double mean_radius)
+                               const SolverSettings& settings, double mean_radius,
+                               double mobility_error)
     : free_velocities_(free_velocities),
       h_(h),
       mobility_(mobility),
       layout_(layout),
       settings_(settings),
       mean_radius_(mean_radius),
+      mobility_error_(mobility_error),
       velocities_(free_velocities.begin(), free_velocities.end()) {}
 
 double ContactProblem::b(std::size_t c) const {
-  return contacts_[c].gap + h_ * opening(contacts_[c], free_velocities_.data(), layout_);
+  return gap_after(contacts_[c], free_velocities_.data(), h_, layout_);
 }
 
 std::vector<double> ContactProblem::loads() const {
@@ -124,10 +126,10 @@ void ContactProblem::solve(bool is_rough) {
     // Half of it is left for the difference between this problem and the final velocities.
     for (auto& residual : allowed) residual /= 2;
     is_dense ? solve_dense(allowed) : solve_by_products(allowed);
-    converged_ = measure_residuals(contacts_, free_velocities_, velocities_, h_, layout_, settings,
-                                   mean_radius_, kErrorOfSums)
-                     .converged;
-    if (converged_ || iterations_ >= settings_.max_iterations) return;
+    const bool converged = measure_residuals(contacts_, free_velocities_, velocities_, h_, layout_,
+                                             settings, mean_radius_, kErrorOfSums)
+                               .converged;
+    if (converged || iterations_ >= settings_.max_iterations) return;
   }
 }
 
@@ -145,7 +147,7 @@ void ContactProblem::solve_dense(std::span<const double> allowed) {
     problem.allowed[c] = allowed[k];
     problem.p[c] = contacts_[k].impulse;
   }
-  // The mobility is symmetric to the accuracy of the solver.
+  problem.error_of_w = mobility_error_;
   problem.w = (problem.w + problem.w.transpose().eval()) / 2;
   iterations_ += problem.solve(settings_.max_iterations - iterations_);
   std::ranges::copy(free_velocities_, velocities_.begin());

@@ -30,10 +30,11 @@ inline constexpr std::size_t kMostDenseContacts = 24;
 class ContactProblem {
  public:
   /// `free_velocities` [L/T] are those without contact, and h > 0 [T] is the time step. `settings`
-  /// and `mean_radius` > 0 [L] say when the problem is solved. The arguments must outlive the
-  /// object.
+  /// and `mean_radius` > 0 [L] say when the problem is solved. The mobility is linear and symmetric
+  /// but for the relative error `mobility_error` >= 0. The arguments must outlive the object.
   ContactProblem(std::span<const double> free_velocities, double h, const Mobility& mobility,
-                 MotionLayout layout, const SolverSettings& settings, double mean_radius);
+                 MotionLayout layout, const SolverSettings& settings, double mean_radius,
+                 double mobility_error);
 
   /// Adds a contact, whose `impulse` is a first guess. Contacts of which the mobility moves neither
   /// particle must not be added.
@@ -52,8 +53,6 @@ class ContactProblem {
   std::vector<double> loads() const;
   /// Number of products with the mobility and of steps without such a product.
   int iterations() const { return iterations_; }
-  /// False if the last solve() ended before its residuals were small enough.
-  bool converged() const { return converged_; }
   /// True if the last solution was rough.
   bool is_rough() const { return is_rough_; }
 
@@ -68,12 +67,12 @@ class ContactProblem {
   const Mobility& mobility_;
   MotionLayout layout_;
   const SolverSettings& settings_;
-  double mean_radius_;
+  double mean_radius_, mobility_error_;
   std::vector<FluidContact> contacts_;
   std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
   std::vector<double> velocities_;
   int iterations_ = 0;
-  bool converged_ = true, is_rough_ = false;
+  bool is_rough_ = false;
 };
 
 }  // namespace viscontact::particles

@@ -22,17 +22,16 @@ ContactTolerances contact_tolerances(std::span<const FluidContact> contacts,
   };
   for (const auto& contact : contacts) {
     if (!(contact.w > 0)) continue;
-    const double after = contact.gap + h * opening(contact, free_velocities.data(), layout);
+    const double after = gap_after(contact, free_velocities.data(), h, layout);
     // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
     const double stopping = (contact.gamma < 0 ? std::abs(after) : std::max(0.0, -after));
     const double impulse = std::max(std::abs(contact.impulse), stopping / contact.w);
     for_particles(contact,
                   [&](std::size_t k) { of_particle[k] = std::max(of_particle[k], impulse); });
   }
-  double fastest = 0;
-  for (const double v : free_velocities) fastest = std::max(fastest, std::abs(v));
   constexpr double kGapError = 1e-14;  // rounding errors of positions
-  const double rounding = kGapError * mean_radius + velocity_error * h * fastest;
+  const double rounding =
+      kGapError * mean_radius + velocity_error * h * fastest(free_velocities, layout);
   ContactTolerances tolerances;
   for (const auto& contact : contacts) {
     double at_work = std::numeric_limits<double>::infinity();
@@ -56,7 +55,7 @@ ContactResiduals measure_residuals(std::span<const FluidContact> contacts,
   residuals.impulse_errors.resize(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
-    const double after = contact.gap + h * opening(contact, velocities.data(), layout);
+    const double after = gap_after(contact, velocities.data(), h, layout);
     residuals.smallest_gap = std::min(residuals.smallest_gap, after);
     if (!(contact.w > 0)) {
       // A contact that takes no part must not close.

@@ -25,10 +25,9 @@ void active_set_step(DenseContactProblem& problem) {
   }
   const Eigen::VectorXd rest = problem.b + problem.w * p;
   Eigen::MatrixXd part = problem.w(free, free);
-  // Redundant contacts make W singular. This term bounds the impulses that they exert on each
-  // other, and is far below the tolerances.
-  constexpr double kRegularisation = 1e-13;
-  part.diagonal() *= 1 + kRegularisation;
+  // Redundant contacts make W singular but for its errors. A term as large as these bounds the
+  // impulses that such contacts exert on each other; further steps remove what it changes elsewhere.
+  part.diagonal() *= 1 + problem.error_of_w;
   p(free) -= part.ldlt().solve(rest(free));
 }
 

@@ -13,6 +13,7 @@ struct DenseContactProblem {
   Eigen::VectorXd gamma;    ///< [M L/T], <= 0
   Eigen::VectorXd allowed;  ///< [L], > 0
   Eigen::VectorXd p;        ///< a guess, then the solution [M L/T]
+  double error_of_w = 0;    ///< relative error of W, >= 0
 
   /// Improves p until all residuals are allowed, or for `most` steps. Returns the number of steps.
   ///

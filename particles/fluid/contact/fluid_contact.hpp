@@ -2,6 +2,8 @@
 // times are in the units of the case.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,8 +18,11 @@ struct FluidContact {
   std::int32_t second = 0;  ///< number of a particle
   Vector normal{};          ///< unit normal from first to second
   double gap = 0;           ///< D - D_c at the beginning of the step [L]
-  double gamma = 0;         ///< [M L/T], <= 0: the impulse is at least this
-  double impulse = 0;       ///< h lambda [M L/T]: before the solution a guess, then the solution
+  /// Velocity at which the gap opens because `second` is an image, which a mean flow moves by G times
+  /// its shift relative to the particle [L/T].
+  double image_opening = 0;
+  double gamma = 0;    ///< [M L/T], <= 0: the impulse is at least this
+  double impulse = 0;  ///< h lambda [M L/T]: before the solution a guess, then the solution
   /// Change of the gap per impulse of this contact [T/M]; 0 as long as the contact takes no part.
   double w = 0;
 };
@@ -41,6 +46,24 @@ inline double opening(const FluidContact& contact, const double* velocities,
     if (contact.first >= 0) sum -= contact.normal[d] * velocities[layout.at(contact.first, d)];
   }
   return sum;
+}
+
+/// Linearised gap D - D_c + h G v at the end of a step of length h [L].
+inline double gap_after(const FluidContact& contact, const double* velocities, double h,
+                        const MotionLayout& layout) {
+  return contact.gap + h * (contact.image_opening + opening(contact, velocities, layout));
+}
+
+/// The largest speed of a particle [L/T], without its turning, which changes no gap.
+inline double fastest(std::span<const double> velocities, const MotionLayout& layout) {
+  double largest = 0;
+  for (std::size_t k = 0; k < velocities.size(); k += layout.components) {
+    double square = 0;
+    for (std::size_t d = 0; d < layout.directions(); ++d)
+      square += velocities[k + d] * velocities[k + d];
+    largest = std::max(largest, std::sqrt(square));
+  }
+  return largest;
 }
 
 /// Adds G^T force to the forces of all particles [M L/T^2]. A positive force pushes both apart.

@@ -54,7 +54,7 @@ FluidContact contact_in(const Particles& p, const Pair& pair,
 
 PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obstacles, double reach,
                          ThreadPool& pool) {
-  // Further images of a particle than the next ones cannot be told apart.
+  // Only the nearest images have a number, so that the search must stay below half a period.
   constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
   std::vector<double> extents = p.radii;

@@ -9,18 +9,12 @@
 namespace viscontact::particles {
 namespace {
 
-double fastest(std::span<const double> velocities) {
-  double largest = 0;
-  for (const double v : velocities) largest = std::max(largest, std::abs(v));
-  return largest;
-}
-
 /// Solves for contacts in rounds, in which those join whose gaps the others close.
 StepContacts solve_listed(StepContacts step, std::span<const double> free_velocities,
                           const Mobility& mobility, const ContactConditions& conditions,
                           const MotionLayout& layout) {
   ContactProblem problem(free_velocities, conditions.h, mobility, layout, conditions.solver,
-                         conditions.mean_radius);
+                         conditions.mean_radius, conditions.mobility_error);
   std::vector<std::size_t> chosen;
   std::vector<char> is_chosen(step.contacts.size(), 0);
   const int most = conditions.solver.max_iterations;
@@ -28,8 +22,7 @@ StepContacts solve_listed(StepContacts step, std::span<const double> free_veloci
     const auto before = chosen.size();
     for (std::size_t c = 0; c < step.contacts.size(); ++c) {
       const auto& contact = step.contacts[c];
-      const double after =
-          contact.gap + conditions.h * opening(contact, problem.velocities().data(), layout);
+      const double after = gap_after(contact, problem.velocities().data(), conditions.h, layout);
       const bool takes_part = after < 0 || contact.gamma < 0 || contact.impulse != 0;
       if (is_chosen[c] != 0 || !takes_part) continue;
       is_chosen[c] = 1;
@@ -57,8 +50,8 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
   const MotionLayout layout{motion_components(p.dimension)};
   const double h = conditions.h;
   // Contacts push particles at speeds that are seldom above twice the largest one without contact.
-  double reach =
-      conditions.threshold + 4 * h * fastest(free_velocities) + 1e-3 * conditions.mean_radius;
+  double reach = conditions.threshold + 4 * h * fastest(free_velocities, layout) +
+                 1e-3 * conditions.mean_radius;
   int iterations = 0;
   for (;;) {
     StepContacts step;
@@ -73,13 +66,18 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
       for (const auto& pair : *list) {
         auto contact = fluid_contact_of(p, pair, conditions.obstacles, conditions.threshold,
                                         free_velocities, h);
+        const Vector shift = shift_of(p.cell, pair.image);
+        for (std::size_t d = 0; d < 2; ++d)
+          contact.image_opening +=
+              contact.normal[d] * (conditions.mean_gradient[2 * d] * shift[0] +
+                                   conditions.mean_gradient[2 * d + 1] * shift[1]);
         // A threshold gap that is crossed by less than the tolerance counts as reached.
         if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
           contact.gap = 0;
         step.contacts.push_back(contact);
       }
     step = solve_listed(std::move(step), free_velocities, mobility, conditions, layout);
-    const double needed = conditions.threshold + 2 * h * fastest(step.velocities);
+    const double needed = conditions.threshold + 2 * h * fastest(step.velocities, layout);
     if (needed <= reach) return step;
     iterations = step.iterations;
     reach = 2 * needed;

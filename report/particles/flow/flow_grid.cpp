@@ -38,7 +38,7 @@ std::vector<double> shifts(double period) {
 
 Grid grid_of(const Window& window, std::size_t points) {
   static constexpr double kMost = 1200;  // a longer row could not be seen on a screen
-  const double wanted = static_cast<double>(points);
+  const auto wanted = static_cast<double>(points);
   const double columns = std::sqrt(wanted * window.width() / window.height());
   const auto count = [](double n) {
     return static_cast<std::size_t>(std::clamp(std::round(n), 2.0, kMost));
@@ -65,7 +65,7 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
           }
           for_each_pixel(x, y, window, grid.columns, grid.rows,
                          [&](std::size_t point, double w1, double w2) {
-                           const auto& [p, q, r] = part;
+                           const std::size_t p = part[0], q = part[1], r = part[2];
                            const auto at = [&](std::size_t d) {
                              return kReference[p][d] + w1 * (kReference[q][d] - kReference[p][d]) +
                                     w2 * (kReference[r][d] - kReference[p][d]);

@@ -104,7 +104,7 @@ std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const 
 }  // namespace
 
 std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
-  const auto half = half_picture(flows, frame, view);
+  auto half = half_picture(flows, frame, view);
   if (!flows.has_axis) return half;
   return half + fmt::format("<g transform=\"translate({:.4f} 0) scale(-1 1)\">\n{}</g>\n",
                             2 * view.x({0, 0, 0}), half);

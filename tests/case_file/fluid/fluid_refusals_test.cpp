@@ -116,6 +116,12 @@ Refusal in_period(const std::string& name, const std::string& periodic, const st
   return in_fluid(name, periodic == "x" ? kX : periodic == "y" ? kY : kXy, line, words);
 }
 
+/// The refusal names the line of `key` in place of the changed one.
+Refusal at(const std::string& key, Refusal refusal) {
+  refusal.at = key;
+  return refusal;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Period, RefusedFluid,
     ::testing::Values(
@@ -128,6 +134,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "fluid.velocity.left must be left out"),
         in_period("SideY", "y", "velocity = { top = \"open\" }", "periodic along y"),
         in_period("SideBoth", "xy", "velocity = { right = [0.0, 0.0] }", "periodic along x"),
+        at("end_time", in_period("ShearFor100Steps", "xy", "velocity = { shear_rate = 1.0 }",
+                                 "viscous_contact.end_time is 1; it must be at most time_step")),
+        in_period("ShearOnFixedMesh", "xy", "mesh = \"fixed\"\nvelocity = { strain_rate = 1.0 }",
+                  "fluid.mesh is 'fixed'; it must be \"fitted\""),
         in_period("Flux", "x", "velocity = { top = [0.0, 1.0] }", "net flux of -2"),
         in_period("Open", "x", "velocity = { top = \"open\", bottom = \"open\" }",
                   "at least one side must be a wall")),

@@ -140,8 +140,12 @@ TEST(Penalty, HasTheErrorOfTheExactLaw) {
     auto fluid = fluid_with(24);
     fluid.penalty = penalty;
     PlacedFlow soft(fluid, DiscDomain{{}, 5}, {{}});
-    const double velocity = soft.estimate(std::vector{1.0, 0.0, 0.0}).velocities[0];
-    EXPECT_NEAR(velocity / concentric_mobility(5) - 1, law, 0.05 * law) << penalty;
+    const auto estimated = soft.estimate(std::vector{1.0, 0.0, 0.0});
+    const double error = estimated.velocities[0] / concentric_mobility(5) - 1;
+    EXPECT_NEAR(error, law, 0.05 * law) << penalty;
+    // The estimate is made on one mesh, whose triangles within the disc are large.
+    EXPECT_NEAR(estimated.relative_error_of_penalty, law, 0.2 * law) << penalty;
+    EXPECT_LT(error, estimated.relative_error) << penalty;
   }
 }
 

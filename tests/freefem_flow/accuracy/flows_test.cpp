@@ -25,7 +25,7 @@ using particles::WallVelocity;
 using std::numbers::pi;
 
 constexpr std::array kConstraints = {RigidConstraint::kPenalty, RigidConstraint::kRigid};
-// The penalty 1e-6 makes the matrix so stiff that rounding reaches 1e-9 of the largest number.
+// The penalty 1e-7 makes the matrix so stiff that rounding reaches 1e-8 of the largest number.
 constexpr double kRounding = 1e-7;
 
 constexpr WallVelocity parabolic(double speed) {

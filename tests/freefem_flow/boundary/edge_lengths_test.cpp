@@ -29,7 +29,7 @@ EdgeLengths lengths_of(const particles::Domain& domain, const std::vector<Body>&
   return EdgeLengths(fluid_with(edges), domain, {&particles, {}, {}, {}}, coarsening);
 }
 
-// The most edges that a gap may be narrower than one edge of its surfaces.
+// The largest length of an edge beside a gap, as a fraction of the gap.
 constexpr double kMostOfGap = 0.5;
 
 TEST(EdgeLengths, OnAParticleFarFromOthersAreThoseAsked) {

@@ -146,5 +146,25 @@ TEST(FluidOrder, ASmallMassDoesNotOscillate) {
     EXPECT_NEAR(simulated(drag, 1e-4, steady, 0.1, end).velocity, -0.01, 1e-5);
 }
 
+// Near a wall the drag is many times the Stokes drag, 6 pi here.
+TEST(FluidOrder, StrongDragDoesNotReverseAVelocity) {
+  constexpr double kStokes = 18.849555921538759;
+  for (const double times : {10.0, 100.0, 300.0})
+    for (const double z : {0.01, 0.1, 1.0, 3.0}) {
+      const double h = 0.1, mass = h * kStokes / z;
+      auto system = in_fluid(1, 100, h, 0.01);
+      add_particle(system.state, {20, 0, 0}, 1, mass, {-1, 0, 0});
+      auto simulation = system.simulation(drag_at([&](double) { return times * kStokes; }));
+      double before = -1;
+      for (int step = 1; step <= 10; ++step) {
+        run(simulation, step * h);
+        const double velocity = simulation.state().particles.velocities[0];
+        EXPECT_LE(velocity, 0) << times << " " << z << " " << step;
+        EXPECT_GT(velocity, before) << times << " " << z << " " << step;
+        before = velocity;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace viscontact::particles

@@ -118,6 +118,34 @@ TEST_F(ShippedFluidCase, RandomDiscs) {
   }
 }
 
+// Two discs that the shear pushes together within the cell, and half a period further, where they
+// meet across its side: an image moves with the mean flow.
+TEST_F(ShippedFluidCase, ContactIsTheSameAcrossTheSideOfAShearedCell) {
+  const auto gamma = [&](const std::string& first, const std::string& second) {
+    last_of(R"(title = "A pair in a sheared cell"
+[space]
+dimension = 2
+[fluid]
+viscosity = 1.0
+constraint = "rigid"
+edges_per_particle = 12
+threshold_gap = 0.05
+velocity = { shear_rate = 1.0 }
+[domain]
+box = { from = [0.0, 0.0], to = [6.0, 6.0], periodic = [true, true] }
+[viscous_contact]
+time_step = 0.02
+end_time = 0.02
+[[particle]]
+centre = )" +
+            first + "\nradius = 1.0\n[[particle]]\ncentre = " + second + "\nradius = 1.0\n");
+    return last("contacts.csv", 4);
+  };
+  const double inside = gamma("[2.5, 4.0]", "[3.4815, 2.2]");
+  EXPECT_LT(inside, -0.01);
+  EXPECT_NEAR(gamma("[2.5, 1.0]", "[3.4815, 5.2]"), inside, 1e-3 * -inside);
+}
+
 TEST_F(ShippedFluidCase, ContactOfShearedDiscs) {
   last_of(cut("viscosity_contact", 0.1, 3));
   EXPECT_GT(last("steps.csv", kApparentViscosity), 1.6);

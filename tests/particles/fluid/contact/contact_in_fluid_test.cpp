@@ -42,7 +42,7 @@ TEST(ContactInFluid, BooksTheWholeLoadWithAnyStep) {
 }
 
 TEST(ContactInFluid, SplittingLosesWhatTheFluidCarries) {
-  // The drag takes its share h R/m of the load in each step, docs/physics.md (4.7).
+  // The drag takes its share h R/m of the load in each step, docs/physics.md (6.4).
   const double h = 0.01, mass = 20, drag = 100;
   auto system = sphere_on_floor(mass, h);
   system.setting.fluid->coupling = Coupling::kSplitting;

@@ -1,0 +1,80 @@
+// What must not change the flow that FreeFEM computes: where the box of a period begins, and the unit
+// of length. And that the estimate of the error is true on the lecture's mesh.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/freefem_flow/accuracy/exact_flows.hpp"
+#include "tests/freefem_flow/placed_flow.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using particles::BoxDomain;
+using particles::DiscDomain;
+using particles::FluidMesh;
+using particles::RigidConstraint;
+
+double torque_of_a_spinning_disc(FluidMesh mesh, double x) {
+  auto fluid = fluid_with(16);
+  fluid.mesh = mesh;
+  PlacedFlow flow(fluid, BoxDomain{{0, 0}, {6, 4}, {true, false}}, {{x, 2}}, {{0, {0, 0, 1}}});
+  flow.velocities();
+  return flow.solver().quantities().fluid_forces[2];
+}
+
+TEST(PeriodicBox, MayCutADisc) {
+  const double fitted = torque_of_a_spinning_disc(FluidMesh::kFitted, 3);
+  EXPECT_NEAR(torque_of_a_spinning_disc(FluidMesh::kFitted, 0.2), fitted, 1e-3 * -fitted);
+  // The fixed mesh meets the disc in other places when the disc is moved.
+  const double fixed = torque_of_a_spinning_disc(FluidMesh::kFixed, 3);
+  EXPECT_NEAR(torque_of_a_spinning_disc(FluidMesh::kFixed, 0.2), fixed, 0.1 * -fixed);
+}
+
+TEST(PeriodicBox, OfTheFixedMeshMayCutAFreeDisc) {
+  std::vector<double> spins;
+  for (const double x : {3.0, 0.2}) {
+    auto fluid = fluid_with(16);
+    fluid.mesh = FluidMesh::kFixed;
+    PlacedFlow flow(fluid, BoxDomain{{0, 0}, {6, 4}, {true, false}}, {{x, 2}});
+    const auto motion = flow.velocities(std::vector{0.0, 0.0, 1.0});
+    spins.push_back(motion[2]);
+    // A force-free disc midway does not move.
+    EXPECT_NEAR(motion[0], 0, 0.1 * motion[2]) << x;
+  }
+  EXPECT_NEAR(spins[1], spins[0], 0.1 * spins[0]);
+}
+
+TEST(Estimate, DoesNotDependOnTheUnitOfLength) {
+  std::vector<double> errors;
+  for (const double unit : {1.0, 1e-3}) {
+    PlacedFlow flow(fluid_with(12), DiscDomain{{}, 4 * unit},
+                    {{-1.3 * unit, 0, unit}, {1.1 * unit, 0.3 * unit, unit}});
+    // Torques, which turn the discs, have the unit of length twice in them.
+    const auto found = flow.estimate(std::vector{1.0, 0.0, 5.0 * unit, 0.0, 1.0, -8.0 * unit});
+    errors.push_back(found.relative_error);
+    errors.push_back(found.relative_error_of_one_mesh);
+  }
+  // FreeFEM rounds the points of the boundary to a grid, so that the meshes differ a little.
+  EXPECT_NEAR(errors[2], errors[0], 0.1 * errors[0]);
+  EXPECT_NEAR(errors[3], errors[1], 0.1 * errors[1]);
+}
+
+TEST(Estimate, IsTrueOnTheFixedMesh) {
+  for (const int edges : {12, 16, 24}) {
+    auto fluid = fluid_with(edges);
+    fluid.mesh = FluidMesh::kFixed;
+    PlacedFlow flow(fluid, DiscDomain{{}, 5}, {{}});
+    const std::vector forces = {1.0, 0.0, 0.0};
+    const double of_one_mesh = flow.velocities(forces)[0] / concentric_mobility(5) - 1;
+    const auto found = flow.estimate(forces);
+    const double error = found.velocities[0] / concentric_mobility(5) - 1;
+    EXPECT_LT(std::abs(error), found.relative_error) << edges;
+    EXPECT_LT(std::abs(of_one_mesh), found.relative_error_of_one_mesh) << edges;
+  }
+}
+
+}  // namespace
+}  // namespace viscontact::freefem_flow
