@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "viscontact/freefem/freefem_command.hpp"
+#include "viscontact/freefem_flow/mesh_boundary.hpp"
+#include "viscontact/freefem_flow/scaled_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -50,12 +52,23 @@ SolverLimits solver_limits(const StopToken& stop) {
   return limits;
 }
 
-std::unique_ptr<particles::FluidSolver> start_fluid_solver(
-    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
-    int dimension, MeshBoundaryMaker make_boundary, const StopToken& stop) {
-  return std::make_unique<FlowProcess>(fluid, domain, radii, dimension,
-                                       solver_command(fluid, dimension), std::move(make_boundary),
-                                       solver_limits(stop));
+std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
+                                                           const particles::Domain& domain,
+                                                           std::span<const double> radii,
+                                                           int dimension, const StopToken& stop) {
+  const bool is_freefem = fluid.solver.empty();
+  const SolverUnits units = is_freefem ? solver_units(fluid, domain, radii) : SolverUnits{};
+  const auto own_fluid = in_units(fluid, units);
+  const auto own_domain = in_units(domain, units);
+  const auto make_boundary = [own_fluid, own_domain](const particles::FluidParticles& placed,
+                                                     double coarsening) {
+    return mesh_boundary(own_fluid, own_domain, placed, coarsening);
+  };
+  auto process = std::make_unique<FlowProcess>(own_fluid, own_domain, in_units(radii, units),
+                                               dimension, solver_command(fluid, dimension),
+                                               make_boundary, solver_limits(stop));
+  if (!is_freefem) return process;
+  return std::make_unique<ScaledSolver>(units, dimension, std::move(process));
 }
 
 }  // namespace viscontact::freefem_flow

@@ -21,10 +21,13 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 /// million.
 SolverLimits solver_limits(const StopToken& stop = {});
 
-/// Starts the solver of `fluid`, and waits until it is ready. Parameters and errors are those of
-/// FlowProcess and of the functions above.
-std::unique_ptr<particles::FluidSolver> start_fluid_solver(
-    const particles::Fluid& fluid, const particles::Domain& domain, std::span<const double> radii,
-    int dimension, MeshBoundaryMaker make_boundary, const StopToken& stop = {});
+/// Starts the solver of `fluid`, and waits until it is ready. FreeFEM computes in units of its own
+/// (scaled_solver.hpp); a solver of the user's own gets the units of the case. Parameters and errors
+/// are those of FlowProcess and of the functions above.
+std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
+                                                           const particles::Domain& domain,
+                                                           std::span<const double> radii,
+                                                           int dimension,
+                                                           const StopToken& stop = {});
 
 }  // namespace viscontact::freefem_flow

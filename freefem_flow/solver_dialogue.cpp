@@ -27,11 +27,19 @@ std::string command_in_words(const std::vector<std::string>& arguments) {
   return text;
 }
 
-/// A word of the solver for a message, in which a long one would hide the rest.
+/// A text of the solver for a message, in which a long one would hide the rest.
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  return std::string(text.substr(0, longest)) + "...";
+}
+
+/// A word of the solver. Words are plain text; a byte that is not may end a message or disturb a
+/// terminal.
 std::string in_quotes(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
-  return word.size() <= kLongest ? fmt::format("'{}'", word)
-                                 : fmt::format("'{}...'", word.substr(0, kLongest));
+  auto text = shortened(word, 40);
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + text + "'";
 }
 
 double in_seconds(ChildProcess::Clock::duration time) {
@@ -118,7 +126,9 @@ double SolverDialogue::number_from_zero() {
 
 std::vector<double> SolverDialogue::numbers(std::size_t count) {
   std::vector<double> values(count);
-  for (double& value : values) value = number();
+  numbers_asked_ = count;
+  for (numbers_read_ = 0; numbers_read_ < count; ++numbers_read_) values[numbers_read_] = number();
+  numbers_asked_ = 0;
   return values;
 }
 
@@ -149,7 +159,10 @@ void SolverDialogue::fail_as_solver_says() {
 void SolverDialogue::fail_without_answer(ChildProcess::State state) {
   switch (state) {
     case ChildProcess::State::kTimedOut:
-      fail(fmt::format("it had not answered after {:g} s{}{}", in_seconds(time_limit_),
+      fail(fmt::format("it had not answered after {:g} s{}{}{}", in_seconds(time_limit_),
+                       numbers_asked_ > 0 ? fmt::format(", but for {} of {} numbers", numbers_read_,
+                                                        numbers_asked_)
+                                          : "",
                        remedy_if_silent_.empty() ? "" : "; ", remedy_if_silent_),
            0ms);
     case ChildProcess::State::kTooLong:
@@ -169,7 +182,9 @@ std::string SolverDialogue::asked_in_words() const {
 void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds grace) {
   const std::string asked = asked_in_words();
   const std::string end = process_->finish(grace);
-  const auto lines = process_->last_lines();
+  std::vector<std::string> lines;
+  constexpr std::size_t kLongestLine = 200;
+  for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
   process_.reset();
   throw Error(
       ErrorKind::kExternalProgram,

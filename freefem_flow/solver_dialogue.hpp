@@ -62,6 +62,7 @@ class SolverDialogue {
   std::optional<ChildProcess> process_;  ///< nothing after an error
   std::string request_;                  ///< first word of the last request
   std::int64_t requests_ = 0;
+  std::size_t numbers_asked_ = 0, numbers_read_ = 0;  ///< of the numbers that are being read
   ChildProcess::Clock::time_point asked_at_{};
 };
 

@@ -87,6 +87,25 @@ void check_mean_flow(const TomlSection& root, const ParticlesCase& c) {
                           c.end_time, c.setting.time_step));
 }
 
+/// An arrangement must be accepted or refused whatever its seed.
+void check_arrangement(const TomlSection& root, const ParticlesCase& c) {
+  if (!c.arrangement) return;
+  const auto& fluid = *c.setting.fluid;
+  const double gap = c.arrangement->smallest_gap;
+  const double least = kLeastGapOfMesh * c.arrangement->radius;
+  if (root.section("fluid").has("threshold_gap") && gap < fluid.threshold_gap)
+    root.section("arrangement")
+        .fail("smallest_gap",
+              fmt::format("is {}; it must be at least fluid.threshold_gap, {}, at which contact is "
+                          "made",
+                          gap, fluid.threshold_gap));
+  if (fluid.mesh == particles::FluidMesh::kFitted && gap < least)
+    root.section("arrangement")
+        .fail("smallest_gap", fmt::format("is {}; it must be at least a thousandth of the radius, "
+                                          "{:.3g}, which the mesh resolves",
+                                          gap, least));
+}
+
 void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGap& at) {
   const auto& fluid = *c.setting.fluid;
   const auto& p = c.particles;
@@ -147,6 +166,7 @@ void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
         "makes each side open that is not periodic, so that nothing balances the forces on the "
         "particles; at least one side must be a wall, or the motion of a particle must be given");
   check_mean_flow(root, c);
+  check_arrangement(root, c);
   check_masses(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,

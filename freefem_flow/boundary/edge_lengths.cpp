@@ -42,11 +42,11 @@ void check_edge_length(double edge, double length) {
   if (edge > kShortest * length) return;  // false for NaN
   throw Error(
       ErrorKind::kNotConverged,
-      fmt::format("the mesh of the fluid needs an edge of {:.3g} on a curve of length {:.3g}, "
-                  "but does not resolve less than {:.0e} of it: particles, or a particle "
-                  "and a wall, overlap or have too narrow a gap; use a larger "
-                  "fluid.threshold_gap or a shorter time_step",
-                  edge, length, kShortest));
+      fmt::format("the mesh of the fluid needs an edge of {:.3g} of the length of a curve, but "
+                  "resolves no less than {:.0e} of it: particles, or a particle and a wall, "
+                  "overlap or have too narrow a gap; use a larger fluid.threshold_gap or a "
+                  "shorter time_step",
+                  edge / length, kShortest));
 }
 
 double distance_to(const Circle& circle, const Point& x) {

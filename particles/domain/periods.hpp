@@ -17,6 +17,9 @@ namespace viscontact::particles {
 struct PeriodicCell {
   std::array<double, 2> from{};     ///< lowest x and y of the cell [L]
   std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy of a fluid in the cell [1/T]: an image moves
+  /// relative to its particle by the gradient times its shift.
+  std::array<double, 4> gradient{};
 
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0; }
   bool operator==(const PeriodicCell&) const = default;
@@ -44,6 +47,12 @@ inline constexpr std::int32_t kLargestImage = 4;
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y] = periods_of_image(image);
   return {x * cell.lengths[0], y * cell.lengths[1], 0};
+}
+
+/// Velocity of an image relative to its particle, which is `shift` [L] away from it [L/T].
+inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
+  const auto& g = cell.gradient;
+  return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
 }
 
 /// Number of periods along axis `axis` (0 or 1) that are subtracted from the coordinate `x` [L] to

@@ -63,6 +63,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
   p.cell = cell_of(setting_.domain);
+  if (const auto* flow = std::get_if<LinearFlow>(&setting_.fluid->boundary))
+    p.cell.gradient = flow->gradient;
   if (layout_.components == 3) {
     p.angles.resize(p.count());
     p.angular_velocities.resize(p.count());
@@ -113,16 +115,11 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
     return velocities;
   };
   const auto places = positions_of(obstacles_, next);
-  // Images of particles move with a linear flow; without periods there are none.
-  std::array<double, 4> gradient{};
-  const auto* flow = std::get_if<LinearFlow>(&setting_.fluid->boundary);
-  if (flow != nullptr && state_.particles.cell.is_periodic()) gradient = flow->gradient;
   const ContactConditions conditions{h,
                                      setting_.fluid->threshold_gap,
                                      places,
                                      mean_radius_,
                                      error_of_answers(*setting_.fluid),
-                                     gradient,
                                      setting_.solver,
                                      is_movable};
   return solve_contacts(state_, free, mobility, conditions, pool_);

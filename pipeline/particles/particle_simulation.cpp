@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
 
 namespace viscontact::pipeline {
 
@@ -14,14 +13,9 @@ ParticleSimulation::ParticleSimulation(const particles::Setting& setting, partic
     dry_ = std::make_unique<particles::Simulation>(setting, std::move(state), threads);
     return;
   }
-  const auto& fluid = *setting.fluid;
   const auto& p = state.particles;
-  auto make_boundary = [fluid, domain = setting.domain](const particles::FluidParticles& bodies,
-                                                        double coarsening) {
-    return freefem_flow::mesh_boundary(fluid, domain, bodies, coarsening);
-  };
-  auto solver = freefem_flow::start_fluid_solver(fluid, setting.domain, p.radii, p.dimension,
-                                                 make_boundary, stop);
+  auto solver =
+      freefem_flow::start_fluid_solver(*setting.fluid, setting.domain, p.radii, p.dimension, stop);
   in_fluid_ =
       std::make_unique<particles::FluidSimulation>(setting, std::move(state), std::move(solver));
 }

@@ -61,7 +61,7 @@ TEST(StartFluidSolver, StartsTheSolverOfAUser) {
   const auto fluid =
       fluid_of_solver({"python3", VISCONTACT_SOURCE_FOLDER "/examples/stokes_drag.py"});
   const auto solver =
-      start_fluid_solver(fluid, particles::CylinderDomain{5, 10}, std::vector{1.0}, 1, {});
+      start_fluid_solver(fluid, particles::CylinderDomain{5, 10}, std::vector{1.0}, 1);
   particles::Particles sphere;
   sphere.dimension = 1;
   sphere.positions = {5};

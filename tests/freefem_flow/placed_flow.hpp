@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
-#include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
@@ -56,11 +55,7 @@ class PlacedFlow {
         angles_(dimension_ == 2 ? bodies.size() : 0),
         driven_(std::move(driven)),
         inertia_(std::move(inertia)),
-        solver_(start_fluid_solver(
-            fluid, domain, particles_.radii, dimension_,
-            [fluid, domain](const particles::FluidParticles& placed, double coarsening) {
-              return mesh_boundary(fluid, domain, placed, coarsening);
-            })) {
+        solver_(start_fluid_solver(fluid, domain, particles_.radii, dimension_)) {
     place();
   }
 

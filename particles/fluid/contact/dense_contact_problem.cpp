@@ -23,12 +23,16 @@ void active_set_step(DenseContactProblem& problem) {
     else
       p[c] = problem.gamma[c];
   }
-  const Eigen::VectorXd rest = problem.b + problem.w * p;
   Eigen::MatrixXd part = problem.w(free, free);
   // Redundant contacts make W singular but for its errors. A term as large as these bounds the
-  // impulses that such contacts exert on each other; further steps remove what it changes elsewhere.
+  // impulses that such contacts exert on each other. Refinement removes what it changes elsewhere.
   part.diagonal() *= 1 + problem.error_of_w;
-  p(free) -= part.ldlt().solve(rest(free));
+  const Eigen::LDLT<Eigen::MatrixXd> factor(part);
+  constexpr int kRefinements = 2;
+  for (int i = 0; i <= kRefinements; ++i) {
+    const Eigen::VectorXd rest = problem.b + problem.w * p;
+    p(free) -= factor.solve(rest(free));
+  }
 }
 
 void sweep(DenseContactProblem& problem) {

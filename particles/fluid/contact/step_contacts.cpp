@@ -66,11 +66,6 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
       for (const auto& pair : *list) {
         auto contact = fluid_contact_of(p, pair, conditions.obstacles, conditions.threshold,
                                         free_velocities, h);
-        const Vector shift = shift_of(p.cell, pair.image);
-        for (std::size_t d = 0; d < 2; ++d)
-          contact.image_opening +=
-              contact.normal[d] * (conditions.mean_gradient[2 * d] * shift[0] +
-                                   conditions.mean_gradient[2 * d + 1] * shift[1]);
         // A threshold gap that is crossed by less than the tolerance counts as reached.
         if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
           contact.gap = 0;

@@ -2,7 +2,6 @@
 // are those of the case.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -20,8 +19,6 @@ struct ContactConditions {
   std::span<const PlanePosition> obstacles;  ///< at the end of the step
   double mean_radius = 0;                    ///< [L], > 0
   double mobility_error = 0;                 ///< relative error of the mobility's answers, >= 0
-  /// Mean velocity gradient, as in LinearFlow [1/T]: images of particles move with it.
-  std::array<double, 4> mean_gradient{};
   SolverSettings solver;
   /// True for particles that a contact force moves; pairs of others are left out.
   std::function<bool(std::int32_t k)> is_movable;

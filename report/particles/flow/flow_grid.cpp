@@ -78,6 +78,9 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
                              v += shape[i] * flow.velocity_y[node];
                              pressure += shape[i] * flow.pressure[node];
                            }
+                           const auto added = velocity_at(cell, {shift_x, shift_y, 0});
+                           u += added[0];
+                           v += added[1];
                            found.velocity_x[point] = u;
                            found.velocity_y[point] = v;
                            found.pressure[point] = pressure;

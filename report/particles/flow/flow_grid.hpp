@@ -41,7 +41,8 @@ struct FlowOnGrid {
 };
 
 /// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// the periods of `cell`: its triangles need not lie in the cell (docs/fluid-solver.md).
+/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in the
+/// cell (docs/fluid-solver.md).
 FlowOnGrid flow_on_grid(const particles::FlowField& flow, const Grid& grid,
                         const particles::PeriodicCell& cell);
 

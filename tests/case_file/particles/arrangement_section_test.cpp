@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/case_file/fluid/fluid_cases.hpp"
 #include "tests/common/failure.hpp"
 
 namespace viscontact::case_file {
@@ -96,6 +97,19 @@ TEST(ArrangementSection, WrongKeysAreRefusedAtTheirLine) {
   spheres.dimension = 3;
   EXPECT_THAT(bad_input([&] { read("count = 2\nradius = 1.0\n", {}, false, spheres); }),
               HasSubstr("space.dimension must be 2"));
+}
+
+TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {
+  const auto text = [](const std::string& fluid, const std::string& gap) {
+    auto changed_text = changed(kDiscsInBox, "viscosity = 2.0", "viscosity = 2.0\n" + fluid);
+    changed_text.resize(changed_text.find("[[particle]]"));
+    return changed_text + "[arrangement]\ncount = 2\nradius = 0.2\nsmallest_gap = " + gap + "\n";
+  };
+  expect_refused_at(
+      text("threshold_gap = 0.1", "0.05"), "smallest_gap",
+      "arrangement.smallest_gap is 0.05; it must be at least fluid.threshold_gap, 0.1");
+  expect_refused_at(text("", "1e-4"), "smallest_gap", "a thousandth of the radius, 0.0002");
+  EXPECT_EQ(read_particles_text(text("threshold_gap = 0.05", "0.05")).particles.count(), 2U);
 }
 
 }  // namespace

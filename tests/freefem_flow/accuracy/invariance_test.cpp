@@ -47,6 +47,49 @@ TEST(PeriodicBox, OfTheFixedMeshMayCutAFreeDisc) {
   EXPECT_NEAR(spins[1], spins[0], 0.1 * spins[0]);
 }
 
+TEST(Units, DoNotChangeTheVelocity) {
+  // Water in mm, kg, s is 1e-6; 1e4 and 1e-5 are lengths in units that are too small or too large.
+  for (const double viscosity : {1e-30, 1e-6, 1e30})
+    for (const double unit : {1e-15, 1e-5, 1e4, 1e20}) {
+      auto fluid = fluid_with(12);
+      fluid.viscosity = viscosity;
+      PlacedFlow flow(fluid, DiscDomain{{}, 4 * unit}, {{0, 0, unit}});
+      const auto motion = flow.velocities({viscosity, 0, 0});
+      EXPECT_NEAR(motion[0], concentric_mobility(4), 0.01 * concentric_mobility(4));
+      const auto quantities = flow.solver().quantities();
+      EXPECT_NEAR(quantities.fluid_forces[0], -viscosity, 1e-6 * viscosity);
+      EXPECT_NEAR(quantities.dissipation, viscosity * motion[0], 1e-6 * viscosity * motion[0]);
+    }
+}
+
+TEST(Units, DoNotChangeTheForceOnASphere) {
+  // Drag over 6 pi mu r u in a closed cylinder; the exact value is not needed.
+  std::vector<double> factors;
+  for (const double unit : {1.0, 1e-6}) {
+    auto fluid = fluid_with(12);
+    fluid.viscosity = 1e-3;
+    PlacedFlow flow(fluid, particles::CylinderDomain{5 * unit, 10 * unit}, {{0, 3 * unit, unit}},
+                    {{0, {2 * unit, 0, 0}}});
+    flow.velocities();
+    factors.push_back(flow.solver().quantities().fluid_forces[0] / (unit * unit));
+  }
+  EXPECT_LT(factors[0], 0);
+  EXPECT_NEAR(factors[1], factors[0], 1e-3 * -factors[0]);
+}
+
+TEST(ShearedCell, MovesADiscWithTheShearAtItsPlace) {
+  // Alone in its cell, a disc moves with the mean flow: docs/physics.md (6.3), centre of the box at 3.
+  for (const auto constraint : {RigidConstraint::kPenalty, RigidConstraint::kRigid})
+    for (const double y : {3.0, 4.0, 5.5}) {
+      auto fluid = fluid_with(12, constraint);
+      fluid.boundary = particles::LinearFlow{{0, 1, 0, 0}};
+      PlacedFlow flow(fluid, BoxDomain{{0, 0}, {8, 6}, {true, true}}, {{4, y}});
+      const auto motion = flow.velocities();
+      EXPECT_NEAR(motion[0], y - 3, 1e-3) << y;
+      EXPECT_NEAR(motion[1], 0, 1e-3) << y;
+    }
+}
+
 TEST(Estimate, DoesNotDependOnTheUnitOfLength) {
   std::vector<double> errors;
   for (const double unit : {1.0, 1e-3}) {
@@ -57,7 +100,7 @@ TEST(Estimate, DoesNotDependOnTheUnitOfLength) {
     errors.push_back(found.relative_error);
     errors.push_back(found.relative_error_of_one_mesh);
   }
-  // FreeFEM rounds the points of the boundary to a grid, so that the meshes differ a little.
+  // Units are not powers of 2, so that rounding errors differ, and the meshes a little.
   EXPECT_NEAR(errors[2], errors[0], 0.1 * errors[0]);
   EXPECT_NEAR(errors[3], errors[1], 0.1 * errors[1]);
 }

@@ -66,5 +66,20 @@ TEST(FlowGrid, FillsTheCellByImagesOfTheFlow) {
   }
 }
 
+TEST(FlowGrid, ImagesOfAMeanFlowMoveWithIt) {
+  // The shear u = (y, 0) on triangles that are half a period above the cell.
+  const auto flow = mesh_of({0, 3, 1, 3}, 12, [](double, double y) {
+    return std::array{y, 0.0, 0.0};
+  });
+  const Grid grid{{0, 3, 0, 2}, 31, 21};
+  const auto found = flow_on_grid(flow, grid, {{0, 0}, {3, 2}, {0, 1, 0, 0}});
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double y = grid.y(i / grid.columns);
+    if (std::abs(y - 1) < 0.05) continue;  // the triangles begin and end there
+    EXPECT_NEAR(found.velocity_x[i], y, 1e-13) << i;
+    EXPECT_NEAR(found.velocity_y[i], 0, 1e-13) << i;
+  }
+}
+
 }  // namespace
 }  // namespace viscontact::report
