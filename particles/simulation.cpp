@@ -15,6 +15,7 @@
 #include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
+#include "viscontact/particles/rotation.hpp"
 
 namespace viscontact::particles {
 
@@ -54,6 +55,11 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
+void scale_impulses(Pair& pair, double factor) {
+  pair.impulse *= factor;
+  pair.friction = factor * pair.friction;
+}
+
 }  // namespace
 
 Simulation::Simulation(Setting setting, State state, int threads)
@@ -83,6 +89,23 @@ void Simulation::move_freely(double h, double next) {
     const Vector mean = force.mean(state_.time, next);
     for (std::size_t d = 0; d < D; ++d) displacements_[k * D + d] += h * mobilities_[k] * mean[d];
   }
+  if (p.turn()) turn_freely(h, next);
+}
+
+/// Sets the rotations h w* of the free motion.
+void Simulation::turn_freely(double h, double next) {
+  const auto& p = state_.particles;
+  const auto components = turn_components(p.dimension);
+  turns_.resize(p.angular_velocities.size());
+  turn_mobilities_.resize(p.count());
+  for (std::size_t k = 0; k < turns_.size(); ++k) turns_[k] = h * p.angular_velocities[k];
+  for (std::size_t k = 0; k < p.count(); ++k) turn_mobilities_[k] = h / p.inertias[k];
+  for (const auto& [particle, torque] : setting_.torques) {
+    const auto k = index_of(particle);
+    const Vector mean = torque.mean(state_.time, next);
+    for (std::size_t i = 0; i < components; ++i)
+      turns_[k * components + i] += h * turn_mobilities_[k] * mean[p.dimension == 3 ? i : 2];
+  }
 }
 
 void Simulation::move(double h) {
@@ -93,6 +116,7 @@ void Simulation::move(double h) {
       p.velocities[k] = displacements_[k] / h;
     }
   });
+  if (p.turn()) turn_particles(p, turns_, h);
 }
 
 template <int D>
@@ -118,8 +142,16 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
-    auto projected = StepProjection<D>(state_, h, planes, displacements_, mobilities_, *pool_)
-                         .solve(setting_.solver, mean_radius_);
+    StepProjection<D> projection(state_, h, planes, displacements_, mobilities_, *pool_);
+    const FrictionStep with_friction{setting_.friction.value_or(FrictionLaw{}),
+                                     setting_.law,
+                                     obstacles_,
+                                     state_.time,
+                                     next,
+                                     turns_,
+                                     turn_mobilities_};
+    if (setting_.friction) projection.add_friction(with_friction);
+    auto projected = projection.solve(setting_.solver, mean_radius_);
     double gone = 0;
     for (const auto body : projected.bodies) gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
@@ -157,18 +189,21 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
-    for_pairs([](Pair& pair) { pair.impulse /= 2; });
+    for_pairs([](Pair& pair) { scale_impulses(pair, 0.5); });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
     // The caller may continue with a part of twice the length, for which the impulses are the first
     // guess.
-    if (halvings > 0) for_pairs([](Pair& pair) { pair.impulse *= 2; });
+    if (halvings > 0) for_pairs([](Pair& pair) { scale_impulses(pair, 2); });
     return;
   }
   accept(projected, h, next, report);
   if (halvings > 0)
     for_pairs([&](const Pair& pair) {
-      if (pair.impulse != 0) impulses_of_parts_[key_of(pair)] += pair.impulse;
+      if (pair.impulse == 0) return;
+      auto& sums = impulses_of_parts_[key_of(pair)];
+      sums.normal += pair.impulse;
+      sums.friction = sums.friction + pair.friction;
     });
 }
 
@@ -204,8 +239,10 @@ StepReport Simulation::step(double end) {
     advance_whole<3>(h, next, report);
   if (!impulses_of_parts_.empty()) {
     for_pairs([&](Pair& pair) {
-      const auto sum = impulses_of_parts_.find(key_of(pair));
-      pair.impulse = sum == impulses_of_parts_.end() ? 0 : sum->second;
+      const auto sums = impulses_of_parts_.find(key_of(pair));
+      const auto [normal, friction] = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
+      pair.impulse = normal;
+      pair.friction = friction;
     });
     impulses_of_parts_.clear();
   }

@@ -13,6 +13,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact_law.hpp"
+#include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
@@ -36,11 +37,13 @@ struct Setting {
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
   ContactLaw law;
+  /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
+  std::optional<FrictionLaw> friction;
   double time_step = 0;  ///< h [T], > 0
   SolverSettings solver;
   std::optional<Fluid> fluid;  ///< around the particles; needs a domain
-  /// Torques on single particles in a fluid, by the number of the particle: value[2],
-  /// counter-clockwise [M L^2/T^2]. A particle with a torque has no entry in `given_motions`.
+  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
+  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
@@ -132,6 +135,7 @@ class Simulation {
   // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
   template <int D>
   void move_freely(double h, double next);
+  void turn_freely(double h, double next);
   // Solves the projection. The displacements h u* become h v.
   template <int D>
   ProjectionResult project(double h, double next);
@@ -143,10 +147,16 @@ class Simulation {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
-  std::vector<Plane> obstacles_;       // walls of the domain, then planes
+  // If the particles turn: h w*, later h w [rad], and h/I [T/(M L^2)].
+  std::vector<double> turns_, turn_mobilities_;
+  std::vector<Plane> obstacles_;  // walls of the domain, then planes
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
   // bodies and of the image, and the state before the step.
-  std::map<std::array<std::int32_t, 3>, double> impulses_of_parts_;
+  struct Impulses {
+    double normal = 0;
+    Vector friction{};
+  };
+  std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;
 };
 

@@ -25,6 +25,9 @@ struct Pair {
   /// The image of `second` that meets `first` (periods.hpp); 0 without a shift. Two images of one
   /// particle may both touch another particle, and are then two pairs.
   std::int32_t image = 0;
+  /// Impulse of friction on `second` in the last step [M L/T], tangential; the first guess of the
+  /// next one. Zero without friction.
+  Vector friction{};
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   bool operator==(const Pair&) const = default;
