@@ -53,8 +53,9 @@ inline double homogeneous_inertia(int dimension, double mass, double radius) {
   return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
 }
 
-/// Gives rotation to particles that have none: at rest, in the orientation of the start, with the
-/// moments of inertia of homogeneous bodies. `dimension` is 2 or 3.
+/// Makes all particles turn. Those after the end of an array of the rotation get values there: at
+/// rest, in the orientation of the start, with the moment of inertia of a homogeneous body. The
+/// dimension is 2 or 3.
 void add_rotation(Particles& particles);
 
 /// Mean radius [L], by which residuals and overlaps are measured; 1 if there are no particles.

@@ -41,17 +41,16 @@ void turn_particles(Particles& particles, std::span<const double> turns, double 
 }
 
 void add_rotation(Particles& particles) {
-  if (particles.turn() || particles.count() == 0) return;
   const auto count = particles.count();
-  particles.angular_velocities.assign(count * turn_components(particles.dimension), 0.0);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (particles.dimension == 3)
+  particles.angular_velocities.resize(count * turn_components(particles.dimension), 0.0);
+  if (particles.dimension == 3)
+    for (std::size_t k = particles.orientations.size() / 4; k < count; ++k)
       particles.orientations.insert(particles.orientations.end(), {1, 0, 0, 0});
-    else
-      particles.angles.push_back(0);
+  else
+    particles.angles.resize(count, 0.0);
+  for (std::size_t k = particles.inertias.size(); k < count; ++k)
     particles.inertias.push_back(
         homogeneous_inertia(particles.dimension, particles.masses[k], particles.radii[k]));
-  }
 }
 
 }  // namespace viscontact::particles

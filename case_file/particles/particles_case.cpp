@@ -127,6 +127,29 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
   contact.finish();
 }
 
+void read_friction(const TomlSection& section, ParticlesCase& c) {
+  if (c.setting.fluid)
+    section.fail("coefficient",
+                 "belongs to particles without a fluid; a case with [fluid] must have no section "
+                 "[friction]");
+  if (!c.setting.law.gamma_min && !c.setting.law.viscosity)
+    section.fail("coefficient",
+                 "has no effect, because smooth particles never touch; viscous_contact must have "
+                 "gamma_min (0: no film), or viscosity and roughness");
+  particles::FrictionLaw law;
+  law.coefficient = section.number("coefficient", kModeratelyPositiveOr0);
+  if (section.has("method")) {
+    const auto method = section.text("method");
+    if (method == "convex")
+      law.method = particles::FrictionMethod::kConvex;
+    else if (method != "fixed_point")
+      section.fail("method",
+                   fmt::format("is '{}'; it must be \"fixed_point\" or \"convex\"", method));
+  }
+  section.finish();
+  c.setting.friction = law;
+}
+
 void read_solver(const TomlSection& solver, particles::SolverSettings& settings) {
   if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
   if (solver.has("impulse_tolerance"))
@@ -187,6 +210,7 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
 
   read_domain_and_fluid(root, c);
   read_contact(root.section("viscous_contact"), c);
+  if (root.has("friction")) read_friction(root.section("friction"), c);
   if (root.has("solver")) read_solver(root.section("solver"), c.setting.solver);
   c.frame_interval = c.end_time / 100;
   if (root.has("output")) {

@@ -1,5 +1,5 @@
-// The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.8)
-// to (5.11), in flat arrays. Lengths, masses and times are in the units of the case.
+// The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.6)
+// to (5.9), in flat arrays. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <array>
@@ -78,7 +78,7 @@ struct ConstraintBlock {
   /// of the tangential rows of a contact.
   double allowed = 0, allowed_slip = 0;
   /// Bound mu_s s of the tangential impulse [M L/T], where s is the part of the normal impulse that
-  /// the solids carry, docs/physics.md (5.9).
+  /// the solids carry, docs/physics.md (5.7).
   double bound(double normal_impulse) const {
     const double carried = normal_impulse - capacity;
     return carried > 0 ? friction * carried : 0;
@@ -97,7 +97,7 @@ struct ConstraintProblem {
   std::vector<ConstraintRow<D>> rows;
   std::vector<ConstraintBlock> blocks;
   std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether sliding contacts open by h mu_s |v_t|, which makes the problem convex (5.11).
+  /// Whether sliding contacts open by h mu_s |v_t|, which makes the problem convex (5.9).
   bool lifts_sliding = false;
 };
 

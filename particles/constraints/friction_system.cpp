@@ -1,4 +1,4 @@
-// Makes the rows of contacts with friction, docs/physics.md (5.8), and writes back their solution.
+// Makes the rows of contacts with friction, docs/physics.md (5.6), and writes back their solution.
 #include "viscontact/particles/constraints/friction_system.hpp"
 
 #include <algorithm>

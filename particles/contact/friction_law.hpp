@@ -1,4 +1,4 @@
-// Coulomb's friction of solid contact, docs/physics.md (5.8) and (5.9).
+// Coulomb's friction of solid contact, docs/physics.md (5.7).
 #pragma once
 
 namespace viscontact::particles {
@@ -6,7 +6,7 @@ namespace viscontact::particles {
 /// How the law is solved in a step.
 enum class FrictionMethod {
   kFixedPoint,  ///< Coulomb's law; sliding contacts stay closed
-  /// The convex relaxation (5.11), in which a sliding contact opens by h mu_s |v_t| in a step.
+  /// The convex relaxation (5.9), in which a sliding contact opens by h mu_s |v_t| in a step.
   kConvex,
 };
 

@@ -159,7 +159,7 @@ TEST_P(Friction, ATurningOrMovingPlaneDragsWhatLiesOnIt) {
 }
 
 TEST_P(Friction, TheConvexRelaxationLiftsSlidingContacts) {
-  // After a step of sliding at v_t the gap is h mu_s |v_t|, physics.md (5.11).
+  // After a step of sliding at v_t the gap is h mu_s |v_t|, physics.md (5.9).
   auto setting = incline(0.01, 0.3, 0);
   setting.friction->method = FrictionMethod::kConvex;
   Simulation simulation(setting, on_floor(GetParam(), {5, 0, 0}), 1);
