@@ -72,42 +72,6 @@ Simulation::Simulation(Setting setting, State state, int threads)
   wrap_into_cell(state_);
 }
 
-template <int D>
-void Simulation::move_freely(double h, double next) {
-  const auto& p = state_.particles;
-  displacements_.resize(p.count() * D);
-  mobilities_.resize(p.count());
-  pool_->for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      mobilities_[k] = h / p.masses[k];
-      for (std::size_t d = 0; d < D; ++d)
-        displacements_[k * D + d] = h * (p.velocities[k * D + d] + h * setting_.gravity[d]);
-    }
-  });
-  for (const auto& [particle, force] : setting_.forces) {
-    const auto k = index_of(particle);
-    const Vector mean = force.mean(state_.time, next);
-    for (std::size_t d = 0; d < D; ++d) displacements_[k * D + d] += h * mobilities_[k] * mean[d];
-  }
-  if (p.turn()) turn_freely(h, next);
-}
-
-/// Sets the rotations h w* of the free motion.
-void Simulation::turn_freely(double h, double next) {
-  const auto& p = state_.particles;
-  const auto components = turn_components(p.dimension);
-  turns_.resize(p.angular_velocities.size());
-  turn_mobilities_.resize(p.count());
-  for (std::size_t k = 0; k < turns_.size(); ++k) turns_[k] = h * p.angular_velocities[k];
-  for (std::size_t k = 0; k < p.count(); ++k) turn_mobilities_[k] = h / p.inertias[k];
-  for (const auto& [particle, torque] : setting_.torques) {
-    const auto k = index_of(particle);
-    const Vector mean = torque.mean(state_.time, next);
-    for (std::size_t i = 0; i < components; ++i)
-      turns_[k * components + i] += h * turn_mobilities_[k] * mean[p.dimension == 3 ? i : 2];
-  }
-}
-
 void Simulation::move(double h) {
   auto& p = state_.particles;
   pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
@@ -168,6 +132,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report.glued = remember(state_.particles, projected, setting_.law);
   move(h);
   state_.time = next;
+  if (setting_.scheme == Scheme::kLeapfrog) state_.velocity_lag = h / 2;
   ++report.parts;
   report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;

@@ -27,6 +27,12 @@ namespace viscontact::particles {
 
 struct ProjectionResult;
 
+/// How the velocities of (5.3) are read, docs/physics.md (5.10).
+enum class Scheme {
+  kEuler,     ///< u^n is the velocity at time t^n; positions are of first order
+  kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
+};
+
 /// What moves the particles, and how their motion is computed. A case file's values are checked
 /// when it is read. The keys of the maps must be numbers of existing particles.
 struct Setting {
@@ -39,7 +45,8 @@ struct Setting {
   ContactLaw law;
   /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
   std::optional<FrictionLaw> friction;
-  double time_step = 0;  ///< h [T], > 0
+  double time_step = 0;            ///< h [T], > 0
+  Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;
   std::optional<Fluid> fluid;  ///< around the particles; needs a domain
   /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
@@ -119,7 +126,16 @@ class Simulation {
   const State& state() const { return state_; }
   const Setting& setting() const { return setting_; }
 
+  /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
+  /// state are those at an earlier time (State::velocity_lag); particles without an impulse of a
+  /// contact in the last step get what forces, gravity and torques have given them since then.
+  Particles reported_particles() const;
+
  private:
+  double kick_length(double h) const {
+    return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
+  }
+  Vector mean_of(const PiecewiseConstant& function, double h, double next) const;
   template <int D>
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>

@@ -38,6 +38,9 @@ struct State {
   Particles particles;
   double time = 0;         ///< [T]
   std::int64_t steps = 0;  ///< number of steps done
+  /// The velocities are those at the time `time` - velocity_lag [T], >= 0; 0 unless the scheme is
+  /// Scheme::kLeapfrog.
+  double velocity_lag = 0;
   /// Step n ends at time grid_time + (n - grid_step) h. Both numbers are 0 until a step is cut
   /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;

@@ -124,6 +124,17 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
         fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
   read_law(contact, c.setting.fluid, c.setting.law);
+  if (contact.has("scheme")) {
+    const auto scheme = contact.text("scheme");
+    if (scheme != "euler" && scheme != "leapfrog")
+      contact.fail("scheme", fmt::format("is '{}'; it must be \"euler\" or \"leapfrog\"", scheme));
+    if (scheme == "leapfrog" && c.setting.fluid)
+      contact.fail(
+          "scheme",
+          "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are "
+          "of second order without it, and the key must be left out");
+    if (scheme == "leapfrog") c.setting.scheme = particles::Scheme::kLeapfrog;
+  }
   contact.finish();
 }
 

@@ -59,6 +59,7 @@ void for_fields(State& state, Images& images, Frictions& frictions, int version,
   if (version < 4) return;
   field(p.orientations);
   field(frictions);
+  field(state.velocity_lag);
 }
 
 class Writer {
@@ -179,6 +180,7 @@ bool is_consistent(const State& state) {
          is_empty_or(p.orientations, 4 * p.count()) && is_empty_or(p.inertias, p.count()) &&
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
+         std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
          std::isfinite(state.earlier_step) && state.earlier_step >= 0;
 }
 

@@ -53,8 +53,8 @@ std::string of_version(int version, const State& state,
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
   // Version 3 added the lengths of six lists, which are empty here, and a number; version 4 the
-  // lengths of two more.
-  const std::size_t added = version == 3 ? 16 : 72;
+  // lengths of two more, and a number.
+  const std::size_t added = version == 3 ? 24 : 80;
   EXPECT_EQ(bytes.substr(bytes.size() - added), std::string(added, '\0'));
   bytes.erase(bytes.size() - added);
   change(bytes);
