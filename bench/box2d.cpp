@@ -2,7 +2,7 @@
 // memory for each STRETCH of time.
 //
 //   box2d [--count N] [--until T] [--max-iterations K] [--tolerance X] [--impulse-tolerance X]
-//         [--threads N] [--print STRETCH]
+//         [--threads N] [--print STRETCH] [--friction MU]
 //
 // The discs start on a lattice of spacing 2.1 with random displacements up to 0.05, in a box of
 // width 2.1 ceil(sqrt N) with a floor and two walls. Radii are 0.8 to 1, m = r^2, gravity is 1, the
@@ -16,6 +16,7 @@
 #include <ctime>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tests/particles/box2d/box2d_case.hpp"
 #include "viscontact/particles/contact/current_contacts.hpp"
@@ -46,7 +47,8 @@ int main(int argc, char** argv) {
                                           {"--tolerance", "1e-6"},
                                           {"--impulse-tolerance", "1e-10"},
                                           {"--threads", "1"},
-                                          {"--print", "2.5"}};
+                                          {"--print", "2.5"},
+                                          {"--friction", "0"}};
   for (int i = 1; i < argc; i += 2) {
     if (!o.contains(argv[i]) || i + 1 == argc) {
       fmt::print(stderr, "box2d: no option '{}', or no value\n", argv[i]);
@@ -58,8 +60,13 @@ int main(int argc, char** argv) {
   auto setting = box(count);
   setting.solver = {std::stod(o["--tolerance"]), std::stod(o["--impulse-tolerance"]),
                     std::stoi(o["--max-iterations"])};
+  auto discs = box_of_discs(count);
+  if (const double friction = std::stod(o["--friction"]); friction > 0) {
+    setting.friction = FrictionLaw{friction};
+    add_rotation(discs.particles);
+  }
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);
-  Simulation simulation(setting, box_of_discs(count), std::stoi(o["--threads"]));
+  Simulation simulation(setting, std::move(discs), std::stoi(o["--threads"]));
   double shown = 0, all = 0, worst_overlap = 0;
   int steps = 0, iterations = 0, unconverged = 0, all_unconverged = 0, all_steps = 0;
   double spent = 0, residual = 0, longest = 0;

@@ -1,6 +1,5 @@
-// The particles of a simulation: rigid discs or spheres. They rotate only in a fluid. Lengths,
-// masses and times are in any one consistent system of units. The restart file stores these arrays
-// as they are (io/restart.cpp).
+// The particles of a simulation: rigid discs or spheres. Lengths, masses and times are in any one
+// consistent system of units. The restart file stores these arrays as they are (io/restart.cpp).
 #pragma once
 
 #include <cstddef>
@@ -27,22 +26,37 @@ struct Particles {
   /// Name of each particle in files, >= 0; no two names are equal. Empty: particle k has the name
   /// k.
   std::vector<std::int32_t> ids{};
-  // Rotation of discs in a fluid, one entry for each particle. Empty if the case has no fluid, and
-  // on an axis.
-  std::vector<double> angles{};              ///< counter-clockwise [rad]
-  std::vector<double> angular_velocities{};  ///< counter-clockwise [1/T]
-  std::vector<double> inertias{};            ///< moments of inertia [M L^2], >= 0
+  // Rotation. Empty if nothing in the case makes rotation matter (docs/particles.md), and on an
+  // axis.
+  std::vector<double> angles{};  ///< of discs, counter-clockwise [rad]; empty for spheres
+  /// Orientations of spheres: unit quaternions, four numbers (w, x, y, z) for each particle, which
+  /// turn directions of the start into those of now; empty for discs.
+  std::vector<double> orientations{};
+  /// One number for each disc, counter-clockwise; three for each sphere [1/T].
+  std::vector<double> angular_velocities{};
+  std::vector<double> inertias{};  ///< moments of inertia [M L^2], > 0; >= 0 in a fluid
   /// Periods of the domain, by which the images of particles are shifted. A simulation takes them
   /// from its setting; the restart file does not store them.
   PeriodicCell cell{};
 
   std::size_t count() const { return radii.size(); }
+  bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation matters
   std::int32_t id(std::size_t k) const {
     return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];
   }
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
+
+/// Moment of inertia of a homogeneous disc or sphere about its centre [M L^2].
+inline double homogeneous_inertia(int dimension, double mass, double radius) {
+  return (dimension == 3 ? 0.4 : 0.5) * mass * radius * radius;
+}
+
+/// Makes all particles turn. Those after the end of an array of the rotation get values there: at
+/// rest, in the orientation of the start, with the moment of inertia of a homogeneous body. The
+/// dimension is 2 or 3.
+void add_rotation(Particles& particles);
 
 /// Mean radius [L], by which residuals and overlaps are measured; 1 if there are no particles.
 inline double mean_radius(const Particles& particles) {

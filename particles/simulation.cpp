@@ -15,6 +15,7 @@
 #include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
+#include "viscontact/particles/rotation.hpp"
 
 namespace viscontact::particles {
 
@@ -54,6 +55,11 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
+void scale_impulses(Pair& pair, double factor) {
+  pair.impulse *= factor;
+  pair.friction = factor * pair.friction;
+}
+
 }  // namespace
 
 Simulation::Simulation(Setting setting, State state, int threads)
@@ -66,25 +72,6 @@ Simulation::Simulation(Setting setting, State state, int threads)
   wrap_into_cell(state_);
 }
 
-template <int D>
-void Simulation::move_freely(double h, double next) {
-  const auto& p = state_.particles;
-  displacements_.resize(p.count() * D);
-  mobilities_.resize(p.count());
-  pool_->for_blocks(p.count(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      mobilities_[k] = h / p.masses[k];
-      for (std::size_t d = 0; d < D; ++d)
-        displacements_[k * D + d] = h * (p.velocities[k * D + d] + h * setting_.gravity[d]);
-    }
-  });
-  for (const auto& [particle, force] : setting_.forces) {
-    const auto k = index_of(particle);
-    const Vector mean = force.mean(state_.time, next);
-    for (std::size_t d = 0; d < D; ++d) displacements_[k * D + d] += h * mobilities_[k] * mean[d];
-  }
-}
-
 void Simulation::move(double h) {
   auto& p = state_.particles;
   pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
@@ -93,6 +80,7 @@ void Simulation::move(double h) {
       p.velocities[k] = displacements_[k] / h;
     }
   });
+  if (p.turn()) turn_particles(p, turns_, h);
 }
 
 template <int D>
@@ -118,8 +106,16 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
-    auto projected = StepProjection<D>(state_, h, planes, displacements_, mobilities_, *pool_)
-                         .solve(setting_.solver, mean_radius_);
+    StepProjection<D> projection(state_, h, planes, displacements_, mobilities_, *pool_);
+    const FrictionStep with_friction{setting_.friction.value_or(FrictionLaw{}),
+                                     setting_.law,
+                                     obstacles_,
+                                     state_.time,
+                                     next,
+                                     turns_,
+                                     turn_mobilities_};
+    if (setting_.friction) projection.add_friction(with_friction);
+    auto projected = projection.solve(setting_.solver, mean_radius_);
     double gone = 0;
     for (const auto body : projected.bodies) gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
@@ -136,6 +132,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report.glued = remember(state_.particles, projected, setting_.law);
   move(h);
   state_.time = next;
+  if (setting_.scheme == Scheme::kLeapfrog) state_.velocity_lag = h / 2;
   ++report.parts;
   report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;
@@ -157,18 +154,21 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
-    for_pairs([](Pair& pair) { pair.impulse /= 2; });
+    for_pairs([](Pair& pair) { scale_impulses(pair, 0.5); });
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
     // The caller may continue with a part of twice the length, for which the impulses are the first
     // guess.
-    if (halvings > 0) for_pairs([](Pair& pair) { pair.impulse *= 2; });
+    if (halvings > 0) for_pairs([](Pair& pair) { scale_impulses(pair, 2); });
     return;
   }
   accept(projected, h, next, report);
   if (halvings > 0)
     for_pairs([&](const Pair& pair) {
-      if (pair.impulse != 0) impulses_of_parts_[key_of(pair)] += pair.impulse;
+      if (pair.impulse == 0) return;
+      auto& sums = impulses_of_parts_[key_of(pair)];
+      sums.normal += pair.impulse;
+      sums.friction = sums.friction + pair.friction;
     });
 }
 
@@ -204,8 +204,10 @@ StepReport Simulation::step(double end) {
     advance_whole<3>(h, next, report);
   if (!impulses_of_parts_.empty()) {
     for_pairs([&](Pair& pair) {
-      const auto sum = impulses_of_parts_.find(key_of(pair));
-      pair.impulse = sum == impulses_of_parts_.end() ? 0 : sum->second;
+      const auto sums = impulses_of_parts_.find(key_of(pair));
+      const auto [normal, friction] = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
+      pair.impulse = normal;
+      pair.friction = friction;
     });
     impulses_of_parts_.clear();
   }

@@ -13,6 +13,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact_law.hpp"
+#include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
@@ -26,6 +27,12 @@ namespace viscontact::particles {
 
 struct ProjectionResult;
 
+/// How the velocities of (5.3) are read, docs/physics.md (5.10).
+enum class Scheme {
+  kEuler,     ///< u^n is the velocity at time t^n; positions are of first order
+  kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
+};
+
 /// What moves the particles, and how their motion is computed. A case file's values are checked
 /// when it is read. The keys of the maps must be numbers of existing particles.
 struct Setting {
@@ -36,11 +43,14 @@ struct Setting {
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
   ContactLaw law;
-  double time_step = 0;  ///< h [T], > 0
+  /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
+  std::optional<FrictionLaw> friction;
+  double time_step = 0;            ///< h [T], > 0
+  Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;
   std::optional<Fluid> fluid;  ///< around the particles; needs a domain
-  /// Torques on single particles in a fluid, by the number of the particle: value[2],
-  /// counter-clockwise [M L^2/T^2]. A particle with a torque has no entry in `given_motions`.
+  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
+  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.
@@ -116,7 +126,16 @@ class Simulation {
   const State& state() const { return state_; }
   const Setting& setting() const { return setting_; }
 
+  /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
+  /// state are those at an earlier time (State::velocity_lag); particles without an impulse of a
+  /// contact in the last step get what forces, gravity and torques have given them since then.
+  Particles reported_particles() const;
+
  private:
+  double kick_length(double h) const {
+    return setting_.scheme == Scheme::kLeapfrog ? state_.velocity_lag + h / 2 : h;
+  }
+  Vector mean_of(const PiecewiseConstant& function, double h, double next) const;
   template <int D>
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>
@@ -132,6 +151,7 @@ class Simulation {
   // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
   template <int D>
   void move_freely(double h, double next);
+  void turn_freely(double h, double next);
   // Solves the projection. The displacements h u* become h v.
   template <int D>
   ProjectionResult project(double h, double next);
@@ -143,10 +163,16 @@ class Simulation {
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
-  std::vector<Plane> obstacles_;       // walls of the domain, then planes
+  // If the particles turn: h w*, later h w [rad], and h/I [T/(M L^2)].
+  std::vector<double> turns_, turn_mobilities_;
+  std::vector<Plane> obstacles_;  // walls of the domain, then planes
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
   // bodies and of the image, and the state before the step.
-  std::map<std::array<std::int32_t, 3>, double> impulses_of_parts_;
+  struct Impulses {
+    double normal = 0;
+    Vector friction{};
+  };
+  std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;
 };
 

@@ -25,6 +25,9 @@ struct Pair {
   /// The image of `second` that meets `first` (periods.hpp); 0 without a shift. Two images of one
   /// particle may both touch another particle, and are then two pairs.
   std::int32_t image = 0;
+  /// Impulse of friction on `second` in the last step [M L/T], tangential; the first guess of the
+  /// next one. Zero without friction.
+  Vector friction{};
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   bool operator==(const Pair&) const = default;
@@ -35,6 +38,9 @@ struct State {
   Particles particles;
   double time = 0;         ///< [T]
   std::int64_t steps = 0;  ///< number of steps done
+  /// The velocities are those at the time `time` - velocity_lag [T], >= 0; 0 unless the scheme is
+  /// Scheme::kLeapfrog.
+  double velocity_lag = 0;
   /// Step n ends at time grid_time + (n - grid_step) h. Both numbers are 0 until a step is cut
   /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;

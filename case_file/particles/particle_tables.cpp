@@ -28,9 +28,6 @@ constexpr Allowed kMassWithoutFluid = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
     "from 1e-100 to 1e100 (0 is allowed only in a case with [fluid])"};
 
-/// Moment of inertia of a homogeneous disc about its centre [M L^2].
-double inertia_of_disc(double mass, double radius) { return mass * radius * radius / 2; }
-
 /// Gives an id to a particle of a table [[particle]]: the largest id so far plus 1. Called only if
 /// the CSV file gives ids.
 void add_id(Particles& p, const TomlSection& section) {
@@ -54,11 +51,30 @@ void check_keys(const TomlSection& section, int dimension, bool in_fluid) {
       section.fail(key, "belongs to a particle in a fluid; the case has no section [fluid]");
   for (const auto* key : {"torque", "angle", "angular_velocity", "moment_of_inertia"}) {
     if (!section.has(key)) continue;
-    if (!in_fluid)
-      section.fail(key, "belongs to a particle in a fluid; the case has no section [fluid]");
     if (dimension == 1)
       section.fail(key, "must be left out, because a sphere on the axis does not turn");
+    if (dimension == 3 && std::string_view(key) == "angle")
+      section.fail(key, "must be left out, because the orientation of a sphere changes nothing");
   }
+}
+
+/// Reads the rotation of the last particle of a case without a fluid. Particles begin to turn with
+/// the first table that has a key of rotation; the particles before it have the defaults.
+void read_rotation(const TomlSection& section, Particles& p) {
+  const auto given = {"torque", "angle", "angular_velocity", "moment_of_inertia"};
+  if (!p.turn() && std::ranges::none_of(given, [&](auto* key) { return section.has(key); })) return;
+  particles::add_rotation(p);
+  const std::size_t k = p.count() - 1;
+  if (section.has("angle")) p.angles[k] = section.number("angle", kModerate);
+  if (section.has("moment_of_inertia"))
+    p.inertias[k] = section.number("moment_of_inertia", kModeratelyPositive);
+  if (!section.has("angular_velocity")) return;
+  if (p.dimension == 2) {
+    p.angular_velocities[k] = section.number("angular_velocity", kModerate);
+    return;
+  }
+  const auto velocity = read_vector(section, "angular_velocity", p.dimension);
+  for (std::size_t d = 0; d < 3; ++d) p.angular_velocities[3 * k + d] = velocity[d];
 }
 
 /// Reads `fixed` and `velocity_given`. Returns the key that gives the motion of the particle, or
@@ -105,9 +121,12 @@ std::pair<Vector, double> read_motion_of_particle(const TomlSection& section, st
   if (section.has("force"))
     c.setting.forces[k] = read_pieces(section, "force", dimension, c.end_time);
   if (section.has("torque"))
-    c.setting.torques[k] = read_pieces_of_numbers(section, "torque", c.end_time);
+    c.setting.torques[k] = dimension == 3 ? read_pieces(section, "torque", dimension, c.end_time)
+                                          : read_pieces_of_numbers(section, "torque", c.end_time);
   return {section.has("velocity") ? read_vector(section, "velocity", dimension) : Vector{},
-          section.has("angular_velocity") ? section.number("angular_velocity", kModerate) : 0.0};
+          c.setting.fluid && section.has("angular_velocity")
+              ? section.number("angular_velocity", kModerate)
+              : 0.0};
 }
 
 /// Reads a table [[particle]].
@@ -135,7 +154,9 @@ void read_particle(const TomlSection& section, ParticlesCase& c) {
     p.angular_velocities.push_back(angular_velocity);
     p.inertias.push_back(section.has("moment_of_inertia")
                              ? section.number("moment_of_inertia", kModeratelyPositiveOr0)
-                             : inertia_of_disc(mass, radius));
+                             : particles::homogeneous_inertia(2, mass, radius));
+  } else if (!in_fluid) {
+    read_rotation(section, p);
   }
   if (!p.ids.empty()) add_id(p, section);
   section.finish();
@@ -152,7 +173,8 @@ void read_file_of_particles(const TomlSection& section, ParticlesCase& c, Partic
   auto& p = c.particles;
   if (in_fluid && p.dimension == 2)
     for (std::size_t k = 0; k < p.count(); ++k)
-      p.inertias.push_back(inertia_of_disc(p.masses[k], p.radii[k]));
+      p.inertias.push_back(particles::homogeneous_inertia(2, p.masses[k], p.radii[k]));
+  if (!in_fluid && p.turn()) particles::add_rotation(p);
 }
 
 /// A map from the id of each particle to its index.
@@ -175,6 +197,8 @@ ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c) 
   if (root.has("arrangement"))
     c.arrangement = read_arrangement(root.section("arrangement"), c.setting.domain,
                                      c.setting.fluid.has_value(), c.particles);
+  if (!c.setting.fluid && (c.setting.friction || c.particles.turn()))
+    particles::add_rotation(c.particles);
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},
                     "has no particle; it must have a row for each particle after the header line");

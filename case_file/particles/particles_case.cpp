@@ -124,7 +124,41 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
         fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
   read_law(contact, c.setting.fluid, c.setting.law);
+  if (contact.has("scheme")) {
+    const auto scheme = contact.text("scheme");
+    if (scheme != "euler" && scheme != "leapfrog")
+      contact.fail("scheme", fmt::format("is '{}'; it must be \"euler\" or \"leapfrog\"", scheme));
+    if (scheme == "leapfrog" && c.setting.fluid)
+      contact.fail(
+          "scheme",
+          "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are "
+          "of second order without it, and the key must be left out");
+    if (scheme == "leapfrog") c.setting.scheme = particles::Scheme::kLeapfrog;
+  }
   contact.finish();
+}
+
+void read_friction(const TomlSection& section, ParticlesCase& c) {
+  if (c.setting.fluid)
+    section.fail("coefficient",
+                 "belongs to particles without a fluid; a case with [fluid] must have no section "
+                 "[friction]");
+  if (!c.setting.law.gamma_min && !c.setting.law.viscosity)
+    section.fail("coefficient",
+                 "has no effect, because smooth particles never touch; viscous_contact must have "
+                 "gamma_min (0: no film), or viscosity and roughness");
+  particles::FrictionLaw law;
+  law.coefficient = section.number("coefficient", kModeratelyPositiveOr0);
+  if (section.has("method")) {
+    const auto method = section.text("method");
+    if (method == "convex")
+      law.method = particles::FrictionMethod::kConvex;
+    else if (method != "fixed_point")
+      section.fail("method",
+                   fmt::format("is '{}'; it must be \"fixed_point\" or \"convex\"", method));
+  }
+  section.finish();
+  c.setting.friction = law;
 }
 
 void read_solver(const TomlSection& solver, particles::SolverSettings& settings) {
@@ -187,6 +221,7 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
 
   read_domain_and_fluid(root, c);
   read_contact(root.section("viscous_contact"), c);
+  if (root.has("friction")) read_friction(root.section("friction"), c);
   if (root.has("solver")) read_solver(root.section("solver"), c.setting.solver);
   c.frame_interval = c.end_time / 100;
   if (root.has("output")) {

@@ -31,8 +31,9 @@ struct Contact {
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
-  double tolerated = 0;    ///< overlap that is left as it is [L], >= 0
-  std::int32_t image = 0;  ///< Pair::image
+  double tolerated = 0;       ///< overlap that is left as it is [L], >= 0
+  std::int32_t image = 0;     ///< Pair::image
+  std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative
 };
 
 /// Vector from the centre of particle `first` to that of the image `image` of particle `second`
@@ -58,6 +59,7 @@ Contact<D> contact_of(const Particles& p, const Pair& pair, const PlanePosition&
   const Vector normal = normal_at(place, p.position(j));
   for (std::size_t d = 0; d < D; ++d) contact.normal[d] = normal[d];
   contact.gap = gap(place, p.position(j), p.radii[j]);
+  contact.obstacle = -1 - pair.first;
   return contact;
 }
 

@@ -26,6 +26,15 @@ PlanePosition Plane::at(double t) const {
   return place;
 }
 
+Vector Plane::displacement(const Vector& point, double from, double to) const {
+  const Vector shift = velocity.integral(to) - velocity.integral(from);
+  const double speed = norm(angular_velocity);
+  if (!(speed > 0)) return shift;
+  const Vector arm = point - pivot - velocity.integral(to);
+  const Vector axis = (1 / speed) * angular_velocity;
+  return shift + arm - turned(arm, axis, speed * (from - to));
+}
+
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
   std::vector<PlanePosition> places;
   for (const auto& plane : planes) places.push_back(plane.at(t));

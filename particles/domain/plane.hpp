@@ -21,7 +21,7 @@ struct PlanePosition {
 };
 
 /// A plane and its motion: it moves with `velocity` and turns about `pivot`, which moves with it.
-/// Only the motion along its normal acts on particles, because viscous contact has no friction.
+/// Without friction only the motion along its normal acts on particles.
 struct Plane {
   PlanePosition start;         ///< position at time 0
   PiecewiseConstant velocity;  ///< [L/T]
@@ -31,6 +31,9 @@ struct Plane {
 
   /// Position at time t >= 0 [T].
   PlanePosition at(double t) const;
+  /// Displacement, between the times `from` and `to` [T], of the material point of the plane that
+  /// is at `point` at time `to` [L].
+  Vector displacement(const Vector& point, double from, double to) const;
 };
 
 /// Positions of all planes at time t [T], in the order of `planes`.

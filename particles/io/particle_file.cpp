@@ -22,24 +22,38 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr std::size_t kColumns = 11, kId = 8, kAngle = 9, kAngularVelocity = 10;
+constexpr std::size_t kColumns = 14, kId = 8, kAngle = 9, kAngularVelocity = 10;
 using Row = CsvRow<kColumns>;
 using Names = std::array<std::string, kColumns>;
 
 // Columns for discs, for spheres, and for spheres on an axis. The required columns come first, as
 // read_csv expects: position, radius, mass. The velocity, columns of other dimensions, the id and
 // the rotation follow.
-const Names kDiscs = {"x",  "y",     "radius",          "mass", "vx", "vy", "z", "vz",
-                      "id", "angle", "angular_velocity"};
-const Names kSpheres = {"x",  "y",  "z",     "radius",          "mass", "vx", "vy",
-                        "vz", "id", "angle", "angular_velocity"};
-const Names kOnAxis = {"z",     "radius",          "mass", "vz", "x", "y", "vx", "vy", "id",
-                       "angle", "angular_velocity"};
+// clang-format off
+const Names kDiscs = {"x", "y", "radius", "mass", "vx", "vy", "z", "vz", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+const Names kSpheres = {"x", "y", "z", "radius", "mass", "vx", "vy", "vz", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", "angle",
+  "angular_velocity", "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+// clang-format on
+constexpr std::size_t kAngularVelocityX = 11;
 
 // Columns that only files of particles in a fluid have. Forces of an earlier run are not used.
 constexpr std::array<std::string_view, 5> kOfDiscsInFluid = {
     "angle", "angular_velocity", "fluid_force_x", "fluid_force_y", "fluid_torque"};
 constexpr std::array<std::string_view, 1> kOnAxisInFluid = {"fluid_force_z"};
+
+// Columns of particles that turn without a fluid.
+constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_velocity"};
+constexpr std::array<std::string_view, 3> kOfSpheresThatTurn = {
+    "angular_velocity_x", "angular_velocity_y", "angular_velocity_z"};
+
+std::span<const std::string_view> turning_columns(int dimension) {
+  if (dimension == 1) return {};
+  if (dimension == 2) return kOfDiscsThatTurn;
+  return kOfSpheresThatTurn;
+}
 
 std::span<const std::string_view> fluid_columns(int dimension) {
   if (dimension == 1) return kOnAxisInFluid;
@@ -71,7 +85,7 @@ double allowed(const Row& row, const Names& names, std::size_t column, Sign sign
 void check_header(const std::filesystem::path& path, int dimension, bool in_fluid) {
   // The first columns of kDiscs are those that each file may have, whatever its dimension.
   const std::span known(kDiscs.begin(), kId + 1);
-  const auto of_fluid = in_fluid ? fluid_columns(dimension) : std::span<const std::string_view>{};
+  const auto of_fluid = in_fluid ? fluid_columns(dimension) : turning_columns(dimension);
   std::ifstream file(path);
   std::string line;
   while (std::getline(file, line) && (line.empty() || line[0] == '#')) {
@@ -128,11 +142,17 @@ std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::stri
 }  // namespace
 
 ParticleFile read_particles(const std::filesystem::path& path, int dimension, bool in_fluid) {
-  const bool rotate = in_fluid && dimension == 2;
   const auto& names = dimension == 1 ? kOnAxis : dimension == 2 ? kDiscs : kSpheres;
   const auto d = static_cast<std::size_t>(dimension);
   const auto csv = read_csv(path, names, d + 2);
   check_header(path, dimension, in_fluid);
+  const auto turns = [](const Row& row) {
+    return std::any_of(row.fields.begin() + kAngle, row.fields.end(),
+                       [](const auto& field) { return field.has_value(); });
+  };
+  const bool any_turns = dimension != 1 && std::ranges::any_of(csv.rows, turns);
+  const bool rotate = dimension == 2 && (in_fluid || any_turns);
+  const bool spin = dimension == 3 && any_turns;
   const std::string file = path.string();
   if (csv.rows.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw_bad_input({file}, fmt::format("has {} particles; at most {} are allowed", csv.rows.size(),
@@ -161,6 +181,11 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
       p.angles.push_back(given_or_0(kAngle));
       p.angular_velocities.push_back(given_or_0(kAngularVelocity));
     }
+    if (spin) {
+      p.orientations.insert(p.orientations.end(), {1, 0, 0, 0});
+      for (std::size_t i = 0; i < 3; ++i)
+        p.angular_velocities.push_back(given_or_0(kAngularVelocityX + i));
+    }
     result.lines.push_back(row.line);
   }
   p.ids = read_ids(csv.rows, file);
@@ -175,6 +200,8 @@ std::string write_particles(const Particles& particles, std::span<const double> 
                    : "id,x,y,z,vx,vy,vz,radius,mass";
   if (!fluid_forces.empty())
     for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
+  else if (particles.turn())
+    for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
   text += '\n';
   for (std::size_t k = 0; k < particles.count(); ++k) {
     fmt::format_to(std::back_inserter(text), "{}", particles.id(k));
@@ -188,6 +215,10 @@ std::string write_particles(const Particles& particles, std::span<const double> 
       if (d == 2) add(particles.angular_velocities[k]);
       const auto components = motion_components(particles.dimension);
       for (std::size_t i = 0; i < components; ++i) add(fluid_forces[k * components + i]);
+    } else if (particles.turn()) {
+      if (d == 2) add(particles.angles[k]);
+      const std::size_t turns = d == 3 ? 3 : 1;
+      for (std::size_t i = 0; i < turns; ++i) add(particles.angular_velocities[k * turns + i]);
     }
     text += '\n';
   }

@@ -22,9 +22,10 @@ struct ParticleFile {
 /// of final particles of a run can be read, too.
 ///
 /// On an axis (dimension 1) the columns are z,radius,mass and, if they exist, vz and id. In a fluid
-/// (`in_fluid`) discs may also have the columns angle and angular_velocity, which are 0 if they are
-/// missing, and the columns of the fluid's forces are accepted and not used. Moments of inertia are
-/// not set.
+/// (`in_fluid`) discs have an angle and an angular velocity, which are 0 if their columns are
+/// missing, and the columns of the fluid's forces are accepted and not used. Without a fluid,
+/// particles turn (Particles::turn) if a row has a value in the columns angle and angular_velocity
+/// of discs, or angular_velocity_x, _y and _z of spheres. Moments of inertia are not set.
 ///
 /// Throws Error(kBadInput) with file and line for what read_csv refuses; for a value in a column of
 /// another dimension; for any other column; if some but not all velocities are given; for a radius
@@ -40,7 +41,8 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
 /// `fluid_forces` are the forces and torques of the fluid (FlowQuantities), empty without a fluid.
 /// With them, discs also have the columns
 /// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque, and spheres on an axis the
-/// column fluid_force_z.
+/// column fluid_force_z. Without them, particles that turn have the columns
+/// angle,angular_velocity (discs) or angular_velocity_x,angular_velocity_y,angular_velocity_z.
 std::string write_particles(const Particles& particles, std::span<const double> fluid_forces = {});
 
 /// The line with the names of the columns of motion.csv, and the rows of all particles at `time`

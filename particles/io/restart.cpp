@@ -1,4 +1,4 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 and 2 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 3 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -17,13 +17,14 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// A pair as versions 2 and 3 store it. The images of version 3 are an array of their own.
+/// A pair as versions from 2 on store it. The images (from version 3 on) and the impulses of
+/// friction (from version 4 on) are arrays of their own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;
@@ -31,8 +32,8 @@ struct StoredPair {
 
 /// Calls `field` for each stored field, in the order of a file of version `version`, for writing
 /// and for reading.
-template <class State, class Images, class Field>
-void for_fields(State& state, Images& images, int version, Field&& field) {
+template <class State, class Images, class Frictions, class Field>
+void for_fields(State& state, Images& images, Frictions& frictions, int version, Field&& field) {
   auto& p = state.particles;
   field(p.dimension);
   field(state.time);
@@ -55,6 +56,10 @@ void for_fields(State& state, Images& images, int version, Field&& field) {
   field(state.earlier_velocities);
   field(state.earlier_forces);
   field(state.earlier_step);
+  if (version < 4) return;
+  field(p.orientations);
+  field(frictions);
+  field(state.velocity_lag);
 }
 
 class Writer {
@@ -169,10 +174,13 @@ bool is_consistent(const State& state) {
          p.velocities.size() == numbers && p.masses.size() == p.count() &&
          (state.positions_at_listing.empty() ||
           (state.positions_at_listing.size() == numbers && state.skins.size() == p.count())) &&
-         is_empty_or(p.angles, p.count()) && p.angular_velocities.size() == p.angles.size() &&
-         is_empty_or(p.inertias, p.count()) &&
+         is_empty_or(p.angles, p.count()) &&
+         p.angular_velocities.size() ==
+             (p.dimension == 3 ? p.orientations.size() / 4 * 3 : p.angles.size()) &&
+         is_empty_or(p.orientations, 4 * p.count()) && is_empty_or(p.inertias, p.count()) &&
          is_empty_or(state.earlier_velocities, p.count() * motion_components(p.dimension)) &&
          is_empty_or(state.earlier_forces, p.count() * motion_components(p.dimension)) &&
+         std::isfinite(state.velocity_lag) && state.velocity_lag >= 0 &&
          std::isfinite(state.earlier_step) && state.earlier_step >= 0;
 }
 
@@ -192,7 +200,13 @@ std::string write_restart(const State& state) {
   for (const auto& pair : state.pairs) images.push_back(pair.image);
   if (std::ranges::all_of(images, [](std::int32_t image) { return image == 0; })) images.clear();
   std::string bytes;
-  for_fields(state, images, kVersion, Writer{bytes});
+  // No impulses of friction are stored if there are none.
+  std::vector<Vector> frictions;
+  for (const auto* pairs : {&state.pairs, &state.walls})
+    for (const auto& pair : *pairs) frictions.push_back(pair.friction);
+  if (std::ranges::all_of(frictions, [](const Vector& p) { return p == Vector{}; }))
+    frictions.clear();
+  for_fields(state, images, frictions, kVersion, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
   text.append(kHash).append(sha256(bytes)).append("\n");
@@ -211,10 +225,15 @@ State read_restart(const std::filesystem::path& path) {
   if (hash != sha256(rest)) reader.throw_short();
   State state;
   std::vector<std::int32_t> images;
-  for_fields(state, images, version, reader);
-  if (!reader.at_end() || !(images.empty() || images.size() == state.pairs.size()))
+  std::vector<Vector> frictions;
+  for_fields(state, images, frictions, version, reader);
+  if (!reader.at_end() || !(images.empty() || images.size() == state.pairs.size()) ||
+      !(frictions.empty() || frictions.size() == state.pairs.size() + state.walls.size()))
     reader.throw_short();
   for (std::size_t k = 0; k < images.size(); ++k) state.pairs[k].image = images[k];
+  for (std::size_t k = 0; k < frictions.size(); ++k)
+    (k < state.pairs.size() ? state.pairs[k] : state.walls[k - state.pairs.size()]).friction =
+        frictions[k];
   if (!is_consistent(state)) reader.throw_short();
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)

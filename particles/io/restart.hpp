@@ -14,7 +14,7 @@ namespace viscontact::particles {
 /// The ids of the particles are not stored, because the case gives them.
 std::string write_restart(const State& state);
 
-/// Reads a restart file of version 1, 2 or 3. Throws Error(kBadInput), which names the
+/// Reads a restart file of version 1 to 4. Throws Error(kBadInput), which names the
 /// file, if it is not a restart file, is damaged, or was written with another byte order.
 State read_restart(const std::filesystem::path& path);
 

@@ -77,7 +77,16 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
     is_chosen_[k] = 1;
     chosen_.push_back(k);
     system_.add(contact(k));
+    if (friction_) friction_->add(system_.contacts.back(), pair(k).friction);
   }
+}
+
+/// Solves for the impulses of the chosen contacts. With friction, tangential displacements are
+/// accurate to half of `length` [L].
+template <int D>
+SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
+  if (friction_) return friction_->solve(system_, is_rough, length / 2, max_iterations);
+  return system_.solve(is_rough, max_iterations, pool_);
 }
 
 /// Sets the allowed residual of each chosen contact: at most `length` [L], and at most `fraction`
@@ -117,6 +126,14 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
           std::max(result.impulse_residual, residual / scale.w / scale.impulse);
     return beyond;
   };
+  // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in packings,
+  // and no memory depends on it.
+  const auto record_slip = [&](double residual) {
+    const double allowed = settings.tolerance * mean_radius / 2;
+    result.residual = std::max(result.residual, residual);
+    result.excess = std::max(result.excess, residual / allowed);
+    if (residual > allowed) result.converged = false;
+  };
   const auto record_gap = [&](std::size_t k, double gap) {
     if (gap >= result.smallest_gap) return;
     result.smallest_gap = gap;
@@ -126,8 +143,11 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
     const double gap = gap_after(here, displacements_);
-    const double residual = std::abs(std::min(gap, scale.w * (here.impulse - here.gamma)));
+    const double residual = friction_
+                                ? friction_->residual(c).normal
+                                : std::abs(std::min(gap, scale.w * (here.impulse - here.gamma)));
     record_residual(residual, scale);
+    if (friction_) record_slip(friction_->residual(c).tangential);
     result.impulse_errors[c] = residual / scale.w;
     record_gap(chosen_[c], gap - here.tolerated);
     if ((here.impulse != 0 || here.gamma < 0) &&
@@ -191,10 +211,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   int waited = 0;
   double least_excess = std::numeric_limits<double>::infinity();
   while (!chosen_.empty()) {
-    allow((is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius,
-          is_rough ? kRoughImpulse : settings.impulse_tolerance);
+    const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
+    allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance);
     result.iterations +=
-        system_.solve(is_rough, settings.max_iterations - result.iterations, pool_).iterations;
+        solve_contacts(is_rough, length, settings.max_iterations - result.iterations).iterations;
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
     if (result.converged || is_last) break;
@@ -208,6 +228,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     pair(chosen_[c]).impulse = system_.contacts[c].impulse;
+    if (friction_) pair(chosen_[c]).friction = friction_->friction(c);
     result.pairs.push_back(&pair(chosen_[c]));
   }
   result.bodies = system_.bodies();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/constraints/friction_system.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/projection/contact_system.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
@@ -53,6 +54,10 @@ class StepProjection {
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
+  /// Solves with friction. Call it before solve(); `step` must outlive this object.
+  void add_friction(const FrictionStep& step) {
+    friction_.emplace(step, state_.particles, displacements_, mobilities_);
+  }
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -78,6 +83,7 @@ class StepProjection {
   bool gap_would_close(std::size_t k);
   std::vector<std::size_t> closed_by_free_motion();
   void choose(const std::vector<std::size_t>& pairs);
+  SolverResult solve_contacts(bool is_rough, double length, int max_iterations);
   std::vector<std::size_t> with_connected_pairs(const std::vector<std::size_t>& pairs, int round);
   void allow(double length, double fraction);
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
@@ -96,6 +102,7 @@ class StepProjection {
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;
+  std::optional<FrictionSystem<D>> friction_;
   std::optional<PairsOfParticles> pairs_of_particles_;
 };
 

@@ -22,6 +22,11 @@ class ParticleSimulation {
   /// See Simulation::step and FluidSimulation::step.
   particles::StepReport step(double end);
   const particles::State& state() const;
+  /// The particles with their velocities at the present time; see Simulation::reported_particles
+  /// and FluidSimulation::reported_particles.
+  particles::Particles reported_particles() const {
+    return in_fluid_ ? in_fluid_->reported_particles() : dry_->reported_particles();
+  }
 
   /// True if there is a fluid. The functions below need one.
   bool has_fluid() const { return in_fluid_ != nullptr; }

@@ -80,6 +80,13 @@ particles::State first_state(const case_file::ParticlesCase& c, const std::strin
   state = particles::read_restart(restart);
   check_same_particles(state, c, restart);
   state.particles.ids = c.particles.ids;
+  if (c.particles.turn() && !state.particles.turn()) {
+    // The earlier run had nothing that turned its particles.
+    state.particles.angles = c.particles.angles;
+    state.particles.orientations = c.particles.orientations;
+    state.particles.angular_velocities = c.particles.angular_velocities;
+    state.particles.inertias = c.particles.inertias;
+  }
   if (state.time > c.end_time * (1 - 1e-9))
     throw_bad_input(
         {restart},

@@ -126,9 +126,9 @@ class Run {
   void add_frame() { frames_.add(case_.setting, simulation_.state()); }
 
   std::string final_particles() {
-    if (!simulation_.has_fluid()) return particles::write_particles(simulation_.state().particles);
-    auto& fluid = simulation_.fluid();
-    return particles::write_particles(fluid.reported_particles(), fluid.fluid_forces());
+    const auto reported = simulation_.reported_particles();
+    if (!simulation_.has_fluid()) return particles::write_particles(reported);
+    return particles::write_particles(reported, simulation_.fluid().fluid_forces());
   }
 
   /// The sums, with computing time and memory of this call and the calls before it.

@@ -217,8 +217,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"MassWithoutFluid", kDryDiscs, "mass = 1.0", "mass = 0.0", "mass",
                 "is 0; it must be a number from 1e-100 to 1e100 (0 is allowed only in a case with "
                 "[fluid])"},
-        Refusal{"TorqueWithoutFluid", kDryDiscs, "mass = 1.0", "mass = 1.0\ntorque = 1.0", "torque",
-                "belongs to a particle in a fluid; the case has no section [fluid]"},
+        Refusal{"NoInertiaWithoutFluid", kDryDiscs, "mass = 1.0",
+                "mass = 1.0\nmoment_of_inertia = 0.0", "moment_of_inertia",
+                "it must be a number from 1e-100 to 1e100"},
         Refusal{"FixedWithoutFluid", kDryDiscs, "mass = 1.0", "mass = 1.0\nfixed = true", "fixed",
                 "belongs to a particle in a fluid"}),
     name_of);

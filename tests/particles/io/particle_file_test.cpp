@@ -70,15 +70,30 @@ TEST_F(FluidParticleFile, WithoutRotationBeginsAtAngle0) {
   EXPECT_EQ(p.angular_velocities, std::vector<double>{0});
 }
 
+TEST_F(FluidParticleFile, WithoutAFluidHasTheRotationOfParticlesThatTurn) {
+  auto discs = read("x,y,radius,mass,angular_velocity\n1,2,1,1,0.5\n", 2, false);
+  EXPECT_EQ(discs.angular_velocities, std::vector<double>{0.5});
+  EXPECT_EQ(discs.angles, std::vector<double>{0});
+  EXPECT_THAT(write_particles(discs),
+              HasSubstr("id,x,y,vx,vy,radius,mass,angle,angular_velocity\n0,1,2,0,0,1,1,0,0.5\n"));
+  auto spheres = read("x,y,z,radius,mass,angular_velocity_z\n1,2,3,1,1,0.5\n", 3, false);
+  EXPECT_EQ(spheres.angular_velocities, (std::vector<double>{0, 0, 0.5}));
+  EXPECT_THAT(write_particles(spheres),
+              HasSubstr("radius,mass,angular_velocity_x,angular_velocity_y,angular_velocity_z\n"
+                        "0,1,2,3,0,0,0,1,1,0,0,0.5\n"));
+  EXPECT_TRUE(read("x,y,radius,mass\n1,2,1,1\n", 2, false).angular_velocities.empty());
+}
+
 TEST_F(FluidParticleFile, StaysAsItWasWithoutAFluid) {
   auto p = discs_in_fluid();
   p.angles = p.angular_velocities = {};
   EXPECT_EQ(write_particles(p),
             "# rows: 2\nid,x,y,vx,vy,radius,mass\n"
             "0,1,2,-0.1,0.3333333333333333,0.5,0\n1,4,5,0,0,0.25,3\n");
-  EXPECT_THAT(bad_input([&] { read("x,y,radius,mass,angle\n1,2,1,1,0\n", 2, false); }),
-              HasSubstr("has a column 'angle', which is not known; the known columns are id, x, y, "
-                        "z, vx, vy, vz, radius, mass"));
+  EXPECT_THAT(
+      bad_input([&] { read("x,y,radius,mass,fluid_torque\n1,2,1,1,0\n", 2, false); }),
+      HasSubstr("has a column 'fluid_torque', which is not known; the known columns are id, "
+                "x, y, z, vx, vy, vz, radius, mass, angle, angular_velocity"));
   EXPECT_THAT(bad_input([&] { read("x,y,radius,mass\n1,2,1,0\n", 2, false); }),
               HasSubstr("mass is 0; it must be > 0"));
 }

@@ -52,13 +52,21 @@ std::string of_version(int version, const State& state,
   const auto text = write_restart(state);
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
-  // Version 3 added the lengths of six lists, which are empty here, and a number.
-  EXPECT_EQ(bytes.substr(bytes.size() - 56), std::string(56, '\0'));
-  bytes.erase(bytes.size() - 56);
+  // Version 3 added the lengths of six lists, which are empty here, and a number; version 4 the
+  // lengths of two more, and a number.
+  const std::size_t added = version == 3 ? 24 : 80;
+  EXPECT_EQ(bytes.substr(bytes.size() - added), std::string(added, '\0'));
+  bytes.erase(bytes.size() - added);
   change(bytes);
   auto head = text.substr(0, first);
-  head.replace(head.find("version 3"), 9, "version " + std::to_string(version));
+  head.replace(head.find("version 4"), 9, "version " + std::to_string(version));
   return head + "# sha256 of the rest: " + sha256(bytes) + "\n" + bytes;
+}
+
+TEST_F(RestartFile, OfVersion3HasNoFriction) {
+  const auto state = read(of_version(3, disc_on_plane(-0.75), [](std::string&) {}));
+  EXPECT_EQ(state.walls, disc_on_plane(-0.75).walls);
+  EXPECT_TRUE(state.particles.orientations.empty());
 }
 
 TEST_F(RestartFile, OfVersion2HasNoRotation) {
@@ -135,8 +143,8 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
   auto text = write_restart(disc_on_plane(-0.5));
-  text.replace(text.find("version 3"), 9, "version 4");
-  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 3 can be read"));
+  text.replace(text.find("version 4"), 9, "version 5");
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 4 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

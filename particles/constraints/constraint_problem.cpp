@@ -1,0 +1,73 @@
+// Products and residuals of the constraints of a step (constraint_problem.hpp).
+#include "viscontact/particles/constraints/constraint_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscontact::particles {
+
+template <int D>
+std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
+                               std::span<const double> impulses) {
+  std::vector<Motion<D>> sums(problem.units.size(), Motion<D>{});
+  for (std::size_t r = 0; r < problem.rows.size(); ++r)
+    if (impulses[r] != 0) add_impulse<D>(problem.rows[r], impulses[r], sums);
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    const auto& unit = problem.units[b];
+    sums[b] = unit.moved_by(sums[b]);
+    for (std::size_t k = 0; k < sums[b].size(); ++k) sums[b][k] += unit.free[k];
+  }
+  return sums;
+}
+
+template <int D>
+std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
+  std::vector<double> w;
+  w.reserve(problem.rows.size());
+  for (const auto& row : problem.rows) {
+    const auto share = [&](std::int32_t unit, const Motion<D>& of) {
+      if (unit < 0) return 0.0;
+      const auto moved = problem.units[static_cast<std::size_t>(unit)].moved_by(of);
+      double sum = 0;
+      for (std::size_t k = 0; k < of.size(); ++k) sum += of[k] * moved[k];
+      return sum;
+    };
+    w.push_back(share(row.first, row.of_first) + share(row.second, row.of_second));
+  }
+  return w;
+}
+
+BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
+                          const double* p, const double* w) {
+  BlockResidual residual;
+  if (!block.is_contact) {
+    for (std::size_t k = 0; k < block.rows; ++k)
+      residual.normal = std::max(residual.normal, std::abs(v[k]));
+    return residual;
+  }
+  double slip = 0, square = 0;
+  const double bound = block.bound(p[0]);
+  std::array<double, 2> wanted{};
+  for (std::size_t k = 1; k < block.rows; ++k) {
+    slip += v[k] * v[k];
+    wanted[k - 1] = p[k] - v[k] / w[k];
+    square += wanted[k - 1] * wanted[k - 1];
+  }
+  const double lift = lifts_sliding && bound > 0 ? block.friction * std::sqrt(slip) : 0;
+  residual.normal = std::abs(std::min(v[0] - lift, w[0] * (p[0] - block.lowest)));
+  const double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
+  double off = 0;
+  for (std::size_t k = 1; k < block.rows; ++k) {
+    const double difference = w[k] * (p[k] - factor * wanted[k - 1]);
+    off += difference * difference;
+  }
+  residual.tangential = std::sqrt(off);
+  return residual;
+}
+
+template std::vector<Motion<2>> motions<2>(const ConstraintProblem<2>&, std::span<const double>);
+template std::vector<Motion<3>> motions<3>(const ConstraintProblem<3>&, std::span<const double>);
+template std::vector<double> row_mobilities<2>(const ConstraintProblem<2>&);
+template std::vector<double> row_mobilities<3>(const ConstraintProblem<3>&);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,152 @@
+// The contacts with friction and the bilateral constraints of one time step, docs/physics.md (5.6)
+// to (5.9), in flat arrays. Lengths, masses and times are in the units of the case.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace viscontact::particles {
+
+/// Number of components of a rotation: the angle in the plane, or a vector in space.
+template <int D>
+inline constexpr int kTurns = D == 2 ? 1 : 3;
+
+/// A displacement and a rotation: D numbers [L], then kTurns numbers [rad]. The same type holds an
+/// impulse and its moment.
+template <int D>
+using Motion = std::array<double, static_cast<std::size_t>(D + kTurns<D>)>;
+
+/// What moves as one: a particle, or a rigid body of several particles.
+template <int D>
+struct RigidUnit {
+  static constexpr std::size_t kTurnEntries = static_cast<std::size_t>(kTurns<D> * kTurns<D>);
+  Motion<D> free{};     ///< h (u*, w*) of the motion without constraints
+  double mobility = 0;  ///< h/m [T/M]
+  std::array<double, kTurnEntries> turn_mobility{};          ///< h I^-1 [T/(M L^2)], row by row
+  double inverse_mobility = 0;                               ///< m/h
+  std::array<double, kTurnEntries> inverse_turn_mobility{};  ///< I/h
+
+  /// h M^-1 times an impulse and moment.
+  Motion<D> moved_by(const Motion<D>& impulse) const {
+    return product(mobility, turn_mobility, impulse);
+  }
+  /// The impulse and moment that cause a motion.
+  Motion<D> impulse_of(const Motion<D>& motion) const {
+    return product(inverse_mobility, inverse_turn_mobility, motion);
+  }
+
+ private:
+  static Motion<D> product(double factor, const std::array<double, kTurnEntries>& turns,
+                           const Motion<D>& by) {
+    constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+    Motion<D> result;
+    for (std::size_t i = 0; i < d; ++i) result[i] = factor * by[i];
+    for (std::size_t i = 0; i < r; ++i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < r; ++k) sum += turns[i * r + k] * by[d + k];
+      result[d + i] = sum;
+    }
+    return result;
+  }
+};
+
+/// One scalar of a constraint after the motions y of the units: offset + of_first.y_first +
+/// of_second.y_second [L].
+template <int D>
+struct ConstraintRow {
+  std::int32_t first = -1;  ///< number of a unit; -1: an obstacle, or a fixed point
+  std::int32_t second = 0;  ///< number of a unit
+  Motion<D> of_first{}, of_second{};
+  double offset = 0;
+};
+
+/// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
+/// more for the tangential displacement of the surfaces; a bilateral constraint may have any number
+/// of rows, which must be 0.
+struct ConstraintBlock {
+  std::size_t row = 0;   ///< number of its first row
+  std::size_t rows = 1;  ///< number of its rows
+  bool is_contact = true;
+  double lowest = 0;    ///< lower bound gamma^n of the normal impulse [M L/T]
+  double friction = 0;  ///< mu_s >= 0
+  /// Impulse gamma^n - gamma_min that the film of the contact can still absorb [M L/T], >= 0.
+  double capacity = 0;
+  /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows, and
+  /// of the tangential rows of a contact.
+  double allowed = 0, allowed_slip = 0;
+  /// Bound mu_s s of the tangential impulse [M L/T], where s is the part of the normal impulse that
+  /// the solids carry, docs/physics.md (5.7).
+  double bound(double normal_impulse) const {
+    const double carried = normal_impulse - capacity;
+    return carried > 0 ? friction * carried : 0;
+  }
+};
+
+/// Largest number of rows of a block.
+inline constexpr std::size_t kMostRows = 3;
+
+/// The problem of a step: find impulses p of the rows such that, with y = y* + h M^-1 J^T p, every
+/// contact has gap >= 0, p_n >= lowest and one of them 0, every tangential impulse obeys Coulomb's
+/// law, and every bilateral row is 0.
+template <int D>
+struct ConstraintProblem {
+  std::vector<RigidUnit<D>> units;
+  std::vector<ConstraintRow<D>> rows;
+  std::vector<ConstraintBlock> blocks;
+  std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
+  /// Whether sliding contacts open by h mu_s |v_t|, which makes the problem convex (5.9).
+  bool lifts_sliding = false;
+};
+
+/// Value of a row without its offset.
+template <int D>
+inline double product(const ConstraintRow<D>& row, std::span<const Motion<D>> y) {
+  double sum = 0;
+  const auto& second = y[static_cast<std::size_t>(row.second)];
+  for (std::size_t k = 0; k < second.size(); ++k) sum += row.of_second[k] * second[k];
+  if (row.first >= 0) {
+    const auto& first = y[static_cast<std::size_t>(row.first)];
+    for (std::size_t k = 0; k < first.size(); ++k) sum += row.of_first[k] * first[k];
+  }
+  return sum;
+}
+
+/// Adds J^T p of one row with impulse `p` to the impulses of the units.
+template <int D>
+inline void add_impulse(const ConstraintRow<D>& row, double p, std::span<Motion<D>> impulses) {
+  auto& second = impulses[static_cast<std::size_t>(row.second)];
+  for (std::size_t k = 0; k < second.size(); ++k) second[k] += row.of_second[k] * p;
+  if (row.first >= 0) {
+    auto& first = impulses[static_cast<std::size_t>(row.first)];
+    for (std::size_t k = 0; k < first.size(); ++k) first[k] += row.of_first[k] * p;
+  }
+}
+
+/// Motions y* + h M^-1 J^T p of all units.
+template <int D>
+std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
+                               std::span<const double> impulses);
+
+/// w of each row: what a unit impulse on the row changes in it, J h M^-1 J^T [T/M].
+template <int D>
+std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
+
+/// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
+/// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
+/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a bilateral constraint the largest |v|.
+struct BlockResidual {
+  double normal = 0, tangential = 0;
+  /// The larger of both, divided by what is allowed.
+  double share(const ConstraintBlock& block) const {
+    const double of_normal = normal / block.allowed;
+    const double of_slip = tangential > 0 ? tangential / block.allowed_slip : 0;
+    return of_normal > of_slip ? of_normal : of_slip;
+  }
+};
+BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
+                          const double* p, const double* w);
+
+}  // namespace viscontact::particles

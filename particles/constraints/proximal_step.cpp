@@ -1,0 +1,293 @@
+// Newton's method for a step of the proximal method (proximal_step.hpp).
+#include "viscontact/particles/constraints/proximal_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viscontact::particles {
+
+template <int D>
+ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w)
+    : problem_(problem),
+      w_(w),
+      rho_(problem.rows.size()),
+      values_(problem.rows.size()),
+      changes_(problem.rows.size(), 0.0),
+      projected_(problem.rows.size()),
+      branches_(problem.blocks.size()),
+      direction_(problem.units.size(), Motion<D>{}),
+      error_(problem.units.size()) {
+  std::vector<typename BlockFactor<kMotion>::Edge> edges;
+  for (const auto& block : problem.blocks) {
+    const auto& row = problem.rows[block.row];
+    edge_of_.push_back(row.first < 0 ? std::numeric_limits<std::size_t>::max() : edges.size());
+    if (row.first >= 0) edges.push_back({row.first, row.second});
+  }
+  factor_.analyse(problem.units.size(), edges);
+}
+
+template <int D>
+void ProximalStep<D>::set_epsilon(double epsilon) {
+  for (std::size_t r = 0; r < rho_.size(); ++r) rho_[r] = 1 / (epsilon * w_[r]);
+  has_factor_ = false;
+}
+
+/// Sets `q` to c - rho (v + J y) of block `b` after a step `t` along the direction.
+template <int D>
+void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
+  const auto& block = problem_.blocks[b];
+  for (std::size_t k = 0; k < block.rows; ++k) {
+    const auto r = block.row + k;
+    q[k] = center_[r] - rho_[r] * (values_[r] + t * changes_[r]);
+  }
+  q[0] += rho_[block.row] * lifts_[b];
+}
+
+template <int D>
+typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const double* q,
+                                                          double* p) const {
+  const auto& block = problem_.blocks[b];
+  if (!block.is_contact) {
+    std::copy_n(q, block.rows, p);
+    return {true, Friction::kSticks};
+  }
+  Branch branch{q[0] > block.lowest};
+  p[0] = branch.is_closed ? q[0] : block.lowest;
+  const double bound = this->bound(b, p[0]);
+  double square = 0;
+  for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
+  const bool slips = square >= bound * bound;
+  const double factor = slips && square > 0 ? bound / std::sqrt(square) : 1;
+  for (std::size_t k = 1; k < block.rows; ++k) p[k] = factor * q[k];
+  if (bound > 0)
+    branch.friction = !slips     ? Friction::kSticks
+                      : q[1] < 0 ? Friction::kSlipsBack
+                                 : Friction::kSlips;
+  return branch;
+}
+
+/// Error J^T P - M/h (y - y*) after a step `t` along the direction, in the norm of the inverse
+/// masses. With `is_kept`, also sets the impulses and branches there.
+template <int D>
+double ProximalStep<D>::error_at(double t, bool is_kept) {
+  for (std::size_t u = 0; u < y_.size(); ++u) {
+    const auto& unit = problem_.units[u];
+    Motion<D> left;
+    for (std::size_t k = 0; k < left.size(); ++k)
+      left[k] = unit.free[k] - y_[u][k] - t * direction_[u][k];
+    error_[u] = unit.impulse_of(left);
+  }
+  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
+    const auto& block = problem_.blocks[b];
+    std::array<double, kMostRows> q{}, p{};
+    unprojected(b, t, q.data());
+    const auto branch = project(b, q.data(), p.data());
+    if (is_kept) {
+      branches_[b] = branch;
+      std::copy_n(p.data(), block.rows, &projected_[block.row]);
+    }
+    for (std::size_t k = 0; k < block.rows; ++k)
+      if (p[k] != 0) add_impulse<D>(problem_.rows[block.row + k], p[k], error_);
+  }
+  double sum = 0;
+  for (std::size_t u = 0; u < error_.size(); ++u) {
+    const auto moved = problem_.units[u].moved_by(error_[u]);
+    for (std::size_t k = 0; k < moved.size(); ++k) sum += moved[k] * error_[u][k];
+  }
+  return std::sqrt(sum);
+}
+
+/// Adds weight * row^T other to the matrix.
+template <int D>
+void ProximalStep<D>::add_product(std::size_t b, const ConstraintRow<D>& row,
+                                  const ConstraintRow<D>& other, double weight) {
+  constexpr auto k = static_cast<std::size_t>(kMotion);
+  const auto add = [&](auto& into, const Motion<D>& left, const Motion<D>& right) {
+    for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t j = 0; j < k; ++j) into[i * k + j] += weight * left[i] * right[j];
+  };
+  add(factor_.diagonal(static_cast<std::size_t>(row.second)), row.of_second, other.of_second);
+  if (row.first < 0) return;
+  add(factor_.diagonal(static_cast<std::size_t>(row.first)), row.of_first, other.of_first);
+  add(factor_.off_diagonal(edge_of_[b], 0), row.of_first, other.of_second);
+  add(factor_.off_diagonal(edge_of_[b], 1), row.of_second, other.of_first);
+}
+
+/// Adds J^T (-dP/dy) of a block to the matrix.
+template <int D>
+void ProximalStep<D>::add_block(std::size_t b) {
+  const auto& block = problem_.blocks[b];
+  const auto* rows = &problem_.rows[block.row];
+  const auto* rho = &rho_[block.row];
+  const auto branch = branches_[b];
+  if (branch.is_closed) add_product(b, rows[0], rows[0], rho[0]);
+  if (branch.friction == Friction::kNone) return;
+  if (branch.friction == Friction::kSticks) {
+    for (std::size_t k = 1; k < block.rows; ++k) add_product(b, rows[k], rows[k], rho[k]);
+    return;
+  }
+  // p_t = mu_s (p_n - capacity) q_t/|q_t|.
+  std::array<double, kMostRows> q{};
+  unprojected(b, 0, q.data());
+  double square = 0;
+  for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
+  const double length = std::sqrt(square);
+  if (branch.is_closed && is_coupled_)
+    for (std::size_t k = 1; k < block.rows; ++k)
+      add_product(b, rows[k], rows[0], rho[0] * block.friction * q[k] / length);
+  if (block.rows < 3) return;
+  const double factor = rho[1] * bound(b, projected_[block.row]) / length;
+  for (std::size_t k = 1; k < 3; ++k)
+    for (std::size_t l = 1; l < 3; ++l)
+      add_product(b, rows[k], rows[l], factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
+}
+
+template <int D>
+bool ProximalStep<D>::factorise() {
+  constexpr auto k = static_cast<std::size_t>(kMotion), d = static_cast<std::size_t>(D);
+  factor_.clear();
+  for (std::size_t u = 0; u < problem_.units.size(); ++u) {
+    const auto& unit = problem_.units[u];
+    auto& block = factor_.diagonal(u);
+    for (std::size_t i = 0; i < d; ++i) block[i * k + i] = unit.inverse_mobility;
+    for (std::size_t i = d; i < k; ++i)
+      for (std::size_t j = d; j < k; ++j)
+        block[i * k + j] = unit.inverse_turn_mobility[(i - d) * (k - d) + j - d];
+  }
+  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) add_block(b);
+  factored_ = branches_;
+  has_factor_ = factor_.factorise();
+  return has_factor_;
+}
+
+/// Sets the direction of Newton's method at the present error.
+template <int D>
+void ProximalStep<D>::find_direction() {
+  constexpr auto k = static_cast<std::size_t>(kMotion);
+  std::vector<double> values(error_.size() * k);
+  for (std::size_t u = 0; u < error_.size(); ++u)
+    for (std::size_t i = 0; i < k; ++i) values[u * k + i] = error_[u][i];
+  factor_.solve(values);
+  for (std::size_t u = 0; u < error_.size(); ++u)
+    for (std::size_t i = 0; i < k; ++i) direction_[u][i] = values[u * k + i];
+  for (std::size_t r = 0; r < problem_.rows.size(); ++r)
+    changes_[r] = product<D>(problem_.rows[r], direction_);
+}
+
+/// Length of a step that makes the error fall.
+template <int D>
+double ProximalStep<D>::coupled_length(double before) {
+  // A step is shortened until the error falls by a share of what it promises.
+  constexpr double kPromised = 0.1;
+  constexpr int kMostHalvings = 8;
+  double length = 1;
+  for (int n = 0; n < kMostHalvings; ++n, length /= 2)
+    if (error_at(length, false) <= (1 - kPromised * length) * before) break;
+  return length;
+}
+
+/// Derivative of the convex function after a step `t` along the direction.
+template <int D>
+double ProximalStep<D>::slope(double t) const {
+  double sum = 0;
+  for (std::size_t u = 0; u < y_.size(); ++u) {
+    const auto& unit = problem_.units[u];
+    Motion<D> moved;
+    for (std::size_t k = 0; k < moved.size(); ++k)
+      moved[k] = y_[u][k] + t * direction_[u][k] - unit.free[k];
+    const auto impulse = unit.impulse_of(moved);
+    for (std::size_t k = 0; k < moved.size(); ++k) sum += impulse[k] * direction_[u][k];
+  }
+  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
+    const auto& block = problem_.blocks[b];
+    std::array<double, kMostRows> q{}, p{};
+    unprojected(b, t, q.data());
+    project(b, q.data(), p.data());
+    for (std::size_t k = 0; k < block.rows; ++k) sum -= changes_[block.row + k] * p[k];
+  }
+  return sum;
+}
+
+/// Length of a step, at most 1, at which the convex function has a small slope.
+template <int D>
+double ProximalStep<D>::decoupled_length() const {
+  constexpr double kSmall = 0.1;
+  constexpr int kMostTries = 30;
+  double low = 0, high = 1, at_low = slope(0), at_high = slope(1);
+  const double small = kSmall * std::abs(at_low);
+  if (at_high <= small) return 1;
+  for (int n = 0; n < kMostTries; ++n) {
+    // Regula falsi, kept away from the ends, because the slope is steep beyond a kink.
+    const double share = std::clamp(at_low / (at_low - at_high), 0.05, 0.95);
+    const double t = low + share * (high - low), here = slope(t);
+    if (std::abs(here) <= small) return t;
+    (here < 0 ? low : high) = t;
+    (here < 0 ? at_low : at_high) = here;
+  }
+  return low > 0 ? low : high;
+}
+
+/// Size of rounding errors in the error of the impulses.
+template <int D>
+double ProximalStep<D>::rounding_error() const {
+  double square = 0;
+  for (std::size_t r = 0; r < projected_.size(); ++r)
+    square += w_[r] * projected_[r] * projected_[r];
+  for (std::size_t u = 0; u < y_.size(); ++u) {
+    const auto impulse = problem_.units[u].impulse_of(y_[u]);
+    for (std::size_t k = 0; k < impulse.size(); ++k) square += impulse[k] * y_[u][k];
+  }
+  constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
+  return kRounding * std::sqrt(square);
+}
+
+template <int D>
+int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
+                           const std::vector<double>& lifts, bool is_coupled, int max_iterations) {
+  constexpr double kExact = 1e-10;
+  has_factor_ = has_factor_ && is_coupled_ == is_coupled;
+  is_coupled_ = is_coupled;
+  bounds_.resize(problem_.blocks.size());
+  for (std::size_t b = 0; b < bounds_.size(); ++b)
+    bounds_[b] = problem_.blocks[b].bound(center[problem_.blocks[b].row]);
+  center_ = center;
+  lifts_ = lifts;
+  y_ = start;
+  for (std::size_t r = 0; r < problem_.rows.size(); ++r)
+    values_[r] = problem_.rows[r].offset + product<D>(problem_.rows[r], y_);
+  failed_ = false;
+  int iterations = 0;
+  const double first = error_at(0, true);
+  double before = first;
+  while (iterations < max_iterations) {
+    if (!has_factor_ || factored_ != branches_) {
+      ++iterations;
+      if (!factorise()) failed_ = true;
+      if (failed_) break;
+    }
+    ++iterations;
+    find_direction();
+    const double length = is_coupled_ ? coupled_length(before) : decoupled_length();
+    for (std::size_t u = 0; u < y_.size(); ++u)
+      for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction_[u][k];
+    for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
+    const auto last = factored_;
+    const double here = error_at(0, true);
+    // In the plane the equation is linear between changes of branches, so that a whole step
+    // without a change ends at the solution, within rounding errors.
+    const bool is_linear = D == 2 || here <= kExact * first || here > before / 2;
+    if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
+    if (is_coupled_ ? !(here < before) : here <= rounding_error()) {
+      failed_ = !(here <= rounding_error());
+      break;
+    }
+    before = here;
+  }
+  return iterations;
+}
+
+template class ProximalStep<2>;
+template class ProximalStep<3>;
+
+}  // namespace viscontact::particles

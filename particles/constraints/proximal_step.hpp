@@ -1,0 +1,86 @@
+// One step of the proximal method for the constraints of a time step, by Newton's method
+// (constraint_problem.hpp). Units are those of the case.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "viscontact/particles/constraints/block_factor.hpp"
+#include "viscontact/particles/constraints/constraint_problem.hpp"
+
+namespace viscontact::particles {
+
+/// From impulses c, a step of the proximal method (Rockafellar 1976) finds the motions y with
+///
+///     M/h (y - y*) = J^T P(c - rho (v + J y)),   rho = 1/(epsilon w),
+///
+/// where w is the mobility of a row and P projects on the allowed impulses: first the normal one on
+/// p_n >= lowest, then the tangential one on |p_t| <= mu_s s with s from p_n, so that Coulomb's law
+/// holds at the fixed point. The new impulses are P(...). The smaller epsilon is, the nearer they
+/// are to the solution, and the harder the equation is to solve; redundant contacts do no harm.
+///
+/// Newton's method has a block of its matrix for each unit and two for each pair of units in
+/// contact (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
+/// Newton like solution methods"). As long as no contact opens, closes, sticks or slips, the
+/// factors of the iteration before serve again.
+template <int D>
+class ProximalStep {
+ public:
+  /// `problem` must outlive this object; `w` are its row_mobilities().
+  ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w);
+
+  void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
+
+  /// Solves from `center` and the motions `start`. `lifts` are what each block is opened by [L].
+  /// If `is_coupled` is false, the bounds mu_s s are those of `center` (Tresca's friction). The
+  /// equation then is the minimum of a convex function, which the method always finds, but the
+  /// fixed point is reached more slowly or not at all.
+  /// Returns the number of factorisations and solutions with factors. Sets failed() if Newton's
+  /// method made no progress.
+  int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
+            const std::vector<double>& lifts, bool is_coupled, int max_iterations);
+
+  bool failed() const { return failed_; }
+  const std::vector<double>& impulses() const { return projected_; }
+  const std::vector<Motion<D>>& motions() const { return y_; }
+
+ private:
+  static constexpr int kMotion = D + kTurns<D>;
+  // Which branch of the projection P each part of a block is in. The matrix depends on it.
+  enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
+  struct Branch {
+    bool is_closed = false;
+    Friction friction = Friction::kNone;
+    bool operator==(const Branch&) const = default;
+  };
+
+  void unprojected(std::size_t b, double t, double* q) const;
+  Branch project(std::size_t b, const double* q, double* p) const;
+  double bound(std::size_t b, double normal_impulse) const {
+    return is_coupled_ ? problem_.blocks[b].bound(normal_impulse) : bounds_[b];
+  }
+  double error_at(double t, bool is_kept);
+  bool factorise();
+  void add_block(std::size_t b);
+  void add_product(std::size_t b, const ConstraintRow<D>& row, const ConstraintRow<D>& other,
+                   double weight);
+  void find_direction();
+  double rounding_error() const;
+  double coupled_length(double before);
+  double slope(double t) const;
+  double decoupled_length() const;
+
+  const ConstraintProblem<D>& problem_;
+  const std::vector<double>& w_;
+  std::vector<double> rho_, center_, lifts_;
+  std::vector<double> bounds_;            // of the tangential impulses at the center
+  std::vector<double> values_, changes_;  // v + J y of the rows, and J of the direction
+  std::vector<double> projected_;
+  std::vector<Branch> branches_, factored_;
+  std::vector<Motion<D>> y_, direction_, error_;
+  BlockFactor<kMotion> factor_;
+  std::vector<std::size_t> edge_of_;  // of each block; the largest number if it has one unit
+  bool has_factor_ = false, failed_ = false, is_coupled_ = true;
+};
+
+}  // namespace viscontact::particles
