@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "viscontact/freefem_flow/flow_process.hpp"
+#include "viscontact/freefem_flow/process/flow_process.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -67,6 +67,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // sections of a case of particles
                   Found("case_file/particles/particles_case.cpp", "viscous_contact"),
                   Found("case_file/particles/particles_case.cpp", "plane"),
+                  Found("case_file/fluid/fluid_start.cpp", "viscous_contact"),
                   // obstacles in words
                   Found("case_file/particles/particles_start.cpp", "plane"),
                   Found("case_file/fluid/fluid_start.cpp", "plane"),

@@ -12,7 +12,7 @@
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/system/child_process.hpp"
-#include "viscontact/freefem_flow/solver_command.hpp"
+#include "viscontact/freefem_flow/process/solver_command.hpp"
 
 namespace viscontact::freefem_flow {
 

@@ -1,5 +1,5 @@
 // Asks a fluid solver and checks its answers (solver_dialogue.hpp).
-#include "viscontact/freefem_flow/solver_dialogue.hpp"
+#include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

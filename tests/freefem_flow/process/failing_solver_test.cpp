@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/common/failure.hpp"
-#include "viscontact/freefem_flow/flow_process.hpp"
+#include "viscontact/freefem_flow/process/flow_process.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

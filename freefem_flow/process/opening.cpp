@@ -1,6 +1,6 @@
 // Writes the opening of the protocol (docs/fluid-solver.md, which a change must follow). Numbers
 // are written so that they read back to the same double.
-#include "viscontact/freefem_flow/opening.hpp"
+#include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/freefem_flow/opening.hpp"
+#include "viscontact/freefem_flow/process/opening.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

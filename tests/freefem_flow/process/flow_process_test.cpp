@@ -1,6 +1,6 @@
 // A whole dialogue with a fluid solver: the example of Stokes drag, whose answers are known, and
 // shell scripts that write down what they are asked.
-#include "viscontact/freefem_flow/flow_process.hpp"
+#include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

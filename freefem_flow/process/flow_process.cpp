@@ -1,6 +1,6 @@
 // Writes the requests of the protocol and reads the answers (docs/fluid-solver.md, which a change
 // must follow). Numbers are written so that they read back to the same double.
-#include "viscontact/freefem_flow/flow_process.hpp"
+#include "viscontact/freefem_flow/process/flow_process.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem_flow/dissipation_alone.hpp"
-#include "viscontact/freefem_flow/opening.hpp"
-#include "viscontact/freefem_flow/solver_dialogue.hpp"
+#include "viscontact/freefem_flow/process/opening.hpp"
+#include "viscontact/freefem_flow/process/solver_dialogue.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {

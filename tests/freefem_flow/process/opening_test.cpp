@@ -1,5 +1,5 @@
 // The opening of the protocol, word by word as docs/fluid-solver.md has it.
-#include "viscontact/freefem_flow/opening.hpp"
+#include "viscontact/freefem_flow/process/opening.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
