@@ -22,7 +22,8 @@ using Motion = std::array<double, static_cast<std::size_t>(D + kTurns<D>)>;
 /// What moves as one: a particle, or a rigid body of several particles.
 template <int D>
 struct RigidUnit {
-  static constexpr std::size_t kTurnEntries = static_cast<std::size_t>(kTurns<D> * kTurns<D>);
+  static constexpr auto kTurnDirections = static_cast<std::size_t>(kTurns<D>);
+  static constexpr std::size_t kTurnEntries = kTurnDirections * kTurnDirections;
   Motion<D> free{};     ///< h (u*, w*) of the motion without constraints
   double mobility = 0;  ///< h/m [T/M]
   std::array<double, kTurnEntries> turn_mobility{};          ///< h I^-1 [T/(M L^2)], row by row
