@@ -3,24 +3,15 @@
 #include "viscontact/case_file/toml_section.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <cmath>
-#include <set>
 #include <sstream>
 
 #include "viscontact/case_file/dotted_keys.hpp"
+#include "viscontact/case_file/toml_node.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::case_file {
-
-struct TomlSection::Node {
-  std::shared_ptr<const toml::table> root;  // keeps `table` alive
-  const toml::table* table = nullptr;
-  std::string file;
-  std::string path;             // "tabulation.container"; empty for the root
-  std::set<std::string> asked;  // keys that were asked for
-};
 
 namespace {
 
@@ -40,13 +31,6 @@ std::optional<double> allowed_number(const toml::node& node, const Allowed& allo
   return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;
 }
 
-/// True if the number can be stored as an integer without loss.
-bool is_integer(double value) {
-  constexpr double kLargestInteger = 1e15;  // below 2^53
-  return value == std::floor(value) && std::abs(value) <= kLargestInteger &&
-         !(value == 0 && std::signbit(value));
-}
-
 }  // namespace
 
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
@@ -59,64 +43,6 @@ TomlSection TomlSection::parse(const std::string& text, const std::string& file)
     throw_bad_input({file, static_cast<int>(error.source().begin.line)},
                     fmt::format("is not valid TOML ({})", error.description()));
   }
-}
-
-TomlSection TomlSection::with_numbers(
-    std::span<const std::pair<std::string, double>> numbers) const {
-  auto root = std::make_shared<toml::table>(*node_->root);
-  for (const auto& number : numbers) {
-    const std::string& path = number.first;
-    const double value = number.second;
-    const auto refuse = [&](const std::string& what) {
-      throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
-    };
-    auto* place = root->at_path(path).node();
-    // In place of a node of another type, because the node of an integer cannot store a fraction.
-    const auto replace = [&](auto new_value) {
-      const auto dot = path.rfind('.');
-      const auto bracket = path.rfind('[');
-      if (place != nullptr && bracket != std::string::npos && path.back() == ']') {
-        auto* array = root->at_path(path.substr(0, bracket)).as_array();
-        const auto index = static_cast<std::size_t>(std::stoul(path.substr(bracket + 1)));
-        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), new_value);
-        return;
-      }
-      auto* parent =
-          dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
-      if (parent == nullptr) refuse("is not a key of this case");
-      // The reader of the case checks whether this key exists.
-      parent->insert_or_assign(path.substr(dot + 1), new_value);
-    };
-    if (place != nullptr && place->is_floating_point())
-      **place->as_floating_point() = value;
-    else if (place != nullptr && !place->is_integer())
-      refuse("is not a number in this case");
-    else if (is_integer(value))
-      replace(static_cast<std::int64_t>(value));
-    else
-      replace(value);
-  }
-  const auto* table = root.get();
-  return TomlSection(std::make_shared<Node>(Node{std::move(root), table, node_->file, "", {}}));
-}
-
-TomlSection TomlSection::with_texts(
-    std::span<const std::pair<std::string, std::string>> texts) const {
-  auto root = std::make_shared<toml::table>(*node_->root);
-  for (const auto& [path, text] : texts) {
-    auto* place = root->at_path(path).as_string();
-    if (place == nullptr)
-      throw_bad_input({node_->file}, fmt::format("{} is not a text in this case", path));
-    **place = text;
-  }
-  const auto* table = root.get();
-  return TomlSection(std::make_shared<Node>(Node{std::move(root), table, node_->file, "", {}}));
-}
-
-std::string TomlSection::as_toml() const {
-  std::ostringstream text;
-  text << *node_->root << "\n";
-  return text.str();
 }
 
 void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
@@ -226,6 +152,27 @@ std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& al
     values.push_back(*value);
   }
   return values;
+}
+
+std::vector<std::vector<double>> TomlSection::rows(std::string_view key, std::size_t columns,
+                                                   const Allowed& allowed) const {
+  const auto wanted =
+      fmt::format("it must be a list of lists of {} numbers {}", columns, allowed.words);
+  if (!has(key)) fail(key, "is missing; " + wanted);
+  const auto* array = node_->table->get(key)->as_array();
+  if (array == nullptr || array->empty())
+    fail(key, fmt::format("is {}; {}", show(*node_->table->get(key)), wanted));
+  std::vector<std::vector<double>> rows;
+  for (const auto& element : *array) {
+    std::vector<double> row;
+    if (const auto* list = element.as_array())
+      for (const auto& number : *list)
+        if (const auto value = allowed_number(number, allowed)) row.push_back(*value);
+    if (!element.is_array() || row.size() != columns || element.as_array()->size() != columns)
+      fail(key, fmt::format("contains {}; {}", show(element), wanted));
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 std::vector<std::string> TomlSection::texts(std::string_view key) const {

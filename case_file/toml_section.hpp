@@ -53,6 +53,9 @@ class TomlSection {
   std::vector<bool> truths(std::string_view key, std::size_t count) const;
   /// An array of at least one number.
   std::vector<double> numbers(std::string_view key, const Allowed& allowed) const;
+  /// An array of at least one array, each of `columns` numbers.
+  std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns,
+                                        const Allowed& allowed) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
   TomlSection section(std::string_view key) const;
   /// An array of at least one table.
