@@ -25,6 +25,9 @@ void Simulation::move_freely(double h, double next) {
       displacements_[k * D + d] += kick * mobilities_[k] * mean[d];
   }
   if (p.turn()) turn_freely(h, next);
+  if (!p.bodies.empty()) move_bodies_freely(h, next);
+  link_forces_ = state_.link_forces;
+  link_forces_.resize(setting_.links.force_count(D), 0.0);
 }
 
 /// Mean of a force or torque over the time in which it acts on the velocities in a step.
@@ -33,20 +36,92 @@ Vector Simulation::mean_of(const PiecewiseConstant& function, double h, double n
   return function.mean(state_.time - state_.velocity_lag, state_.time + h / 2);
 }
 
+/// Sums of the forces and torques on each rigid body; `mean` gives the mean of a function.
+std::vector<BodyLoad> Simulation::loads_of_bodies(
+    const std::function<Vector(const PiecewiseConstant&)>& mean) const {
+  const auto& p = state_.particles;
+  std::vector<BodyLoad> loads(p.bodies.count());
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    loads[b].force = body.mass * setting_.gravity;
+    for (std::size_t m = 0; m < body.members.size(); ++m) {
+      const auto member = body.members[m];
+      if (const auto force = setting_.forces.find(member); force != setting_.forces.end()) {
+        const Vector value = mean(force->second);
+        loads[b].force = loads[b].force + value;
+        loads[b].torque = loads[b].torque + cross(present_offset(body, m, p.dimension), value);
+      }
+      if (const auto torque = setting_.torques.find(member); torque != setting_.torques.end())
+        loads[b].torque = loads[b].torque + mean(torque->second);
+    }
+  }
+  return loads;
+}
+
+/// Sets the steps of the rigid bodies in free motion, and what follows for their members.
+void Simulation::move_bodies_freely(double h, double next) {
+  const auto& p = state_.particles;
+  const auto loads = loads_of_bodies(
+      [&](const PiecewiseConstant& function) { return mean_of(function, h, next); });
+  const auto numbers = static_cast<std::size_t>(p.dimension);
+  const auto components = turn_components(p.dimension);
+  body_steps_.clear();
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    body_steps_.push_back(free_step(body, loads[b], h, kick_length(h), p.dimension));
+    const auto& step = body_steps_.back();
+    for (std::size_t m = 0; m < body.members.size(); ++m) {
+      const auto k = index_of(body.members[m]);
+      const Vector moved = displacement_at(step.displacement, step.turn,
+                                           present_offset(body, m, p.dimension), p.dimension);
+      for (std::size_t d = 0; d < numbers; ++d) displacements_[k * numbers + d] = moved[d];
+      for (std::size_t i = 0; i < components; ++i)
+        turns_[k * components + i] = step.turn[3 - components + i];
+      mobilities_[k] = step.mobility;
+    }
+  }
+}
+
+/// Whether nothing but forces, gravity and torques changes the motion of each particle at the end of
+/// the last step: no contact, no link, and none on its rigid body.
+std::vector<char> Simulation::free_particles() const {
+  const auto& p = state_.particles;
+  std::vector<char> is_free(p.count(), 1);
+  const auto bind = [&](std::int32_t particle) {
+    if (particle < 0) return;
+    is_free[index_of(particle)] = 0;
+    if (const auto body = p.bodies.body_of(particle); body >= 0)
+      for (const auto member : p.bodies.bodies[index_of(body)].members)
+        is_free[index_of(member)] = 0;
+  };
+  for (const auto* pairs : {&state_.pairs, &state_.walls})
+    for (const auto& pair : *pairs)
+      if (pair.impulse != 0) {
+        bind(pair.first);
+        bind(pair.second);
+      }
+  for (const auto& hinge : setting_.links.hinges) bind(hinge.point.particle);
+  for (const auto& spring : setting_.links.springs) {
+    bind(spring.first);
+    bind(spring.second);
+  }
+  for (const auto& arm : setting_.links.arms) {
+    bind(arm.first);
+    bind(arm.second);
+  }
+  return is_free;
+}
+
 Particles Simulation::reported_particles() const {
   auto reported = state_.particles;
   const double lag = state_.velocity_lag;
   if (!(lag > 0)) return reported;
-  std::vector<char> is_free(reported.count(), 1);
-  for (const auto* pairs : {&state_.pairs, &state_.walls})
-    for (const auto& pair : *pairs)
-      for (const auto particle : {pair.first, pair.second})
-        if (particle >= 0 && pair.impulse != 0) is_free[index_of(particle)] = 0;
+  const auto is_free = free_particles();
   const auto numbers = static_cast<std::size_t>(reported.dimension);
   const auto add = [&](std::vector<double>& values, std::size_t k, std::size_t count, double factor,
                        const Vector& by, std::size_t first) {
-    for (std::size_t d = 0; d < count; ++d)
-      if (is_free[k] != 0) values[k * count + d] += factor * by[first + d];
+    if (is_free[k] == 0 || reported.bodies.body_of(static_cast<std::int32_t>(k)) >= 0) return;
+    for (std::size_t d = 0; d < count; ++d) values[k * count + d] += factor * by[first + d];
   };
   for (std::size_t k = 0; k < reported.count(); ++k)
     add(reported.velocities, k, numbers, lag, setting_.gravity, 0);
@@ -58,6 +133,16 @@ Particles Simulation::reported_particles() const {
   for (const auto& [particle, torque] : setting_.torques)
     add(reported.angular_velocities, index_of(particle), turns,
         lag / reported.inertias[index_of(particle)], torque.mean(from, state_.time), 3 - turns);
+  const auto loads = loads_of_bodies(
+      [&](const PiecewiseConstant& function) { return function.mean(from, state_.time); });
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    auto& body = reported.bodies.bodies[b];
+    if (is_free[index_of(body.members.front())] == 0) continue;
+    body.velocity = body.velocity + (lag / body.mass) * loads[b].force;
+    body.angular_momentum = body.angular_momentum + lag * loads[b].torque;
+    update_angular_velocity(body, reported.dimension);
+  }
+  place_members(reported);
   return reported;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/vector.hpp"
 
@@ -38,6 +39,8 @@ struct Particles {
   /// Periods of the domain, by which the images of particles are shifted. A simulation takes them
   /// from its setting; the restart file does not store them.
   PeriodicCell cell{};
+  /// Rigid bodies of several particles. The case gives them; the restart file stores their motion.
+  RigidBodies bodies{};
 
   std::size_t count() const { return radii.size(); }
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation matters

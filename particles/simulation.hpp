@@ -6,18 +6,21 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/contact/contact_law.hpp"
 #include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/given_motion.hpp"
+#include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/particles.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/projection/solver_settings.hpp"
@@ -45,7 +48,8 @@ struct Setting {
   ContactLaw law;
   /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
   std::optional<FrictionLaw> friction;
-  double time_step = 0;            ///< h [T], > 0
+  Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
+  double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;
   std::optional<Fluid> fluid;  ///< around the particles; needs a domain
@@ -127,8 +131,9 @@ class Simulation {
   const Setting& setting() const { return setting_; }
 
   /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
-  /// state are those at an earlier time (State::velocity_lag); particles without an impulse of a
-  /// contact in the last step get what forces, gravity and torques have given them since then.
+  /// state are those at an earlier time (State::velocity_lag); particles and bodies without links and
+  /// without an impulse of a contact in the last step get what forces, gravity and torques have given
+  /// them since then.
   Particles reported_particles() const;
 
  private:
@@ -148,10 +153,18 @@ class Simulation {
   }
   [[noreturn]] void throw_step_without_solution(const ProjectionResult& projected,
                                                 double next) const;
+  [[noreturn]] void throw_contradiction(const ProjectionResult& projected, double next) const;
   // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
   template <int D>
   void move_freely(double h, double next);
   void turn_freely(double h, double next);
+  void move_bodies_freely(double h, double next);
+  bool has_constraints() const {
+    return setting_.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
+  }
+  std::vector<BodyLoad> loads_of_bodies(
+      const std::function<Vector(const PiecewiseConstant&)>& mean) const;
+  std::vector<char> free_particles() const;
   // Solves the projection. The displacements h u* become h v.
   template <int D>
   ProjectionResult project(double h, double next);
@@ -160,12 +173,19 @@ class Simulation {
   Setting setting_;
   State state_;
   double mean_radius_;
+  double first_time_;  // at the beginning [T]
   std::unique_ptr<ThreadPool> pool_;
   std::vector<double> displacements_;  // h u*, later h v [L]
   std::vector<double> mobilities_;     // h/m [T/M]
   // If the particles turn: h w*, later h w [rad], and h/I [T/(M L^2)].
   std::vector<double> turns_, turn_mobilities_;
-  std::vector<Plane> obstacles_;  // walls of the domain, then planes
+  std::vector<BodyStep> body_steps_;  // of the rigid bodies
+  // Forces of the links in the present part of a step, and the integral of the forces over the parts
+  // that are done [M L/T, M L^2/T], with the sum of the times for which they act.
+  std::vector<double> link_forces_, link_impulses_;
+  double link_time_ = 0;
+  std::vector<double> jump_times_;  // of forces and torques [T]
+  std::vector<Plane> obstacles_;    // walls of the domain, then planes
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
   // bodies and of the image, and the state before the step.
   struct Impulses {

@@ -53,6 +53,9 @@ struct State {
   /// Flat array of positions when `pairs` was made [L]; empty if there is no list yet.
   std::vector<double> positions_at_listing;
   std::vector<double> skins;  ///< skin of each particle [L]
+  /// Forces and torques of the links in the last step, in the order of Links::force_count()
+  /// [M L/T^2, M L^2/T^2]: the first guess of the next step. Empty before the first step.
+  std::vector<double> link_forces;
   // What time stepping in a fluid needs of the step before.
   /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
   std::vector<double> earlier_velocities;

@@ -14,6 +14,7 @@ namespace viscontact::case_file {
 namespace {
 
 using particles::WallVelocity;
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
 constexpr double kLeastGapOfMesh = 1e-3;
@@ -35,6 +36,56 @@ bool has_only_open_sides(const ParticlesCase& c) {
 /// True if the body is an obstacle or a particle whose motion is given, which no impulse moves.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
+}
+
+/// Checks rigid bodies and links in a fluid.
+void check_bodies(const TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
+  const auto& p = c.particles;
+  if (c.setting.fluid->coupling == particles::Coupling::kSplitting &&
+      !(p.bodies.empty() && c.setting.links.empty()))
+    root.section("fluid").fail(
+        "coupling",
+        "is 'splitting', which does not know rigid bodies and links; it must "
+        "be \"constrained\"");
+  for (std::size_t b = 0; b < p.bodies.count(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    const auto masses = particles::member_masses(body, p);
+    double least = 0;
+    for (std::size_t m = 0; m < masses.size(); ++m) {
+      least += masses[m] * particles::dot(body.offsets[m], body.offsets[m]);
+      const auto k = particles::index_of(body.members[m]);
+      for (std::size_t n = 0; n < m; ++n) {
+        const auto other = particles::index_of(body.members[n]);
+        const double gap =
+            particles::norm(p.position(k) - p.position(other)) - p.radii[k] - p.radii[other];
+        const double needed = kLeastGapOfMesh * std::min(p.radii[k], p.radii[other]);
+        if (gap < needed)
+          throw_bad_input(names.at(k),
+                          fmt::format("{} and {} have a gap of {:.3g}; in a fluid the particles of "
+                                      "a body must keep a gap of at least a thousandth of the "
+                                      "smaller radius, {:.3g}, because the mesh has fluid between "
+                                      "them",
+                                      names(other), names(k), gap, needed));
+      }
+    }
+    if (body.inertia[8] < least)
+      root.sections("body")[b].fail(
+          "moment_of_inertia",
+          fmt::format("is {}; in a fluid it must be at least that of the masses of the body's "
+                      "particles at their centres, {:.6g}",
+                      body.inertia[8], least));
+  }
+  for (std::size_t a = 0; a < c.setting.links.arms.size(); ++a) {
+    const auto& arm = c.setting.links.arms[a];
+    const double r1 = p.radii[particles::index_of(arm.first)],
+                 r2 = p.radii[particles::index_of(arm.second)];
+    const double least = r1 + r2 + kLeastGapOfMesh * std::min(r1, r2);
+    if (const double shortest = particles::least_length(arm.length, c.end_time); shortest < least)
+      root.sections("arm")[a].fail(
+          "length", fmt::format("becomes {:.9g}; in a fluid it must leave a gap of at least a "
+                                "thousandth of the smaller radius and be at least {:.9g}",
+                                shortest, least));
+  }
 }
 
 void check_masses(const TomlSection& root, const ParticlesCase& c, const ParticleNames& names) {
@@ -167,6 +218,7 @@ void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
         "particles; at least one side must be a wall, or the motion of a particle must be given");
   check_mean_flow(root, c);
   check_arrangement(root, c);
+  check_bodies(root, c, names);
   check_masses(root, c, names);
   check_side_of_cylinder(c, names);
   const double limit = std::max(c.setting.fluid->threshold_gap,

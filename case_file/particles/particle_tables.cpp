@@ -10,10 +10,10 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 
 #include "viscontact/case_file/particles/arrangement_section.hpp"
+#include "viscontact/case_file/particles/particle_ids.hpp"
 #include "viscontact/case_file/vector_values.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
@@ -177,13 +177,6 @@ void read_file_of_particles(const TomlSection& section, ParticlesCase& c, Partic
   if (!in_fluid && p.turn()) particles::add_rotation(p);
 }
 
-/// A map from the id of each particle to its index.
-std::unordered_map<std::int32_t, std::int32_t> places_by_id(const Particles& p) {
-  std::unordered_map<std::int32_t, std::int32_t> places;
-  for (std::size_t k = 0; k < p.count(); ++k) places.emplace(p.id(k), static_cast<std::int32_t>(k));
-  return places;
-}
-
 }  // namespace
 
 ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c) {
@@ -211,26 +204,16 @@ ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c) 
 
 void read_forces_by_id(const TomlSection& root, ParticlesCase& c) {
   if (!root.has("force")) return;
-  const auto places = places_by_id(c.particles);
+  const ParticleIds ids(c);
   for (const auto& section : root.sections("force")) {
     const auto function = read_pieces(section, "value", c.particles.dimension, c.end_time);
-    for (const double id : section.numbers("particles", kNotNegative)) {
-      const bool whole = id == std::floor(id) && id <= std::numeric_limits<std::int32_t>::max();
-      const auto place = whole ? places.find(static_cast<std::int32_t>(id)) : places.end();
-      if (place == places.end())
-        section.fail("particles",
-                     c.particles.ids.empty()
-                         ? fmt::format("contains {}, which is not the number of a particle; the "
-                                       "particles are numbered from 0 to {}",
-                                       id, c.particles.count() - 1)
-                         : fmt::format("contains {}, which is not the id of a particle; {} "
-                                       "gives the ids",
-                                       id, c.particles_file.string()));
-      if (c.setting.given_motions.contains(place->second))
+    for (const auto particle : ids.numbers(section, "particles")) {
+      const auto id = c.particles.id(particles::index_of(particle));
+      if (c.setting.given_motions.contains(particle))
         section.fail("particles", fmt::format("contains particle {}, whose motion is given, so "
                                               "that a force has no effect; it must be left out",
                                               id));
-      if (!c.setting.forces.emplace(place->second, function).second)
+      if (!c.setting.forces.emplace(particle, function).second)
         section.fail(
             "particles",
             fmt::format("contains particle {} a second time; each particle must have one force",

@@ -16,6 +16,8 @@
 #include "viscontact/case_file/fluid/fluid_section.hpp"
 #include "viscontact/case_file/fluid/fluid_start.hpp"
 #include "viscontact/case_file/fluid/solver_files.hpp"
+#include "viscontact/case_file/particles/bodies_section.hpp"
+#include "viscontact/case_file/particles/links_section.hpp"
 #include "viscontact/case_file/particles/particle_tables.hpp"
 #include "viscontact/case_file/particles/particles_start.hpp"
 #include "viscontact/case_file/particles/particles_template.hpp"
@@ -237,6 +239,8 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
 
   const auto lines = read_particles_of_case(root, c);
   read_forces_by_id(root, c);
+  read_bodies(root, c);
+  read_links(root, c);
   if (root.has("sweep")) c.sweep = read_particles_sweep(root.section("sweep"));
   root.finish();
   check_start(c, lines);

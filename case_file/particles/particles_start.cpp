@@ -10,6 +10,7 @@
 #include <limits>
 #include <variant>
 
+#include "viscontact/case_file/particles/bodies_section.hpp"
 #include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
@@ -24,9 +25,10 @@ std::string ParticleNames::operator()(std::size_t k) const {
   std::string place = fmt::format("{}", x[0]);
   for (std::size_t d = 1; d < static_cast<std::size_t>(dimension); ++d)
     place += fmt::format(", {}", x[d]);
-  return fmt::format("particle {} ({}centre {}, radius {})", case_.particles.id(k),
+  return fmt::format("particle {} ({}centre {}, radius {}{})", case_.particles.id(k),
                      k < lines_.in_file.size() ? fmt::format("line {}, ", lines_.in_file[k]) : "",
-                     place, case_.particles.radii[k]);
+                     place, case_.particles.radii[k],
+                     body_in_words(case_, static_cast<std::int32_t>(k)));
 }
 
 FilePosition ParticleNames::at(std::size_t k) const {
@@ -59,6 +61,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (const auto& [first, second, image] :
        cell.is_periodic() ? particles::close_pairs_in_period(cell, p.positions, extents, pool)
                           : particles::close_pairs(p.dimension, p.positions, extents, pool)) {
+    if (image == 0 && p.bodies.are_one(first, second)) continue;
     const auto i = particles::index_of(first), j = particles::index_of(second);
     const auto apart = p.position(j) + particles::shift_of(cell, image) - p.position(i);
     gaps.push_back({first, second, particles::norm(apart) - p.radii[i] - p.radii[j]});

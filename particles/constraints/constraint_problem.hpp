@@ -65,8 +65,8 @@ struct ConstraintRow {
 };
 
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
-/// more for the tangential displacement of the surfaces; a bilateral constraint may have any number
-/// of rows, which must be 0.
+/// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
+/// kMostRows rows, which must be 0, or proportional to their impulses.
 struct ConstraintBlock {
   std::size_t row = 0;   ///< number of its first row
   std::size_t rows = 1;  ///< number of its rows
@@ -78,6 +78,9 @@ struct ConstraintBlock {
   /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows, and
   /// of the tangential rows of a contact.
   double allowed = 0, allowed_slip = 0;
+  /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
+  /// [T/M], >= 0.
+  double compliance = 0;
   /// Bound mu_s s of the tangential impulse [M L/T], where s is the part of the normal impulse that
   /// the solids carry, docs/physics.md (5.7).
   double bound(double normal_impulse) const {
@@ -91,7 +94,7 @@ inline constexpr std::size_t kMostRows = 3;
 
 /// The problem of a step: find impulses p of the rows such that, with y = y* + h M^-1 J^T p, every
 /// contact has gap >= 0, p_n >= lowest and one of them 0, every tangential impulse obeys Coulomb's
-/// law, and every bilateral row is 0.
+/// law, and every bilateral row is 0 or, with a compliance, -compliance p.
 template <int D>
 struct ConstraintProblem {
   std::vector<RigidUnit<D>> units;
@@ -137,7 +140,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a bilateral constraint the largest |v|.
+/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a bilateral constraint the largest |v +
+/// compliance p|.
 struct BlockResidual {
   double normal = 0, tangential = 0;
   /// The larger of both, divided by what is allowed.

@@ -39,7 +39,12 @@ void ContactSweeps<D>::change(std::size_t row, double impulse) {
 template <int D>
 void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
   if (!block.is_contact) {
-    for (std::size_t k = 0; k < block.rows; ++k) change(block.row + k, wanted(block.row + k, w[k]));
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      // v + w dp + compliance (p + dp) = 0
+      const double p = problem_.impulses[block.row + k];
+      const double rigid = wanted(block.row + k, w[k]) - p;
+      change(block.row + k, p + (w[k] * rigid - block.compliance * p) / (w[k] + block.compliance));
+    }
     return;
   }
   // Normal and tangential rows of discs and spheres do not act on each other.

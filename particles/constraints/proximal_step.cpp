@@ -49,7 +49,9 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
                                                           double* p) const {
   const auto& block = problem_.blocks[b];
   if (!block.is_contact) {
-    std::copy_n(q, block.rows, p);
+    // p = c - rho (v + compliance p)
+    for (std::size_t k = 0; k < block.rows; ++k)
+      p[k] = q[k] / (1 + rho_[block.row + k] * block.compliance);
     return {true, Friction::kSticks};
   }
   Branch branch{q[0] > block.lowest};
@@ -121,6 +123,11 @@ void ProximalStep<D>::add_block(std::size_t b) {
   const auto* rows = &problem_.rows[block.row];
   const auto* rho = &rho_[block.row];
   const auto branch = branches_[b];
+  if (!block.is_contact) {
+    for (std::size_t k = 0; k < block.rows; ++k)
+      add_product(b, rows[k], rows[k], rho[k] / (1 + rho[k] * block.compliance));
+    return;
+  }
   if (branch.is_closed) add_product(b, rows[0], rows[0], rho[0]);
   if (branch.friction == Friction::kNone) return;
   if (branch.friction == Friction::kSticks) {

@@ -15,6 +15,8 @@
 
 namespace viscontact::particles {
 
+class HeldMotion;
+class HeldSolver;
 class StepEquation;
 struct StepContacts;
 
@@ -73,16 +75,19 @@ class FluidSimulation {
   struct Motion;
   Motion solve(double h, double next, bool is_estimated);
   std::vector<double> free_velocities(const StepEquation& equation, std::span<const double> flow,
-                                      double h);
+                                      double h, const HeldMotion* held);
   StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
                                  double h, double next);
   void estimate(const StepEquation& equation, std::span<const double> forces, Motion& motion);
   void examine(const Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
+  void hold_exactly(const HeldMotion& held, std::vector<double>& velocities, double h) const;
+  void move_bodies(const Motion& motion, double h, double next);
 
   Setting setting_;
   State state_;
   std::unique_ptr<FluidSolver> solver_;
+  HeldSolver* held_ = nullptr;  // solver_, if the case has bodies or links
   MotionLayout layout_;
   double mean_radius_;
   ThreadPool pool_;

@@ -9,12 +9,39 @@
 namespace viscontact::particles {
 namespace {
 
+/// Mass or moment of inertia of each component. The members of a body share its mass, and what of
+/// its moment of inertia their masses at their places do not make up.
+std::vector<double> masses_of(const Particles& p, const MotionLayout& layout) {
+  std::vector<double> masses(p.count() * layout.components);
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    for (std::size_t d = 0; d < layout.directions(); ++d)
+      masses[k * layout.components + d] = p.masses[k];
+    // A disc whose moment of inertia is not given is uniform.
+    if (layout.components == 3)
+      masses[k * 3 + 2] =
+          p.inertias.empty() ? homogeneous_inertia(2, p.masses[k], p.radii[k]) : p.inertias[k];
+  }
+  for (const auto& body : p.bodies.bodies) {
+    const auto shares = member_masses(body, p);
+    double rest = body.inertia[8];
+    for (std::size_t m = 0; m < shares.size(); ++m)
+      rest -= shares[m] * dot(body.offsets[m], body.offsets[m]);
+    for (std::size_t m = 0; m < shares.size(); ++m) {
+      masses[layout.at(body.members[m], 0)] = masses[layout.at(body.members[m], 1)] = shares[m];
+      masses[layout.at(body.members[m], 2)] =
+          std::max(rest, 0.0) / static_cast<double>(shares.size());
+    }
+  }
+  return masses;
+}
+
 std::vector<double> mean_forces(const Setting& setting, const Particles& p,
-                                const MotionLayout& layout, double from, double to) {
+                                std::span<const double> masses, const MotionLayout& layout,
+                                double from, double to) {
   std::vector<double> forces(p.count() * layout.components);
   for (std::size_t k = 0; k < p.count(); ++k)
     for (std::size_t d = 0; d < layout.directions(); ++d)
-      forces[k * layout.components + d] = p.masses[k] * setting.gravity[d];
+      forces[k * layout.components + d] = masses[k * layout.components] * setting.gravity[d];
   for (const auto& [particle, force] : setting.forces) {
     const Vector mean = force.mean(from, to);
     for (std::size_t d = 0; d < layout.directions(); ++d) forces[layout.at(particle, d)] += mean[d];
@@ -32,9 +59,9 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       state_(state),
       h_(h),
       layout_{motion_components(state.particles.dimension)},
-      forces_(mean_forces(setting, state.particles, layout_, state.time, next)),
+      masses_(masses_of(state.particles, layout_)),
+      forces_(mean_forces(setting, state.particles, masses_, layout_, state.time, next)),
       in_contact_(state.particles.count(), 0) {
-  const auto& p = state.particles;
   for (const auto& [particle, motion] : setting.given_motions)
     driven_.emplace(particle, given_motion(motion, state.time, next));
   for (const auto* pairs : {&state.pairs, &state.walls})
@@ -43,15 +70,7 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
-  masses_.resize(forces_.size());
-  for (std::size_t k = 0; k < p.count(); ++k) {
-    for (std::size_t d = 0; d < layout_.directions(); ++d)
-      masses_[k * layout_.components + d] = p.masses[k];
-    // A disc whose moment of inertia is not given is uniform.
-    if (layout_.components == 3)
-      masses_[k * 3 + 2] =
-          p.inertias.empty() ? p.masses[k] * p.radii[k] * p.radii[k] / 2 : p.inertias[k];
-  }
+  spread_contact();
   add_inertia();
 }
 
@@ -62,8 +81,22 @@ void StepEquation::add_inertia() {
   for (std::size_t i = 0; i < masses_.size(); ++i) {
     if (!(masses_[i] > 0)) continue;
     thetas_[i] = theta(i / layout_.components, i % layout_.components, masses_[i]);
-    inertia_[i] = masses_[i] / (thetas_[i] * h_);
   }
+  for (const auto& body : state_.particles.bodies.bodies) {
+    const double theta = theta_of_body(body);
+    for (const auto member : body.members)
+      for (std::size_t d = 0; d < layout_.components; ++d) thetas_[layout_.at(member, d)] = theta;
+  }
+  for (std::size_t i = 0; i < masses_.size(); ++i)
+    if (masses_[i] > 0) inertia_[i] = masses_[i] / (thetas_[i] * h_);
+}
+
+/// If a member of a body is in contact, all are.
+void StepEquation::spread_contact() {
+  for (const auto& body : state_.particles.bodies.bodies)
+    if (std::ranges::any_of(body.members,
+                            [&](std::int32_t k) { return in_contact_[index_of(k)] != 0; }))
+      for (const auto member : body.members) in_contact_[index_of(member)] = 1;
 }
 
 double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
@@ -78,6 +111,26 @@ double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
     speed += u[i] * u[i];
   }
   return speed > 0 ? std::sqrt(force / speed) : 0;
+}
+
+/// The theta of all components of a body, which moves as one. Its drag over its mass is the power of
+/// the drag in the step before over twice the kinetic energy, which lies between those of its slowest
+/// and its stiffest motion, whatever forces its members exert on each other.
+double StepEquation::theta_of_body(const RigidBody& body) const {
+  if (!(body.mass > 0) || in_contact_[index_of(body.members.front())] != 0) return 1;
+  const auto &u = state_.earlier_velocities, &f = state_.earlier_forces;
+  if (u.size() != masses_.size() || f.size() != masses_.size()) return 1;
+  double power = 0, energy = 0;
+  for (const auto member : body.members)
+    for (std::size_t d = 0; d < layout_.components; ++d) {
+      const auto i = layout_.at(member, d);
+      power += f[i] * u[i];
+      energy += masses_[i] * u[i] * u[i];
+    }
+  constexpr double kPi = std::numbers::pi;
+  const double slowest = 4 * kPi * setting_.fluid->viscosity / body.mass;
+  const double z = h_ * std::max(slowest, energy > 0 ? std::abs(power) / energy : 0);
+  return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
 double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
@@ -132,6 +185,7 @@ bool StepEquation::put_in_contact(std::span<const FluidContact> contacts) {
     for (const auto k : {contact.first, contact.second})
       if (k >= 0 && !is_driven(k)) in_contact_[index_of(k)] = 1;
   }
+  spread_contact();
   add_inertia();
   return thetas_ != before;
 }

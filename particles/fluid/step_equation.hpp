@@ -58,7 +58,9 @@ class StepEquation {
 
  private:
   void add_inertia();
+  void spread_contact();
   double theta(std::size_t k, std::size_t component, double mass) const;
+  double theta_of_body(const RigidBody& body) const;
   /// |F|/|U| of the force F on the fluid and the velocity U in the step before, or of torque and
   /// angular velocity; 0 if there was no motion, infinite if there was no step.
   double earlier_drag(std::size_t k, std::size_t component) const;
@@ -69,8 +71,8 @@ class StepEquation {
   const State& state_;
   double h_;
   MotionLayout layout_;
-  std::vector<double> forces_;  // f [M L/T^2]
   std::vector<double> masses_;  // mass or moment of inertia of each component
+  std::vector<double> forces_;  // f [M L/T^2]
   std::vector<double> thetas_, inertia_;
   std::map<std::int32_t, std::array<double, 3>> driven_;
   std::vector<char> in_contact_;

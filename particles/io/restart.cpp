@@ -1,8 +1,9 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 3 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 4 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -17,7 +18,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -30,10 +31,18 @@ struct StoredPair {
   double gamma, impulse, gamma_error;
 };
 
+/// The motion of a rigid body, from version 5 on.
+struct StoredBody {
+  Vector centre, velocity, angle;
+  std::array<double, 4> orientation;
+  Vector angular_momentum, angular_velocity;
+};
+
 /// Calls `field` for each stored field, in the order of a file of version `version`, for writing
 /// and for reading.
-template <class State, class Images, class Frictions, class Field>
-void for_fields(State& state, Images& images, Frictions& frictions, int version, Field&& field) {
+template <class State, class Images, class Frictions, class Bodies, class Field>
+void for_fields(State& state, Images& images, Frictions& frictions, Bodies& bodies, int version,
+                Field&& field) {
   auto& p = state.particles;
   field(p.dimension);
   field(state.time);
@@ -60,6 +69,9 @@ void for_fields(State& state, Images& images, Frictions& frictions, int version,
   field(p.orientations);
   field(frictions);
   field(state.velocity_lag);
+  if (version < 5) return;
+  field(bodies);
+  field(state.link_forces);
 }
 
 class Writer {
@@ -206,7 +218,11 @@ std::string write_restart(const State& state) {
     for (const auto& pair : *pairs) frictions.push_back(pair.friction);
   if (std::ranges::all_of(frictions, [](const Vector& p) { return p == Vector{}; }))
     frictions.clear();
-  for_fields(state, images, frictions, kVersion, Writer{bytes});
+  std::vector<StoredBody> bodies;
+  for (const auto& body : state.particles.bodies.bodies)
+    bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
+                      body.angular_momentum, body.angular_velocity});
+  for_fields(state, images, frictions, bodies, kVersion, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
   text.append(kHash).append(sha256(bytes)).append("\n");
@@ -226,7 +242,8 @@ State read_restart(const std::filesystem::path& path) {
   State state;
   std::vector<std::int32_t> images;
   std::vector<Vector> frictions;
-  for_fields(state, images, frictions, version, reader);
+  std::vector<StoredBody> bodies;
+  for_fields(state, images, frictions, bodies, version, reader);
   if (!reader.at_end() || !(images.empty() || images.size() == state.pairs.size()) ||
       !(frictions.empty() || frictions.size() == state.pairs.size() + state.walls.size()))
     reader.throw_short();
@@ -234,6 +251,16 @@ State read_restart(const std::filesystem::path& path) {
   for (std::size_t k = 0; k < frictions.size(); ++k)
     (k < state.pairs.size() ? state.pairs[k] : state.walls[k - state.pairs.size()]).friction =
         frictions[k];
+  for (const auto& stored : bodies) {
+    RigidBody body;
+    body.centre = stored.centre;
+    body.velocity = stored.velocity;
+    body.angle = stored.angle;
+    body.orientation = stored.orientation;
+    body.angular_momentum = stored.angular_momentum;
+    body.angular_velocity = stored.angular_velocity;
+    state.particles.bodies.bodies.push_back(std::move(body));
+  }
   if (!is_consistent(state)) reader.throw_short();
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)

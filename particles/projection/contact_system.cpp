@@ -9,27 +9,32 @@ namespace viscontact::particles {
 template <int D>
 std::int32_t ContactSystem<D>::number(std::int32_t particle) {
   const auto k = index_of(particle);
-  if (body_of_[k] < 0) {
-    body_of_[k] = static_cast<std::int32_t>(bodies_.size());
-    bodies_.push_back(particle);
-    free_.insert(free_.end(), &displacements_[k * D], &displacements_[k * D] + D);
-    body_mobilities_.push_back(mobilities_[k]);
-    island_of_.push_back(body_of_[k]);
-    island_sizes_.push_back(1);
-  }
+  if (body_of_[k] >= 0) return body_of_[k];
+  body_of_[k] = static_cast<std::int32_t>(bodies_.size());
+  bodies_.push_back(particle);
+  free_.insert(free_.end(), &displacements_[k * D], &displacements_[k * D] + D);
+  body_mobilities_.push_back(mobilities_[k]);
+  island_of_.push_back(body_of_[k]);
+  island_sizes_.push_back(1);
+  if (const auto rigid = rigid_bodies_.body_of(particle); rigid >= 0)
+    for (const auto member : rigid_bodies_.bodies[index_of(rigid)].members)
+      if (body_of_[index_of(member)] < 0) connect(particle, member);
   return body_of_[k];
+}
+
+template <int D>
+void ContactSystem<D>::connect(std::int32_t first, std::int32_t second) {
+  const auto b = number(second);
+  if (first < 0) return;
+  const auto a = number(first);
+  join(island(a), island(b));
 }
 
 template <int D>
 void ContactSystem<D>::add(const Contact<D>& contact) {
   contacts.push_back(contact);
-  if (contact.first < 0) {
-    number(contact.second);
-    return;
-  }
-  const auto first = number(contact.first);
-  const auto second = number(contact.second);
-  join(island(first), island(second));
+  if (contact.first >= 0) number(contact.first);
+  connect(contact.first, contact.second);
 }
 
 template <int D>

@@ -8,22 +8,31 @@
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/dual_problem/dual_solver.hpp"
 
 namespace viscontact::particles {
 
-/// Particles that take part are called bodies; they are numbered in the order in which the contacts
+/// Particles that take part are called bodies, also if they belong to a rigid body; they are numbered in the order in which the contacts
 /// name them. Contacts are only added, never removed.
 template <int D>
 class ContactSystem {
  public:
   /// `displacements`: h u* of all particles, a flat array [L]. `mobilities`: h/m of all particles
-  /// [T/M]. Both must outlive this object.
-  ContactSystem(std::span<double> displacements, std::span<const double> mobilities)
-      : displacements_(displacements), mobilities_(mobilities), body_of_(mobilities.size(), -1) {}
+  /// [T/M]. `rigid_bodies`: if one particle of a rigid body takes part, all do. All must outlive
+  /// this object.
+  ContactSystem(std::span<double> displacements, std::span<const double> mobilities,
+                const RigidBodies& rigid_bodies)
+      : displacements_(displacements),
+        mobilities_(mobilities),
+        rigid_bodies_(rigid_bodies),
+        body_of_(mobilities.size(), -1) {}
 
   void add(const Contact<D>& contact);
+
+  /// Makes two particles take part, in one island. `first` may be -1: only `second`.
+  void connect(std::int32_t first, std::int32_t second);
 
   /// Solves the dual problem; the impulses are the guess. Sets the impulses, and the displacements
   /// h v of the bodies.
@@ -47,6 +56,7 @@ class ContactSystem {
 
   std::span<double> displacements_;
   std::span<const double> mobilities_;
+  const RigidBodies& rigid_bodies_;
   std::vector<std::int32_t> bodies_, body_of_;
   std::vector<double> free_, body_mobilities_;
   // Islands as a forest of union-find: the parent of each body, which is another body of its

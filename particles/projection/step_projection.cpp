@@ -39,7 +39,7 @@ StepProjection<D>::StepProjection(State& state, double h, std::span<const PlaneP
       mobilities_(mobilities),
       pool_(pool),
       is_chosen_(pair_count(), 0),
-      system_(displacements, mobilities) {
+      system_(displacements, mobilities, state.particles.bodies) {
   if (std::ranges::none_of(planes, &PlanePosition::is_curved)) return;
   const auto& p = state.particles;
   for (const auto& wall : state.walls) {
@@ -47,6 +47,13 @@ StepProjection<D>::StepProjection(State& state, double h, std::span<const PlaneP
     tangents_.push_back(tangent_at(planes[wall.plane()],
                                    p.position(j) + point_of(displacements.data(), j, p.dimension)));
   }
+}
+
+template <int D>
+void StepProjection<D>::add_constraints(const ConstraintStep& step) {
+  links_ = step.links;
+  constraints_.emplace(step, state_.particles, displacements_, mobilities_);
+  constraints_->join_linked(system_);
 }
 
 /// True if the displacements close the gap of pair k.
@@ -77,15 +84,15 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
     is_chosen_[k] = 1;
     chosen_.push_back(k);
     system_.add(contact(k));
-    if (friction_) friction_->add(system_.contacts.back(), pair(k).friction);
+    if (constraints_) constraints_->add(system_.contacts.back(), pair(k).friction);
   }
 }
 
-/// Solves for the impulses of the chosen contacts. With friction, tangential displacements are
-/// accurate to half of `length` [L].
+/// Solves for the impulses of the chosen contacts and of the links. With friction, tangential
+/// displacements are accurate to half of `length` [L].
 template <int D>
 SolverResult StepProjection<D>::solve_contacts(bool is_rough, double length, int max_iterations) {
-  if (friction_) return friction_->solve(system_, is_rough, length / 2, max_iterations);
+  if (constraints_) return constraints_->solve(system_, is_rough, length / 2, max_iterations);
   return system_.solve(is_rough, max_iterations, pool_);
 }
 
@@ -98,6 +105,69 @@ void StepProjection<D>::allow(double length, double fraction) {
   // the residuals in another way.
   for (auto& contact : system_.contacts)
     contact.allowed = scales.of(contact).allowed(length, fraction) / 2;
+  if (!constraints_) return;
+  constraints_->links_allowed.clear();
+  for (const auto& link : constraints_->links())
+    constraints_->links_allowed.push_back(
+        scale_of_link(link, scales).allowed(length / 2, fraction) / 2);
+}
+
+/// The scales of a link are those of a contact between its particles, at which a force is at work
+/// also if all is at rest: its own.
+template <int D>
+ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
+                                               ResidualScales<D>& scales) const {
+  const auto& row = link.rows.front();
+  Contact<D> contact{};
+  contact.first = row.first.particle;
+  contact.second = row.second.particle;
+  for (const auto particle : {contact.first, contact.second})
+    if (particle >= 0) contact.gap += norm(state_.particles.position(index_of(particle)));
+  return scales.of(contact);
+}
+
+/// Measures the residuals of the links as those of contacts are measured.
+template <int D>
+void StepProjection<D>::examine_links(const SolverSettings& settings, double mean_radius,
+                                      ProjectionResult& result) {
+  auto scales = residual_scales();
+  const auto& links = constraints_->links();
+  std::vector<std::size_t> beyond;
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const double residual = constraints_->link_residual(l);
+    const auto scale = scale_of_link(links[l], scales);
+    const double allowed =
+        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
+    result.residual = std::max(result.residual, residual);
+    result.link_residual = std::max(result.link_residual, residual);
+    result.excess = std::max(result.excess, residual / allowed);
+    if (residual > scale.rounding && scale.impulse > 0)
+      result.impulse_residual =
+          std::max(result.impulse_residual, residual / scale.w / scale.impulse);
+    if (!(residual <= allowed)) beyond.push_back(l);
+  }
+  if (beyond.empty()) return;
+  result.converged = false;
+  // Named are also the links that hold the same particles, because one of them may be the cause.
+  std::vector<char> is_held(state_.particles.count(), 0);
+  const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
+    for (const auto* part : {&link.rows.front().first, &link.rows.front().second}) {
+      if (part->particle < 0) continue;
+      const auto body = state_.particles.bodies.body_of(part->particle);
+      if (body < 0) visit(index_of(part->particle));
+      if (body >= 0)
+        for (const auto member : state_.particles.bodies.bodies[index_of(body)].members)
+          visit(index_of(member));
+    }
+  };
+  for (const auto l : beyond) for_particles(links[l], [&](std::size_t k) { is_held[k] = 1; });
+  for (const auto& link : links) {
+    bool is_named = false;
+    for_particles(link, [&](std::size_t k) { is_named = is_named || is_held[k] != 0; });
+    if (is_named && link.kind != LinkEquations::Kind::kTorsion &&
+        link.kind != LinkEquations::Kind::kSpring)
+      result.unsolved_links.push_back(name_of(link, *links_, state_.particles));
+  }
 }
 
 /// Measures the residuals of a solution, by the impulses at work in it. The residuals of the chosen
@@ -112,6 +182,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.converged = is_final;
   result.residual = result.impulse_residual = result.smallest_gap = result.excess = 0;
   result.unresolved = 0;
+  result.link_residual = 0;
+  result.unsolved_links.clear();
   result.impulse_errors.resize(system_.contacts.size());
   // Records a residual and returns true if it is larger than allowed.
   const auto record_residual = [&](double residual, const ResidualScale& scale) {
@@ -143,17 +215,18 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
     const double gap = gap_after(here, displacements_);
-    const double residual = friction_
-                                ? friction_->residual(c).normal
+    const double residual = constraints_
+                                ? constraints_->residual(c).normal
                                 : std::abs(std::min(gap, scale.w * (here.impulse - here.gamma)));
     record_residual(residual, scale);
-    if (friction_) record_slip(friction_->residual(c).tangential);
+    if (constraints_) record_slip(constraints_->residual(c).tangential);
     result.impulse_errors[c] = residual / scale.w;
     record_gap(chosen_[c], gap - here.tolerated);
     if ((here.impulse != 0 || here.gamma < 0) &&
         turns_too_far(state_.particles, here, displacements_))
       ++result.unresolved;
   }
+  if (constraints_ && is_final) examine_links(settings, mean_radius, result);
   std::vector<std::size_t> closed;
   for (std::size_t k = 0; k < pair_count(); ++k) {
     if (is_chosen_[k] != 0 || !(takes_part(pair(k).second) || takes_part(pair(k).first)) ||
@@ -210,7 +283,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   int rounds = 0;
   int waited = 0;
   double least_excess = std::numeric_limits<double>::infinity();
-  while (!chosen_.empty()) {
+  while (!system_.bodies().empty()) {
     const double length = (is_rough ? kRoughLength : settings.tolerance / 2) * mean_radius;
     allow(length, is_rough ? kRoughImpulse : settings.impulse_tolerance);
     result.iterations +=
@@ -228,7 +301,7 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     pair(chosen_[c]).impulse = system_.contacts[c].impulse;
-    if (friction_) pair(chosen_[c]).friction = friction_->friction(c);
+    if (constraints_) pair(chosen_[c]).friction = constraints_->friction(c);
     result.pairs.push_back(&pair(chosen_[c]));
   }
   result.bodies = system_.bodies();

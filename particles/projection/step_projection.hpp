@@ -7,10 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/constraints/friction_system.hpp"
+#include "viscontact/particles/constraints/constraint_system.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/projection/contact_system.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
@@ -32,6 +33,10 @@ struct ProjectionResult {
   Pair deepest_overlap;     ///< the pair with the smallest gap
   /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
   std::size_t unresolved = 0;
+  /// Largest residual of a link [L]. If some are not allowed: the names of the hinges and arms that
+  /// hold the same particles as these links.
+  double link_residual = 0;
+  std::vector<std::string> unsolved_links;
   std::vector<Pair*> pairs;            ///< pairs in the projection; their impulses are the solution
   std::vector<double> impulse_errors;  ///< residual of each impulse [M L/T], as `pairs`
   std::vector<std::int32_t> bodies;    ///< particles whose displacements the projection changed
@@ -54,10 +59,9 @@ class StepProjection {
   StepProjection(State& state, double h, std::span<const PlanePosition> planes,
                  std::span<double> displacements, std::span<const double> mobilities,
                  ThreadPool& pool);
-  /// Solves with friction. Call it before solve(); `step` must outlive this object.
-  void add_friction(const FrictionStep& step) {
-    friction_.emplace(step, state_.particles, displacements_, mobilities_);
-  }
+  /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
+  /// object.
+  void add_constraints(const ConstraintStep& step);
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:
@@ -88,6 +92,8 @@ class StepProjection {
   void allow(double length, double fraction);
   std::vector<std::size_t> examine(const SolverSettings& settings, double mean_radius,
                                    bool is_final, ProjectionResult& result);
+  ResidualScale scale_of_link(const LinkEquations& link, ResidualScales<D>& scales) const;
+  void examine_links(const SolverSettings& settings, double mean_radius, ProjectionResult& result);
 
   State& state_;
   double h_;
@@ -102,7 +108,8 @@ class StepProjection {
   std::vector<std::size_t> chosen_;  // pair of each contact of system_
   std::vector<char> is_chosen_;      // of each pair in the list
   ContactSystem<D> system_;
-  std::optional<FrictionSystem<D>> friction_;
+  const Links* links_ = nullptr;
+  std::optional<ConstraintSystem<D>> constraints_;
   std::optional<PairsOfParticles> pairs_of_particles_;
 };
 

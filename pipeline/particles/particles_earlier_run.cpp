@@ -64,6 +64,33 @@ void check_same_particles(const particles::State& state, const case_file::Partic
       differs(fmt::format("a contact with plane {}, which the case does not have", -film.first));
 }
 
+/// Gives the state the rigid bodies of the case, which the restart file does not store, with their
+/// motion, which it does. Throws Error(kBadInput) if it has the motion of other bodies.
+void take_over_bodies(particles::State& state, const case_file::ParticlesCase& c,
+                      const fs::path& restart) {
+  const auto moving = std::move(state.particles.bodies.bodies);
+  state.particles.bodies = c.particles.bodies;
+  auto& bodies = state.particles.bodies.bodies;
+  if (moving.size() != bodies.size())
+    throw_bad_input({restart.string()},
+                    fmt::format("has {} rigid bodies, and {} has {}; a case that continues a run "
+                                "must have the same bodies",
+                                moving.size(), c.path.string(), bodies.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].centre = moving[b].centre;
+    bodies[b].velocity = moving[b].velocity;
+    bodies[b].angle = moving[b].angle;
+    bodies[b].orientation = moving[b].orientation;
+    bodies[b].angular_momentum = moving[b].angular_momentum;
+    bodies[b].angular_velocity = moving[b].angular_velocity;
+  }
+  const auto forces = c.setting.links.force_count(c.particles.dimension);
+  if (!state.link_forces.empty() && state.link_forces.size() != forces)
+    throw_bad_input(
+        {restart.string()},
+        fmt::format("has the forces of other hinges, springs or arms than {}", c.path.string()));
+}
+
 }  // namespace
 
 FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time) {
@@ -80,6 +107,7 @@ particles::State first_state(const case_file::ParticlesCase& c, const std::strin
   state = particles::read_restart(restart);
   check_same_particles(state, c, restart);
   state.particles.ids = c.particles.ids;
+  take_over_bodies(state, c, restart);
   if (c.particles.turn() && !state.particles.turn()) {
     // The earlier run had nothing that turned its particles.
     state.particles.angles = c.particles.angles;
@@ -121,8 +149,9 @@ std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
     auto state = particles::read_restart(restart);
     check_same_particles(state, c, restart);
     state.particles.ids = c.particles.ids;
+    take_over_bodies(state, c, restart);
     auto record = read_step_record(folder / "steps.csv", state.steps, c.setting.fluid.has_value());
-    ParticleFrames frames(folder, provenance, state.particles);
+    ParticleFrames frames(folder, provenance, c.setting, state.particles);
     frames.resume(
         frames_until(folder / "particles.pvd", state.time, frame_times(c, record.first_time)),
         c.setting, state.time);

@@ -43,6 +43,7 @@ template <class Visit>
 void for_each_result(const Visit& visit) {
   for (const auto* name : kParticleResults) visit(name);
   for (const auto* name : kFluidResults) visit(name);
+  for (const auto* name : kLinkResults) visit(name);
 }
 
 }  // namespace

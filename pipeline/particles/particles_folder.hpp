@@ -20,6 +20,10 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
 inline constexpr auto kFluidResults =
     std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
 
+/// Those that only a run with rigid bodies or links has.
+inline constexpr auto kLinkResults =
+    std::to_array<const char*>({"bodies.csv", "hinges.csv", "springs.csv", "arms.csv"});
+
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.
 void check_results(const std::filesystem::path& folder);

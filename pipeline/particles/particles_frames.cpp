@@ -43,8 +43,12 @@ double FrameTimes::after(double time) const {
 }
 
 ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& provenance,
+                               const particles::Setting& setting,
                                const particles::Particles& particles)
-    : folder_(std::move(folder)), provenance_(provenance) {
+    : folder_(std::move(folder)),
+      provenance_(provenance),
+      tables_(particles::time_tables(setting, particles)),
+      table_rows_(tables_.size()) {
   playback_.dimension = particles.dimension;
   playback_.radii.assign(particles.radii.begin(), particles.radii.end());
   playback_.ids = particles.ids;
@@ -67,6 +71,8 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
     motion_ += particles::motion_rows(state.time, state.particles);
     add_contact_rows(state.time, contacts);
   }
+  for (std::size_t t = 0; t < tables_.size(); ++t)
+    table_rows_[t] += tables_[t].rows(setting, state);
   if ((files_.size() - 1) % every_ == 0)
     keep(frame_at(state.time, setting, state.particles.positions, state.particles.angles,
                   std::move(contacts)));
@@ -102,18 +108,36 @@ void ParticleFrames::resume_fluid(double time) {
       throw_bad_input({(folder_ / flow.second).string()}, "is missing");
     show_flow(flow);
   }
-  // motion.csv may have rows of later frames, because it is written before restart.bin.
-  const auto path = folder_ / "motion.csv";
+  motion_ = particles::motion_header(playback_.dimension) +
+            earlier_rows("motion.csv", playback_.radii.size());
+}
+
+/// The rows of a table until the last frame, of which each frame has `rows_per_frame`. The file may
+/// have rows of later frames, because it is written before restart.bin.
+std::string ParticleFrames::earlier_rows(const std::string& name,
+                                         std::size_t rows_per_frame) const {
+  const auto path = folder_ / name;
   std::istringstream lines(results::without_provenance(read_file(path)));
+  std::string text;
   std::size_t rows = 0;
   for (std::string line; std::getline(lines, line);) {
     const auto row_time = parse_number(line.substr(0, line.find(',')));
-    if (row_time && *row_time > files_.back().first) break;
-    motion_ += line + "\n";
-    rows += row_time ? 1 : 0;
+    if (!row_time) continue;
+    if (*row_time > files_.back().first) break;
+    text += line + "\n";
+    ++rows;
   }
-  if (rows != files_.size() * playback_.radii.size())
-    throw_bad_input({path.string()}, "does not have one row for each particle and frame");
+  if (rows != files_.size() * rows_per_frame)
+    throw_bad_input({path.string()},
+                    fmt::format("does not have {} rows for each frame", rows_per_frame));
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> ParticleFrames::tables() const {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (std::size_t t = 0; t < tables_.size(); ++t)
+    texts.emplace_back(tables_[t].name, tables_[t].header + table_rows_[t]);
+  return texts;
 }
 
 void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles::Setting& setting,
@@ -132,6 +156,8 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles
                     std::move(content.contacts)));
   }
   if (setting.fluid) resume_fluid(time);
+  for (std::size_t t = 0; t < tables_.size(); ++t)
+    table_rows_[t] = earlier_rows(tables_[t].name, tables_[t].count);
 }
 
 void ParticleFrames::end(const particles::Setting& setting, const particles::State& state) {

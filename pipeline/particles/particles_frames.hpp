@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/io/link_file.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -39,9 +40,9 @@ class ParticleFrames {
  public:
   /// `provenance` must outlive this object.
   ParticleFrames(std::filesystem::path folder, const results::Provenance& provenance,
-                 const particles::Particles& particles);
+                 const particles::Setting& setting, const particles::Particles& particles);
 
-  /// Writes a frame of the state. With a fluid, motion() and contacts() get its rows.
+  /// Writes a frame of the state. tables() and, with a fluid, motion() and contacts() get its rows.
   void add(const particles::Setting& setting, const particles::State& state);
 
   /// True if the flow of the last frame has not been written. The flow around the particles of a
@@ -70,18 +71,23 @@ class ParticleFrames {
   const std::string& motion() const { return motion_; }
   /// The text of contacts.csv; empty without a fluid.
   const std::string& contacts() const { return contacts_; }
+  /// Names and texts of the tables of bodies and links that the case has.
+  std::vector<std::pair<std::string, std::string>> tables() const;
 
  private:
   void keep(particles::Frame frame);
   void add_contact_rows(double time, const std::vector<particles::CurrentContact>& contacts);
   void show_flow(const FrameFile& flow);
   void resume_fluid(double time);
+  std::string earlier_rows(const std::string& name, std::size_t rows_per_frame) const;
 
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
   particles::Playback playback_;
   std::vector<FrameFile> files_, flows_;
   std::string motion_, contacts_;
+  std::vector<particles::TimeTable> tables_;
+  std::vector<std::string> table_rows_;  // of tables_, without headers
   std::size_t every_ = 1, kept_bytes_ = 0;
 };
 

@@ -155,6 +155,8 @@ class Run {
       write("motion.csv", TextKind::kHashComment, frames_.motion());
       write("contacts.csv", TextKind::kHashComment, frames_.contacts());
     }
+    for (const auto& [name, text] : frames_.tables())
+      write(name.c_str(), TextKind::kHashComment, text);
     write("steps.csv", TextKind::kHashComment,
           (earlier_.last_step == record.last_step ? "" : record_comment(earlier_)) +
               record_comment(record) + record_.rows);
@@ -253,7 +255,7 @@ void run_particles(const ParticlesRequest& request) {
     return;
   }
   StepRecord record(c.setting.fluid.has_value());
-  ParticleFrames frames(folder, provenance, c.particles);
+  ParticleFrames frames(folder, provenance, c.setting, c.particles);
   if (earlier) {
     // This removes frames that were written after the last restart.bin, and the frame that was
     // written because of the interrupt.

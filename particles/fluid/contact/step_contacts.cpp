@@ -58,7 +58,8 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
     step.iterations = iterations;
     step.pairs = pairs_in_reach(state, conditions.obstacles, reach, pool);
     std::erase_if(step.pairs.pairs, [&](const Pair& pair) {
-      return !conditions.is_movable(pair.first) && !conditions.is_movable(pair.second);
+      return (!conditions.is_movable(pair.first) && !conditions.is_movable(pair.second)) ||
+             (conditions.are_apart_by_arm && conditions.are_apart_by_arm(pair.first, pair.second));
     });
     std::erase_if(step.pairs.walls,
                   [&](const Pair& pair) { return !conditions.is_movable(pair.second); });

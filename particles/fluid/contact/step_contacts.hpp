@@ -22,6 +22,9 @@ struct ContactConditions {
   SolverSettings solver;
   /// True for particles that a contact force moves; pairs of others are left out.
   std::function<bool(std::int32_t k)> is_movable;
+  /// True for two particles whose distance is given, so that no contact force changes it; such pairs
+  /// are left out. May be empty.
+  std::function<bool(std::int32_t first, std::int32_t second)> are_apart_by_arm{};
 };
 
 /// The contacts of a step, solved.

@@ -54,13 +54,38 @@ std::string of_version(int version, const State& state,
   auto bytes = text.substr(second);
   // Version 3 added the lengths of six lists, which are empty here, and a number; version 4 the
   // lengths of two more, and a number.
-  const std::size_t added = version == 3 ? 24 : 80;
+  const std::size_t added = version == 4 ? 16 : version == 3 ? 40 : 96;
   EXPECT_EQ(bytes.substr(bytes.size() - added), std::string(added, '\0'));
   bytes.erase(bytes.size() - added);
   change(bytes);
   auto head = text.substr(0, first);
-  head.replace(head.find("version 4"), 9, "version " + std::to_string(version));
+  head.replace(head.find("version 5"), 9, "version " + std::to_string(version));
   return head + "# sha256 of the rest: " + sha256(bytes) + "\n" + bytes;
+}
+
+TEST_F(RestartFile, OfVersion4HasNoBodies) {
+  const auto state = read(of_version(4, disc_on_plane(-0.75), [](std::string&) {}));
+  EXPECT_EQ(state.walls, disc_on_plane(-0.75).walls);
+  EXPECT_TRUE(state.particles.bodies.empty());
+  EXPECT_TRUE(state.link_forces.empty());
+}
+
+TEST_F(RestartFile, OfBodiesHasTheirMotion) {
+  State state = no_particles(3);
+  add_particle(state, {0, 1, 0}, 1, 2, {0.5, 0, 0});
+  add_particle(state, {3, 1, 0.5}, 1, 1, {0.5, -1, 0});
+  add_rotation(state.particles);
+  add_rigid_body(state.particles, {{0, 1}});
+  state.link_forces = {1.0 / 3, -2};
+  const auto again = read(write_restart(state));
+  ASSERT_EQ(again.particles.bodies.count(), 1U);
+  const auto &body = again.particles.bodies.bodies[0], &before = state.particles.bodies.bodies[0];
+  EXPECT_EQ(body.centre, before.centre);
+  EXPECT_EQ(body.velocity, before.velocity);
+  EXPECT_EQ(body.orientation, before.orientation);
+  EXPECT_EQ(body.angular_momentum, before.angular_momentum);
+  EXPECT_EQ(body.angular_velocity, before.angular_velocity);
+  EXPECT_EQ(again.link_forces, state.link_forces);
 }
 
 TEST_F(RestartFile, OfVersion3HasNoFriction) {
@@ -143,8 +168,8 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
   auto text = write_restart(disc_on_plane(-0.5));
-  text.replace(text.find("version 4"), 9, "version 5");
-  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 4 can be read"));
+  text.replace(text.find("version 5"), 9, "version 6");
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 5 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

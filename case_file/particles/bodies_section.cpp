@@ -1,0 +1,70 @@
+// Reads and checks rigid bodies (bodies_section.hpp).
+#include "viscontact/case_file/particles/bodies_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viscontact/case_file/particles/particle_ids.hpp"
+#include "viscontact/case_file/vector_values.hpp"
+
+namespace viscontact::case_file {
+namespace {
+
+void check_members(const TomlSection& section, const std::vector<std::int32_t>& members,
+                   const ParticlesCase& c) {
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const auto k = particles::index_of(members[m]);
+    const auto id = c.particles.id(k);
+    if (std::find(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(m), members[m]) !=
+        members.begin() + static_cast<std::ptrdiff_t>(m))
+      section.fail("particles", fmt::format("contains particle {} a second time", id));
+    if (const auto body = c.particles.bodies.body_of(members[m]); body >= 0)
+      section.fail("particles",
+                   fmt::format("contains particle {}, which belongs to body {}; a particle can "
+                               "belong to one body only",
+                               id, body));
+    if (c.setting.given_motions.contains(members[m]))
+      section.fail("particles", fmt::format("contains particle {}, whose motion is given; a "
+                                            "particle of a body must be free",
+                                            id));
+  }
+}
+
+}  // namespace
+
+void read_bodies(const TomlSection& root, ParticlesCase& c) {
+  if (!root.has("body")) return;
+  const int dimension = c.particles.dimension;
+  if (dimension == 1)
+    root.sections("body").front().fail(
+        "particles",
+        "belong to a body on an axis; spheres on an axis are held together by an "
+        "[[arm]] of constant length");
+  const ParticleIds ids(c);
+  const bool in_fluid = c.setting.fluid.has_value();
+  const auto& positive = in_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive;
+  for (const auto& section : root.sections("body")) {
+    particles::RigidBodyRequest body;
+    body.members = ids.numbers(section, "particles");
+    check_members(section, body.members, c);
+    if (section.has("mass")) body.mass = section.number("mass", positive);
+    if (section.has("moment_of_inertia")) {
+      if (dimension == 3)
+        section.fail("moment_of_inertia",
+                     "must be left out, because the moments of inertia of a body in space follow "
+                     "from its particles");
+      body.moment_of_inertia = section.number("moment_of_inertia", positive);
+    }
+    section.finish();
+    if (!in_fluid) particles::add_rotation(c.particles);
+    particles::add_rigid_body(c.particles, body);
+  }
+}
+
+std::string body_in_words(const ParticlesCase& c, std::int32_t particle) {
+  const auto body = particle < 0 ? -1 : c.particles.bodies.body_of(particle);
+  return body < 0 ? "" : fmt::format(", of body {}", body);
+}
+
+}  // namespace viscontact::case_file

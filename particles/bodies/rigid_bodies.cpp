@@ -1,0 +1,173 @@
+// Mass, inertia and places of rigid bodies (rigid_bodies.hpp).
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/rotation.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// The part of a point mass in the inertia: m (|r|^2 - r r^T).
+void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
+  const double square = dot(r, r);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      inertia[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
+}
+
+/// Components of vector `k` of an array with one number for each disc and three for each sphere.
+Vector turn_of(const std::vector<double>& values, std::size_t k, int dimension) {
+  if (dimension == 3) return {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+  return {0, 0, values[k]};
+}
+
+void set_turn(std::vector<double>& values, std::size_t k, int dimension, const Vector& to) {
+  if (dimension != 3) {
+    values[k] = to[2];
+    return;
+  }
+  for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
+}
+
+/// Sets centre, velocity, mass, inertia and angular momentum from the members.
+void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody& body) {
+  for (const auto member : body.members) body.mass += p.masses[index_of(member)];
+  if (request.mass >= 0) body.mass = request.mass;
+  const auto masses = member_masses(body, p);
+  for (std::size_t m = 0; m < masses.size(); ++m) {
+    const auto k = index_of(body.members[m]);
+    const double weight =
+        body.mass > 0 ? masses[m] / body.mass : 1 / static_cast<double>(masses.size());
+    body.centre = body.centre + weight * p.position(k);
+    body.velocity = body.velocity + weight * p.velocity(k);
+  }
+  Vector turning{};  // angular momentum of the members
+  for (std::size_t m = 0; m < masses.size(); ++m) {
+    const auto k = index_of(body.members[m]);
+    const Vector offset = p.position(k) - body.centre;
+    body.offsets.push_back(offset);
+    body.member_angles.push_back(p.angles.empty() ? 0 : p.angles[k]);
+    add_point_mass(body.inertia, masses[m], offset);
+    const double own = p.masses[k] > 0 && !p.inertias.empty()
+                           ? p.inertias[k] * (masses[m] / p.masses[k])
+                           : homogeneous_inertia(p.dimension, masses[m], p.radii[k]);
+    for (const std::size_t i : {0U, 4U, 8U}) body.inertia[i] += own;
+    turning = turning + masses[m] * cross(offset, p.velocity(k) - body.velocity) +
+              own * turn_of(p.angular_velocities, k, p.dimension);
+  }
+  if (request.moment_of_inertia >= 0) {
+    // The angular velocity stays that of the members.
+    const double before = body.inertia[8];
+    body.inertia[8] = request.moment_of_inertia;
+    if (before > 0) turning = (body.inertia[8] / before) * turning;
+  }
+  body.angular_momentum = p.dimension == 3 ? turning : Vector{0, 0, turning[2]};
+  update_angular_velocity(body, p.dimension);
+}
+
+}  // namespace
+
+Matrix3 inverse_of(const Matrix3& a) {
+  const auto minor = [&](std::size_t i, std::size_t j) {
+    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+    return a[3 * i1 + j1] * a[3 * i2 + j2] - a[3 * i1 + j2] * a[3 * i2 + j1];
+  };
+  const double determinant = a[0] * minor(0, 0) + a[1] * minor(0, 1) + a[2] * minor(0, 2);
+  Matrix3 inverse;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) inverse[3 * i + j] = minor(j, i) / determinant;
+  return inverse;
+}
+
+void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
+  RigidBody body;
+  body.members = request.members;
+  std::ranges::sort(body.members);
+  sum_members(particles, request, body);
+  auto& bodies = particles.bodies;
+  bodies.of_particle.resize(particles.count(), -1);
+  for (const auto member : body.members)
+    bodies.of_particle[index_of(member)] = static_cast<std::int32_t>(bodies.count());
+  bodies.bodies.push_back(std::move(body));
+  place_members(particles);
+}
+
+Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension) {
+  if (dimension == 3) return rotated(body.orientation, at_start);
+  if (body.angle[2] == 0) return at_start;
+  const double c = std::cos(body.angle[2]), s = std::sin(body.angle[2]);
+  return {c * at_start[0] - s * at_start[1], s * at_start[0] + c * at_start[1], 0};
+}
+
+Vector present_offset(const RigidBody& body, std::size_t m, int dimension) {
+  return turned_with(body, body.offsets[m], dimension);
+}
+
+Matrix3 present_inertia(const RigidBody& body, int dimension) {
+  if (dimension != 3) return body.inertia;
+  // R I R^T, where column j of R is the image of axis j.
+  std::array<Vector, 3> axes;
+  for (std::size_t j = 0; j < 3; ++j) {
+    Vector axis{};
+    axis[j] = 1;
+    axes[j] = rotated(body.orientation, axis);
+  }
+  Matrix3 inertia{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < 3; ++l)
+          inertia[3 * i + j] += axes[k][i] * body.inertia[3 * k + l] * axes[l][j];
+  return inertia;
+}
+
+void update_angular_velocity(RigidBody& body, int dimension) {
+  if (!(body.inertia[8] > 0)) return;
+  if (dimension == 3)
+    body.angular_velocity = inverse_of(present_inertia(body, dimension)) * body.angular_momentum;
+  else
+    body.angular_velocity[2] = body.angular_momentum[2] / body.inertia[8];
+}
+
+std::vector<double> member_masses(const RigidBody& body, const Particles& particles) {
+  double sum = 0;
+  for (const auto member : body.members) sum += particles.masses[index_of(member)];
+  std::vector<double> masses;
+  for (const auto member : body.members)
+    masses.push_back(sum > 0 ? particles.masses[index_of(member)] * (body.mass / sum)
+                             : body.mass / static_cast<double>(body.members.size()));
+  return masses;
+}
+
+void place_members(Particles& p) {
+  for (auto& body : p.bodies.bodies) {
+    for (std::size_t i = 0; i < 2; ++i)
+      body.centre[i] -= periods_beyond(p.cell, i, body.centre[i]) * p.cell.lengths[i];
+    const Vector& w = body.angular_velocity;
+    for (std::size_t m = 0; m < body.members.size(); ++m) {
+      const auto k = index_of(body.members[m]);
+      const Vector offset = present_offset(body, m, p.dimension);
+      const Vector x = body.centre + offset, v = body.velocity + cross(w, offset);
+      const auto d = static_cast<std::size_t>(p.dimension);
+      for (std::size_t i = 0; i < d; ++i) {
+        // Of the images of a member that is taken which is near its last position, so that the
+        // neighbour list, which knows images of particles, stays valid.
+        const double period = i < 2 ? p.cell.lengths[i] : 0;
+        const double before = p.positions[k * d + i];
+        p.positions[k * d + i] =
+            period > 0 ? x[i] - period * std::round((x[i] - before) / period) : x[i];
+        p.velocities[k * d + i] = v[i];
+      }
+      set_turn(p.angular_velocities, k, p.dimension, w);
+      if (p.dimension == 3)
+        std::ranges::copy(body.orientation, p.orientations.begin() + 4 * std::ptrdiff_t(k));
+      else
+        p.angles[k] = body.member_angles[m] + body.angle[2];
+    }
+  }
+}
+
+}  // namespace viscontact::particles

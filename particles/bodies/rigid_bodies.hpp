@@ -1,0 +1,108 @@
+// Rigid bodies of several discs or spheres, which keep their places in the body. Lengths, masses
+// and times are in one consistent system of units. The restart file stores the motion of the bodies
+// (io/restart.cpp); the case gives all else.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "viscontact/particles/vector.hpp"
+
+namespace viscontact::particles {
+
+struct Particles;
+
+/// A matrix of three rows, row by row.
+using Matrix3 = std::array<double, 9>;
+
+inline Vector operator*(const Matrix3& a, const Vector& x) {
+  return {a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
+          a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
+}
+
+/// A body whose members are particles. Their masses and moments of inertia are part of its own, and
+/// forces and torques on them act on it.
+struct RigidBody {
+  std::vector<std::int32_t> members;  ///< numbers of particles, increasing, at least one
+  std::vector<Vector> offsets;        ///< of the members' centres from `centre` at the start [L]
+  /// Orientations of the members relative to the body: their angles at the start [rad] in value[2]
+  /// for discs; not used for spheres, whose orientation at the start is that of the body.
+  std::vector<double> member_angles;
+  double mass = 0;  ///< [M], > 0; >= 0 in a fluid
+  /// About the centre, in the axes of the start [M L^2]. Discs use only the last entry.
+  Matrix3 inertia{};
+  // The motion.
+  Vector centre{};    ///< centre of mass [L]
+  Vector velocity{};  ///< of the centre [L/T]
+  /// Discs: the angle by which the body has turned since the start, in value[2] [rad].
+  Vector angle{};
+  /// Spheres: the orientation as a unit quaternion (w, x, y, z), 1 at the start.
+  std::array<double, 4> orientation{1, 0, 0, 0};
+  /// About the centre [M L^2/T]; of discs only value[2]. It is constant where no torque acts, which
+  /// the angular velocity in space is not.
+  Vector angular_momentum{};
+  Vector angular_velocity{};  ///< [1/T]; of discs only value[2]
+};
+
+/// The rigid bodies of a case, and which particle belongs to which.
+struct RigidBodies {
+  std::vector<RigidBody> bodies;
+  /// Number of the body of each particle, -1: none. Empty if there are no bodies.
+  std::vector<std::int32_t> of_particle;
+
+  bool empty() const { return bodies.empty(); }
+  std::size_t count() const { return bodies.size(); }
+  /// The body of a particle; -1 if it belongs to none.
+  std::int32_t body_of(std::int32_t particle) const {
+    return of_particle.empty() ? -1 : of_particle[static_cast<std::size_t>(particle)];
+  }
+  /// True if both particles belong to one body, so that they do not touch each other.
+  bool are_one(std::int32_t first, std::int32_t second) const {
+    const auto body = body_of(first);
+    return body >= 0 && body == body_of(second);
+  }
+};
+
+/// What a case says about a body.
+struct RigidBodyRequest {
+  std::vector<std::int32_t> members;  ///< numbers of particles, at least one, each only once
+  double mass = -1;                   ///< [M]; < 0: the sum of the members' masses
+  /// About the centre of mass [M L^2]; < 0: that of the members at their places, whose masses and
+  /// moments are scaled if `mass` is given. In space only < 0.
+  double moment_of_inertia = -1;
+};
+
+/// Adds a body with the members at their present places, velocities and angles. Its centre is the
+/// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
+/// angular momentum are those of the members together, and their velocities become those of the
+/// rigid motion. The particles must turn (add_rotation), unless their dimension is 1, and belong to
+/// no other body.
+void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
+
+/// Vector from the centre of a body to the centre of its member number `m` [L].
+Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
+
+/// A vector of the body at the start in its present orientation.
+Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
+
+/// The present moment of inertia about the centre in the axes of space [M L^2]; discs use only the
+/// last entry.
+Matrix3 present_inertia(const RigidBody& body, int dimension);
+
+/// Sets the angular velocity from the angular momentum. A body without inertia keeps it.
+void update_angular_velocity(RigidBody& body, int dimension);
+
+/// The masses of the members [M], scaled so that their sum is that of the body. Equal parts of it if
+/// no member has a mass.
+std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
+
+/// Sets positions, velocities, orientations and angular velocities of all members to those of their
+/// bodies.
+void place_members(Particles& particles);
+
+/// Inverse of a symmetric positive definite matrix.
+Matrix3 inverse_of(const Matrix3& a);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,310 @@
+// Numbers the units of a step, makes the rows of contacts and links, and takes over the solution
+// (constraint_system.hpp).
+#include "viscontact/particles/constraints/constraint_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace viscontact::particles {
+namespace {
+
+template <int D>
+void set_turn_mobility(RigidUnit<D>& unit, const Matrix3& mobility, const Matrix3& inverse) {
+  if constexpr (D == 2) {
+    unit.turn_mobility[0] = mobility[8];
+    unit.inverse_turn_mobility[0] = inverse[8];
+  } else {
+    unit.turn_mobility = mobility;
+    unit.inverse_turn_mobility = inverse;
+  }
+}
+
+/// The row of one part of a link's equation.
+template <int D>
+Motion<D> row_of(const RowPart& part) {
+  if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
+  Motion<D> row{};
+  row.back() = 1;  // the turn about z
+  return row;
+}
+
+}  // namespace
+
+template <int D>
+ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particles& particles,
+                                      std::span<double> displacements,
+                                      std::span<const double> mobilities)
+    : step_(step),
+      particles_(particles),
+      displacements_(displacements),
+      mobilities_(mobilities),
+      mean_radius_(mean_radius(particles)),
+      times_{step.end - step.begin, step.kick, step.end, step.is_first},
+      free_turns_(step.turns.begin(), step.turns.end()),
+      free_bodies_(step.bodies.begin(), step.bodies.end()),
+      links_(link_equations(*step.links, particles, times_)),
+      link_residuals_(links_.size(), 0.0),
+      link_forces_(step.link_forces.begin(), step.link_forces.end()),
+      offsets_(particles.bodies.empty() ? 0 : particles.count()) {
+  for (const auto& body : particles.bodies.bodies)
+    for (std::size_t m = 0; m < body.members.size(); ++m)
+      offsets_[index_of(body.members[m])] = present_offset(body, m, D);
+}
+
+template <int D>
+void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
+  for (const auto& link : links_)
+    system.connect(link.rows.front().first.particle, link.rows.front().second.particle);
+}
+
+template <int D>
+void ConstraintSystem<D>::add(const Contact<D>& contact, const Vector& friction) {
+  tangents_.push_back(
+      tangents_of(contact, particles_, step_.law, step_.obstacles, step_.begin, step_.end));
+  frictions_.push_back(friction);
+  residuals_.emplace_back();
+}
+
+template <int D>
+RigidUnit<D> ConstraintSystem<D>::unit_of(std::int32_t particle, const double* free) const {
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  const auto k = index_of(particle);
+  RigidUnit<D> unit;
+  unit.mobility = mobilities_[k];
+  unit.inverse_mobility = 1 / unit.mobility;
+  for (std::size_t i = 0; i < d; ++i) unit.free[i] = free[i];
+  for (std::size_t i = 0; i < r; ++i) {
+    unit.free[d + i] = free_turns_[k * r + i];
+    unit.turn_mobility[i * r + i] = step_.turn_mobilities[k];
+    unit.inverse_turn_mobility[i * r + i] = 1 / step_.turn_mobilities[k];
+  }
+  return unit;
+}
+
+template <int D>
+RigidUnit<D> ConstraintSystem<D>::unit_of_body(std::int32_t body) const {
+  const auto& step = free_bodies_[index_of(body)];
+  RigidUnit<D> unit;
+  unit.mobility = step.mobility;
+  unit.inverse_mobility = 1 / step.mobility;
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (std::size_t i = 0; i < d; ++i) unit.free[i] = step.displacement[i];
+  for (std::size_t i = 0; i < r; ++i) unit.free[d + i] = step.turn[3 - r + i];
+  set_turn_mobility<D>(unit, step.turn_mobility, step.inverse_turn_mobility);
+  return unit;
+}
+
+/// Makes a unit of each rigid body, and of each other particle, that takes part.
+template <int D>
+void ConstraintSystem<D>::number_units(const ContactSystem<D>& system) {
+  unit_of_particle_.assign(particles_.count(), -1);
+  unit_of_body_.assign(particles_.bodies.count(), -1);
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
+    const auto particle = system.bodies()[b];
+    const auto body = particles_.bodies.body_of(particle);
+    auto& unit = unit_of_particle_[index_of(particle)];
+    unit = body < 0 ? -1 : unit_of_body_[index_of(body)];
+    if (unit >= 0) continue;
+    unit = static_cast<std::int32_t>(problem_.units.size());
+    if (body >= 0) unit_of_body_[index_of(body)] = unit;
+    problem_.units.push_back(body < 0 ? unit_of(particle, system.free_displacement(b))
+                                      : unit_of_body(body));
+  }
+}
+
+template <int D>
+ContactSide ConstraintSystem<D>::side_of(std::int32_t particle) const {
+  if (particle < 0) return {};
+  const auto k = index_of(particle);
+  return {unit_of_particle_[k], particles_.bodies.body_of(particle) < 0 ? Vector{} : offsets_[k]};
+}
+
+template <int D>
+void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
+                                      double allowed_slip) {
+  const auto& tangents = tangents_[c];
+  ConstraintBlock block;
+  block.row = problem_.rows.size();
+  block.lowest = contact.gamma;
+  block.friction = step_.friction.coefficient;
+  block.capacity = tangents.capacity;
+  block.allowed = contact.allowed;
+  block.allowed_slip = allowed_slip;
+  // A film that no impulse of this step can use up leaves no friction, and needs no rows for it.
+  const bool rubs = block.friction > 0 && std::isfinite(block.capacity);
+  block.rows = rubs ? static_cast<std::size_t>(D) : 1;
+  problem_.blocks.push_back(block);
+  const auto first = side_of(contact.first), second = side_of(contact.second);
+  for (std::size_t k = 0; k < block.rows; ++k) {
+    problem_.rows.push_back(contact_row(contact, tangents, first, second, k));
+    problem_.impulses.push_back(k == 0 ? contact.impulse
+                                       : dot(tangents.directions[k - 1], frictions_[c]));
+  }
+}
+
+template <int D>
+void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
+  const auto& link = links_[l];
+  ConstraintBlock block;
+  block.row = problem_.rows.size();
+  block.rows = link.rows.size();
+  block.is_contact = false;
+  block.allowed = links_allowed[l];
+  if (link.kind == LinkEquations::Kind::kTorsion) block.allowed /= mean_radius;
+  block.compliance = link.rows.front().compliance;
+  problem_.blocks.push_back(block);
+  for (std::size_t k = 0; k < link.rows.size(); ++k) {
+    const auto& equation = link.rows[k];
+    ConstraintRow<D> row;
+    row.second = unit_of_particle_[index_of(equation.second.particle)];
+    row.of_second = row_of<D>(equation.second);
+    if (equation.first.particle >= 0) {
+      row.first = unit_of_particle_[index_of(equation.first.particle)];
+      row.of_first = row_of<D>(equation.first);
+    }
+    row.offset = equation.value;
+    problem_.rows.push_back(row);
+    problem_.impulses.push_back(times_.kick * link_forces_[link.first_force + k]);
+  }
+}
+
+template <int D>
+UnitMotion ConstraintSystem<D>::motion_of(std::int32_t unit,
+                                          std::span<const Motion<D>> motions) const {
+  UnitMotion result;
+  if (unit < 0) return result;
+  const auto& motion = motions[static_cast<std::size_t>(unit)];
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (std::size_t i = 0; i < d; ++i) result.displacement[i] = motion[i];
+  for (std::size_t i = 0; i < r; ++i) result.turn[3 - r + i] = motion[d + i];
+  return result;
+}
+
+/// Sets the displacements and turns of all particles that take part, with finite turns of bodies.
+template <int D>
+void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
+                                         std::span<const Motion<D>> motions) {
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  for (const auto particle : system.bodies()) {
+    const auto k = index_of(particle);
+    const auto motion = motion_of(unit_of_particle_[k], motions);
+    Vector moved = motion.displacement;
+    if (particles_.bodies.body_of(particle) >= 0)
+      moved = displacement_at(motion.displacement, motion.turn, offsets_[k], D);
+    for (std::size_t i = 0; i < d; ++i) displacements_[k * d + i] = moved[i];
+    for (std::size_t i = 0; i < r; ++i) step_.turns[k * r + i] = motion.turn[3 - r + i];
+  }
+}
+
+/// Corrects the offsets of the rows by what finite turns change, and stores the changes. Returns the
+/// largest of them, divided by the allowed residual of its block.
+template <int D>
+double ConstraintSystem<D>::correct(ContactSystem<D>& system,
+                                    const ConstraintSolution<D>& solution) {
+  const std::span<const Motion<D>> motions = solution.motions;
+  double largest = 0;
+  shifts_.assign(problem_.blocks.size(), 0.0);
+  const auto shift = [&](std::size_t b, std::size_t k, double value) {
+    auto& row = problem_.rows[problem_.blocks[b].row + k];
+    const double by = value - (row.offset + product<D>(row, motions));
+    row.offset += by;
+    shifts_[b] = std::max(shifts_[b], std::abs(by));
+    largest = std::max(largest, std::abs(by) / problem_.blocks[b].allowed);
+  };
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const auto& contact = system.contacts[c];
+    if (particles_.bodies.body_of(contact.second) >= 0 ||
+        (contact.first >= 0 && particles_.bodies.body_of(contact.first) >= 0))
+      shift(c, 0, gap_after(contact, displacements_));
+  }
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    const auto kind = links_[l].kind;
+    if (kind != LinkEquations::Kind::kArm && kind != LinkEquations::Kind::kHinge) continue;
+    const std::size_t b = system.contacts.size() + l;
+    const auto& row = problem_.rows[problem_.blocks[b].row];
+    const auto values = values_after(links_[l], *step_.links, particles_, times_,
+                                     motion_of(row.first, motions), motion_of(row.second, motions));
+    for (std::size_t k = 0; k < values.size(); ++k) shift(b, k, values[k]);
+  }
+  return largest;
+}
+
+/// Writes impulses, residuals and motions of bodies where they belong.
+template <int D>
+void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
+                                    const ConstraintSolution<D>& solution) {
+  // The residuals of the last solution, and what its last corrections would change.
+  for (std::size_t c = 0; c < system.contacts.size(); ++c) {
+    const auto& block = problem_.blocks[c];
+    system.contacts[c].impulse = problem_.impulses[block.row];
+    frictions_[c] = {};
+    for (std::size_t k = 1; k < block.rows; ++k)
+      frictions_[c] =
+          frictions_[c] + problem_.impulses[block.row + k] * tangents_[c].directions[k - 1];
+    residuals_[c] = solution.residuals[c];
+    residuals_[c].normal += shifts_[c];
+  }
+  for (std::size_t l = 0; l < links_.size(); ++l) {
+    const std::size_t b = system.contacts.size() + l;
+    const auto& block = problem_.blocks[b];
+    link_residuals_[l] = solution.residuals[b].normal + shifts_[b];
+    if (links_[l].kind == LinkEquations::Kind::kTorsion) link_residuals_[l] *= mean_radius_;
+    for (std::size_t k = 0; k < block.rows; ++k)
+      link_forces_[links_[l].first_force + k] = problem_.impulses[block.row + k] / times_.kick;
+  }
+  std::ranges::copy(link_forces_, step_.link_forces.begin());
+  for (std::size_t body = 0; body < unit_of_body_.size(); ++body) {
+    auto& step = step_.bodies[body];
+    step = free_bodies_[body];
+    if (unit_of_body_[body] < 0) continue;
+    const auto motion = motion_of(unit_of_body_[body], solution.motions);
+    constrain(step, motion.displacement, motion.turn, D);
+  }
+}
+
+template <int D>
+SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
+                                        double allowed_slip, int max_iterations) {
+  problem_ = {};
+  problem_.lifts_sliding = step_.friction.method == FrictionMethod::kConvex;
+  number_units(system);
+  for (std::size_t c = 0; c < system.contacts.size(); ++c)
+    add_contact(system.contacts[c], c, allowed_slip);
+  for (std::size_t l = 0; l < links_.size(); ++l) add_link(l, mean_radius_);
+  // Before the impulses are roughly known, nothing is known about the impulses at work.
+  if (is_rough)
+    for (auto& block : problem_.blocks) block.allowed = allowed_slip;
+  // A correction gains about a factor of the turn in the step. With turns of a radian, these many
+  // gain little, and the step does not converge.
+  constexpr int kMostCorrections = 40;
+  ConstraintSolution<D> solution;
+  SolverResult result;
+  double last_change = std::numeric_limits<double>::infinity();
+  int growing = 0;
+  for (int n = 0;; ++n) {
+    solution = solve_constraints(problem_, std::max(1, max_iterations - result.iterations));
+    result.iterations += solution.result.iterations;
+    result.residual = solution.result.residual;
+    move_particles(system, solution.motions);
+    const double change = correct(system, solution);
+    result.residual += change;
+    // Corrections that grow several times will not end, because the constraints contradict each
+    // other or the step is too long.
+    constexpr int kPatience = 3;
+    growing = change < last_change ? 0 : growing + 1;
+    last_change = change;
+    // Half of what is allowed leaves room for the residual of the solution itself.
+    if (change <= 0.5 || growing == kPatience || is_rough || n == kMostCorrections ||
+        result.iterations >= max_iterations || !(solution.result.residual <= 1))
+      break;
+  }
+  take_over(system, solution);
+  return result;
+}
+
+template class ConstraintSystem<2>;
+template class ConstraintSystem<3>;
+
+}  // namespace viscontact::particles

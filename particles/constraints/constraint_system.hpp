@@ -1,0 +1,109 @@
+// The constraints of a step on particles that turn: contacts with friction, rigid bodies and links.
+// Makes the problem of constraint_problem.hpp and takes over its solution. Units are those of the
+// case.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/constraints/constraint_solver.hpp"
+#include "viscontact/particles/constraints/contact_rows.hpp"
+#include "viscontact/particles/contact/contact_law.hpp"
+#include "viscontact/particles/contact/friction_law.hpp"
+#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/links/link_rows.hpp"
+#include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/projection/contact_system.hpp"
+
+namespace viscontact::particles {
+
+/// What the constraints of a step depend on, besides its contacts. Arrays are those of the
+/// simulation: before the solution they hold the motion without constraints, after it that of the
+/// solution.
+struct ConstraintStep {
+  FrictionLaw friction;
+  ContactLaw law;
+  std::span<const Plane> obstacles;
+  double begin = 0, end = 0;  ///< of the step [T]
+  bool is_first = false;      ///< LinkTimes::is_first
+  double kick = 0;            ///< time for which forces act on the velocities in it [T]
+  std::span<double> turns;    ///< h w of all particles [rad]
+  std::span<const double> turn_mobilities;  ///< h/I [T/(M L^2)]
+  std::span<BodyStep> bodies;               ///< of all rigid bodies
+  const Links* links = nullptr;             ///< must be there, but may be empty
+  /// State::link_forces [M L/T^2], [M L^2/T^2]: a guess, then the solution.
+  std::span<double> link_forces;
+};
+
+template <int D>
+class ConstraintSystem {
+ public:
+  /// All arguments must outlive this object. `displacements` and `mobilities` are those of
+  /// ContactSystem.
+  ConstraintSystem(const ConstraintStep& step, const Particles& particles,
+                   std::span<double> displacements, std::span<const double> mobilities);
+
+  /// Makes the particles of all links take part. Call it before the first contact is added.
+  void join_linked(ContactSystem<D>& system) const;
+
+  /// Adds the contact that is next in the ContactSystem; `friction` is the guess (Pair::friction).
+  void add(const Contact<D>& contact, const Vector& friction);
+
+  /// The equations of the links, and what their residuals may be [L], to be set before solve().
+  const std::vector<LinkEquations>& links() const { return links_; }
+  std::vector<double> links_allowed;
+
+  /// Takes the place of ContactSystem::solve. Also sets the turns of all particles that take part
+  /// and the motions of the rigid bodies. `allowed_slip` is the largest residual of a tangential
+  /// displacement [L]; a rough solution takes it for the gaps, too.
+  ///
+  /// Rows are linear in the turns of rigid bodies. A solution is followed by others, whose offsets
+  /// are corrected by the difference between the linear values and those of the finite turns, until
+  /// hinges, arms and the contacts of rigid bodies hold with these.
+  SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
+                     int max_iterations);
+
+  /// Impulse of friction on the second particle of contact number `c` [M L/T].
+  const Vector& friction(std::size_t c) const { return frictions_[c]; }
+  /// Residual of contact number `c` in the last solution [L].
+  const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
+  /// Residual of link number `l` of links() in the last solution [L]; of a torsion spring times the
+  /// mean radius.
+  double link_residual(std::size_t l) const { return link_residuals_[l]; }
+
+ private:
+  ContactSide side_of(std::int32_t particle) const;
+  RigidUnit<D> unit_of(std::int32_t particle, const double* free) const;
+  RigidUnit<D> unit_of_body(std::int32_t body) const;
+  void number_units(const ContactSystem<D>& system);
+  void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip);
+  void add_link(std::size_t l, double mean_radius);
+  UnitMotion motion_of(std::int32_t unit, std::span<const Motion<D>> motions) const;
+  void move_particles(const ContactSystem<D>& system, std::span<const Motion<D>> motions);
+  double correct(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
+  void take_over(ContactSystem<D>& system, const ConstraintSolution<D>& solution);
+
+  const ConstraintStep& step_;
+  const Particles& particles_;
+  std::span<double> displacements_;
+  std::span<const double> mobilities_;
+  double mean_radius_;
+  LinkTimes times_;
+  std::vector<double> free_turns_;     // h w* of all particles
+  std::vector<BodyStep> free_bodies_;  // of the motion without constraints
+  std::vector<LinkEquations> links_;
+  std::vector<ContactTangents<D>> tangents_;  // of the contacts
+  std::vector<Vector> frictions_;
+  std::vector<BlockResidual> residuals_;
+  std::vector<double> link_residuals_, link_forces_;
+  // Of the present solution: the unit of each particle that takes part (-1: none), of each body.
+  std::vector<std::int32_t> unit_of_particle_, unit_of_body_;
+  std::vector<Vector> offsets_;  // of all members of bodies, from the centres, by particle
+  ConstraintProblem<D> problem_;
+  std::vector<double> shifts_;  // last corrections of the blocks [L]
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,89 @@
+// Tangents and rows of contacts (contact_rows.hpp).
+#include "viscontact/particles/constraints/contact_rows.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace viscontact::particles {
+namespace {
+
+/// Unit vectors that complete `normal` to a right-handed basis, without a jump unless the normal
+/// changes its largest component.
+template <int D>
+std::array<Vector, static_cast<std::size_t>(D - 1)> tangent_basis(const Vector& normal) {
+  if constexpr (D == 2) {
+    return {Vector{-normal[1], normal[0], 0}};
+  } else {
+    std::size_t least = 0;
+    for (std::size_t d = 1; d < 3; ++d)
+      if (std::abs(normal[d]) < std::abs(normal[least])) least = d;
+    Vector axis{};
+    axis[least] = 1;
+    const Vector across = cross(normal, axis);
+    const Vector first = (1 / norm(across)) * across;
+    return {first, cross(normal, first)};
+  }
+}
+
+template <int D>
+Vector normal_of(const Contact<D>& contact) {
+  Vector normal{};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(D); ++d) normal[d] = contact.normal[d];
+  return normal;
+}
+
+}  // namespace
+
+template <int D>
+ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
+                               const ContactLaw& law, std::span<const Plane> obstacles,
+                               double begin, double end) {
+  ContactTangents<D> tangents;
+  const auto j = index_of(contact.second);
+  const Vector normal = normal_of(contact);
+  tangents.directions = tangent_basis<D>(normal);
+  const double r_j = particles.radii[j];
+  double r_i = std::numeric_limits<double>::infinity();
+  tangents.second_arm = r_j;
+  if (contact.first >= 0) {
+    // The arms add up to the distance of the centres, so that the impulses of the pair keep the
+    // angular momentum also while the gap is open.
+    r_i = particles.radii[index_of(contact.first)];
+    const double distance = r_i + r_j + contact.gap - contact.tolerated;
+    tangents.first_arm = r_i * (distance / (r_i + r_j));
+    tangents.second_arm = r_j * (distance / (r_i + r_j));
+  } else {
+    const auto& obstacle = obstacles[static_cast<std::size_t>(contact.obstacle)];
+    const Vector point = particles.position(j) - (r_j + contact.gap) * normal;
+    tangents.surface = obstacle.displacement(point, begin, end);
+  }
+  tangents.capacity = contact.gamma - law.lower_bound(r_j, r_i);
+  return tangents;
+}
+
+template <int D>
+ConstraintRow<D> contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
+                             const ContactSide& first, const ContactSide& second, std::size_t k) {
+  const Vector normal = normal_of(contact);
+  const Vector direction = k == 0 ? normal : tangents.directions[k - 1];
+  ConstraintRow<D> row;
+  row.second = second.unit;
+  row.of_second = displacement_row<D>(direction, second.offset - tangents.second_arm * normal);
+  if (first.unit >= 0) {
+    row.first = first.unit;
+    row.of_first = displacement_row<D>(-1 * direction, first.offset + tangents.first_arm * normal);
+  }
+  row.offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);
+  return row;
+}
+
+template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&, const ContactLaw&,
+                                           std::span<const Plane>, double, double);
+template ContactTangents<3> tangents_of<3>(const Contact<3>&, const Particles&, const ContactLaw&,
+                                           std::span<const Plane>, double, double);
+template ConstraintRow<2> contact_row<2>(const Contact<2>&, const ContactTangents<2>&,
+                                         const ContactSide&, const ContactSide&, std::size_t);
+template ConstraintRow<3> contact_row<3>(const Contact<3>&, const ContactTangents<3>&,
+                                         const ContactSide&, const ContactSide&, std::size_t);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,116 @@
+// Examines a step in a fluid and changes the state by it (fluid_simulation.hpp). Units are those of
+// the case.
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/particles/contact/film.hpp"
+#include "viscontact/particles/fluid/contact/contact_residuals.hpp"
+#include "viscontact/particles/fluid/fluid_motion.hpp"
+#include "viscontact/particles/fluid/held_rows.hpp"
+#include "viscontact/particles/neighbours/neighbour_list.hpp"
+
+namespace viscontact::particles {
+
+/// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
+void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
+  const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
+  const double longest = h * fastest(motion.moved, layout_);
+  if (!(longest < largest))
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("a particle moves by {} in the step to time {}, too far for the "
+                            "precision of a double; check the forces and the time step",
+                            longest, report.time));
+  const auto residuals =
+      measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
+                        setting_.solver, mean_radius_, error_of_answers(*setting_.fluid));
+  if (!residuals.converged && -residuals.smallest_gap > mean_radius_)
+    throw Error(ErrorKind::kNotConverged,
+                fmt::format("no solution of the step to time {} was found: particles would overlap "
+                            "by {:.3g} mean radii; is the time step too long for the forces, or do "
+                            "particles with given motions leave the others too little room?",
+                            report.time, -residuals.smallest_gap / mean_radius_));
+  report.converged = residuals.converged;
+  report.residual = residuals.largest / mean_radius_;
+  report.impulse_residual = residuals.largest_relative;
+  report.largest_overlap = (0 - residuals.smallest_gap) / mean_radius_;
+}
+
+/// Changes the state by a step.
+void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
+  auto& p = state_.particles;
+  state_.pairs = std::move(motion.contact.pairs.pairs);
+  state_.walls = std::move(motion.contact.pairs.walls);
+  const auto errors =
+      measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
+                        setting_.solver, mean_radius_, error_of_answers(*setting_.fluid))
+          .impulse_errors;
+  const auto radius = [&](std::int32_t k) {
+    return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
+  };
+  std::size_t c = 0;
+  for (auto* pairs : {&state_.pairs, &state_.walls})
+    for (auto& pair : *pairs) {
+      const auto& contact = motion.contact.contacts[c];
+      pair.impulse = contact.impulse;
+      if (contact.w > 0) {
+        ++report.contacts;
+        absorb_impulse(pair, errors[c],
+                       setting_.law.lower_bound(radius(pair.second), radius(pair.first)));
+      }
+      if (pair.gamma < 0) ++report.glued;
+      ++c;
+    }
+  const auto n = layout_.directions();
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    for (std::size_t d = 0; d < n; ++d) {
+      p.positions[k * n + d] += h * motion.moved[k * layout_.components + d];
+      p.velocities[k * n + d] = motion.at_end[k * layout_.components + d];
+    }
+    if (layout_.components == 3) {
+      p.angles[k] += h * motion.moved[k * 3 + 2];
+      p.angular_velocities[k] = motion.at_end[k * 3 + 2];
+    }
+  }
+  move_bodies(motion, h, next);
+  state_.link_forces = std::move(motion.link_forces);
+  state_.earlier_velocities = std::move(motion.flow);
+  state_.earlier_forces = std::move(motion.drag);
+  state_.earlier_step = h;
+  state_.time = next;
+  wrap_into_cell(state_);
+  quantities_ = std::move(motion.quantities);
+  reported_ = std::move(motion.reported);
+}
+
+/// Moves the rigid bodies, and their members with them.
+void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
+  auto& p = state_.particles;
+  if (p.bodies.empty()) return;
+  const HeldMotion held(setting_.links, p, LinkTimes{h, h, next});
+  for (std::size_t b = 0; b < p.bodies.count(); ++b) {
+    auto& body = p.bodies.bodies[b];
+    const auto moved = held.motion_of_body(b, motion.linear);
+    const auto at_end = held.motion_of_body(b, motion.at_end);
+    body.centre = body.centre + h * moved.displacement;
+    body.angle = body.angle + h * moved.turn;
+    body.velocity = at_end.displacement;
+    body.angular_velocity = at_end.turn;
+    body.angular_momentum = body.inertia[8] * at_end.turn;
+  }
+  place_members(p);
+}
+
+Particles FluidSimulation::reported_particles() const {
+  auto p = state_.particles;
+  if (reported_.empty()) return p;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    for (std::size_t d = 0; d < layout_.directions(); ++d)
+      p.velocities[k * layout_.directions() + d] = reported_[k * layout_.components + d];
+    if (layout_.components == 3) p.angular_velocities[k] = reported_[k * 3 + 2];
+  }
+  return p;
+}
+
+}  // namespace viscontact::particles

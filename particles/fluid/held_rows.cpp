@@ -1,0 +1,170 @@
+// Makes the rows of rigid bodies and links in a fluid (held_rows.hpp).
+#include "viscontact/particles/fluid/held_rows.hpp"
+
+#include <fmt/format.h>
+
+#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::particles {
+
+HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times)
+    : links_(links),
+      particles_(particles),
+      times_(times),
+      layout_{motion_components(particles.dimension)},
+      equations_(link_equations(links, particles, times)) {
+  for (const auto& body : particles.bodies.bodies) {
+    body_rows_ += layout_.components * (body.members.size() - 1);
+    auto weights = member_masses(body, particles);
+    for (auto& weight : weights)
+      weight = body.mass > 0 ? weight / body.mass : 1 / static_cast<double>(weights.size());
+    weights_.push_back(std::move(weights));
+  }
+}
+
+/// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
+Vector HeldMotion::offset_in_body(std::int32_t particle) const {
+  const auto number = particles_.bodies.body_of(particle);
+  if (number < 0) return {};
+  const auto& body = particles_.bodies.bodies[index_of(number)];
+  for (std::size_t m = 0; m < body.members.size(); ++m)
+    if (body.members[m] == particle) return present_offset(body, m, particles_.dimension);
+  return {};
+}
+
+/// The rows that give each member the rigid motion of the first one.
+void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
+                               std::vector<HeldRow>& rows) const {
+  const auto first = body.members.front();
+  const Vector start = present_offset(body, 0, particles_.dimension);
+  for (std::size_t m = 1; m < body.members.size(); ++m) {
+    const auto member = body.members[m];
+    const Vector apart = present_offset(body, m, particles_.dimension) - start;
+    for (std::size_t d = 0; d < 3; ++d) {
+      HeldRow row;
+      row.name = fmt::format("body {}", number);
+      row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
+      // v_m - v_1 - w_1 x apart
+      if (d < 2) row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
+      rows.push_back(std::move(row));
+    }
+  }
+}
+
+void HeldMotion::add_entries(const RowPart& part, HeldRow& row) const {
+  if (part.particle < 0) return;
+  if (part.is_turn) {
+    row.entries.emplace_back(layout_.at(part.particle, 2), 1);
+    return;
+  }
+  for (std::size_t d = 0; d < layout_.directions(); ++d)
+    if (part.direction[d] != 0)
+      row.entries.emplace_back(layout_.at(part.particle, d), part.direction[d]);
+  if (layout_.components != 3) return;
+  const Vector arm = part.arm - offset_in_body(part.particle);
+  if (const double moment = cross(arm, part.direction)[2]; moment != 0)
+    row.entries.emplace_back(layout_.at(part.particle, 2), moment);
+}
+
+std::vector<HeldRow> HeldMotion::rows() const {
+  std::vector<HeldRow> rows;
+  const auto& bodies = particles_.bodies.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) add_body_rows(bodies[b], b, rows);
+  for (const auto& link : equations_)
+    for (const auto& equation : link.rows) {
+      HeldRow row;
+      row.name = name_of(link, links_, particles_);
+      add_entries(equation.first, row);
+      add_entries(equation.second, row);
+      row.stiffness = equation.stiffness;
+      row.extension = equation.extension;
+      if (!(row.stiffness > 0)) row.rate = -equation.value / times_.h;
+      rows.push_back(std::move(row));
+    }
+  return rows;
+}
+
+UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> velocities) const {
+  UnitMotion motion;
+  const auto& of = particles_.bodies.bodies[body];
+  for (std::size_t m = 0; m < of.members.size(); ++m) {
+    const double weight = weights_[body][m];
+    for (std::size_t d = 0; d < 2; ++d)
+      motion.displacement[d] += weight * velocities[layout_.at(of.members[m], d)];
+    motion.turn[2] += weight * velocities[layout_.at(of.members[m], 2)];
+  }
+  return motion;
+}
+
+/// Displacement and turn in the step of the unit of a particle.
+UnitMotion HeldMotion::motion_of(std::int32_t particle, std::span<const double> velocities) const {
+  UnitMotion motion;
+  if (particle < 0) return motion;
+  if (const auto body = particles_.bodies.body_of(particle); body >= 0) {
+    motion = motion_of_body(index_of(body), velocities);
+  } else {
+    for (std::size_t d = 0; d < layout_.directions(); ++d)
+      motion.displacement[d] = velocities[layout_.at(particle, d)];
+    if (layout_.components == 3) motion.turn[2] = velocities[layout_.at(particle, 2)];
+  }
+  return {times_.h * motion.displacement, times_.h * motion.turn};
+}
+
+std::vector<double> HeldMotion::missing(std::span<const double> velocities) const {
+  std::vector<double> changes(body_rows_, 0.0);
+  for (const auto& link : equations_) {
+    const bool is_exact =
+        link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
+    if (!is_exact) {
+      changes.resize(changes.size() + link.rows.size(), 0.0);
+      continue;
+    }
+    const auto& row = link.rows.front();
+    for (const double off :
+         values_after(link, links_, particles_, times_, motion_of(row.first.particle, velocities),
+                      motion_of(row.second.particle, velocities)))
+      changes.push_back(-off / times_.h);
+  }
+  return changes;
+}
+
+std::vector<double> HeldMotion::with_finite_turns(std::span<const double> velocities) const {
+  std::vector<double> result(velocities.begin(), velocities.end());
+  const auto& bodies = particles_.bodies.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto motion = motion_of_body(b, velocities);
+    for (std::size_t m = 0; m < bodies[b].members.size(); ++m) {
+      const auto member = bodies[b].members[m];
+      const Vector moved = displacement_at(times_.h * motion.displacement, times_.h * motion.turn,
+                                           present_offset(bodies[b], m, 2), 2);
+      for (std::size_t d = 0; d < 2; ++d) result[layout_.at(member, d)] = moved[d] / times_.h;
+      result[layout_.at(member, 2)] = motion.turn[2];
+    }
+  }
+  return result;
+}
+
+void HeldMotion::make_rigid(std::span<double> velocities) const {
+  const auto& bodies = particles_.bodies.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto motion = motion_of_body(b, velocities);
+    for (std::size_t m = 0; m < bodies[b].members.size(); ++m) {
+      const auto member = bodies[b].members[m];
+      const Vector v = motion.displacement + cross(motion.turn, present_offset(bodies[b], m, 2));
+      for (std::size_t d = 0; d < 2; ++d) velocities[layout_.at(member, d)] = v[d];
+      velocities[layout_.at(member, 2)] = motion.turn[2];
+    }
+  }
+}
+
+std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {
+  std::vector<double> forces(links_.force_count(particles_.dimension), 0.0);
+  std::size_t r = body_rows_;
+  for (const auto& link : equations_)
+    for (std::size_t k = 0; k < link.rows.size(); ++k)
+      forces[link.first_force + k] = row_forces[r++];
+  return forces;
+}
+
+}  // namespace viscontact::particles

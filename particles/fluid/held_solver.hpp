@@ -1,0 +1,83 @@
+// A fluid whose particles are held by rigid bodies, hinges, springs and arms, docs/physics.md (6.7).
+// Units are those of the case.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+
+namespace viscontact::particles {
+
+/// A linear condition on the velocities v of all particles: the sum of coefficient times component
+/// is `rate`, or, for a spring, the force follows from the sum.
+struct HeldRow {
+  /// Components of the motions (motion_components() of each particle) and their coefficients.
+  std::vector<std::pair<std::size_t, double>> entries;
+  double rate = 0;  ///< [L/T], [1/T]
+  // Of a spring, whose force is -stiffness (extension + theta h sum); stiffness 0: not a spring.
+  double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
+  double extension = 0;  ///< at the beginning of the step [L], [rad]
+  std::string name{};    ///< in messages
+};
+
+/// Answers as the fluid solver that it owns, with forces in the rows added that keep the conditions.
+///
+/// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
+/// A S f, so that one question to the fluid for each row is asked at each placement, and then one
+/// for each question to this solver, and another one where walls and driven particles move. Springs
+/// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation.
+class HeldSolver : public FluidSolver {
+ public:
+  /// `relative_error` > 0 is that of the answers of `solver`.
+  HeldSolver(std::unique_ptr<FluidSolver> solver, double relative_error);
+
+  /// Sets the rows that hold from the next placement on, in steps of length h > 0 [T].
+  void hold(std::vector<HeldRow> rows, double h);
+
+  /// Besides the errors of the fluid solver, throws Error(kNotConverged), which names the rows, if
+  /// they contradict each other.
+  void place(const FluidParticles& bodies) override;
+  std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  FlowQuantities quantities() override { return solver_->quantities(); }
+  EstimatedVelocities estimate(std::span<const double> forces) override;
+  FlowField flow() override { return solver_->flow(); }
+  std::size_t unknowns() const override { return solver_->unknowns(); }
+  double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
+
+  /// velocities(forces, false) without springs, whose forces are then among `forces`.
+  std::vector<double> velocities_without_springs(std::span<const double> forces);
+
+  /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
+  /// number for each row [L/T, 1/T]. No question is asked.
+  void change(std::span<double> velocities, std::span<const double> changes) const;
+
+  /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2].
+  const std::vector<double>& row_forces() const { return row_forces_; }
+
+  /// The forces of the springs on all particles in the last velocities(forces, true).
+  std::vector<double> spring_forces() const;
+
+ private:
+  Eigen::VectorXd sums(std::span<const double> velocities) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
+  void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
+  void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
+  void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;
+  double theta(Eigen::Index r) const;
+
+  std::unique_ptr<FluidSolver> solver_;
+  double relative_error_;
+  double h_ = 0;
+  std::vector<HeldRow> rows_;
+  std::vector<std::vector<double>> responses_;  // S A^T of each row
+  Eigen::MatrixXd matrix_;                      // A S A^T
+  std::vector<double> row_forces_;
+};
+
+}  // namespace viscontact::particles

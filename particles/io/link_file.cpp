@@ -1,0 +1,116 @@
+// Writes bodies.csv, hinges.csv, springs.csv and arms.csv (link_file.hpp).
+#include "viscontact/particles/io/link_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/common/text/number.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+/// A row: time, id and values.
+std::string row(double time, std::size_t id, const std::vector<double>& values) {
+  std::string text = fmt::format("{},{}", format_number(time), id);
+  for (const double value : values) text += "," + format_number(value);
+  return text + "\n";
+}
+
+void append(std::vector<double>& values, const Vector& vector, std::size_t count) {
+  values.insert(values.end(), vector.begin(), vector.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+double force_of(const State& state, std::size_t place) {
+  return state.link_forces.empty() ? 0 : state.link_forces[place];
+}
+
+double distance(const Particles& p, std::int32_t first, std::int32_t second) {
+  Vector apart = p.position(index_of(second)) - p.position(index_of(first));
+  for (std::size_t d = 0; d < 2; ++d)
+    if (const double period = p.cell.lengths[d]; period > 0)
+      apart[d] -= period * std::round(apart[d] / period);
+  return norm(apart);
+}
+
+std::string body_rows(const Setting& /*setting*/, const State& state) {
+  std::string text;
+  const auto& p = state.particles;
+  for (std::size_t b = 0; b < p.bodies.count(); ++b) {
+    const auto& body = p.bodies.bodies[b];
+    const Vector& w = body.angular_velocity;
+    std::vector<double> values;
+    if (p.dimension == 3) {
+      append(values, body.centre, 3);
+      append(values, body.velocity, 3);
+      values.insert(values.end(), body.orientation.begin(), body.orientation.end());
+      append(values, w, 3);
+    } else {
+      values = {body.centre[0],   body.centre[1],   body.angle[2],
+                body.velocity[0], body.velocity[1], w[2]};
+    }
+    text += row(state.time, b, values);
+  }
+  return text;
+}
+
+std::string hinge_rows(const Setting& setting, const State& state) {
+  std::string text;
+  const auto forces = Links::forces_of_hinge(state.particles.dimension);
+  for (std::size_t k = 0; k < setting.links.hinges.size(); ++k) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < forces; ++i) values.push_back(force_of(state, k * forces + i));
+    text += row(state.time, k, values);
+  }
+  return text;
+}
+
+std::string spring_rows(const Setting& setting, const State& state) {
+  std::string text;
+  const auto& springs = setting.links.springs;
+  for (std::size_t k = 0; k < springs.size(); ++k)
+    text += row(state.time, k,
+                {distance(state.particles, springs[k].first, springs[k].second),
+                 force_of(state, setting.links.place_of_spring(k, state.particles.dimension))});
+  return text;
+}
+
+std::string arm_rows(const Setting& setting, const State& state) {
+  std::string text;
+  const auto& arms = setting.links.arms;
+  const double h = std::min(setting.time_step, state.time);
+  for (std::size_t k = 0; k < arms.size(); ++k) {
+    const double force = force_of(state, setting.links.place_of_arm(k, state.particles.dimension));
+    const double change =
+        length_at(arms[k].length, state.time) - length_at(arms[k].length, state.time - h);
+    text += row(state.time, k,
+                {distance(state.particles, arms[k].first, arms[k].second), force,
+                 h > 0 ? force * change / h + 0.0 : 0});
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles) {
+  const bool in_space = particles.dimension == 3;
+  const auto& links = setting.links;
+  std::vector<TimeTable> tables;
+  const auto add = [&](const char* name, const std::string& columns, std::size_t count,
+                       auto* rows) {
+    if (count > 0) tables.push_back({name, "time,id," + columns + "\n", count, rows});
+  };
+  add("bodies.csv",
+      in_space ? "x,y,z,vx,vy,vz,orientation_w,orientation_x,orientation_y,orientation_z,"
+                 "angular_velocity_x,angular_velocity_y,angular_velocity_z"
+               : "x,y,angle,vx,vy,angular_velocity",
+      particles.bodies.count(), body_rows);
+  add("hinges.csv", in_space ? "force_x,force_y,force_z" : "force_x,force_y,torque",
+      links.hinges.size(), hinge_rows);
+  add("springs.csv", "length,force", links.springs.size(), spring_rows);
+  add("arms.csv", "length,force,power", links.arms.size(), arm_rows);
+  return tables;
+}
+
+}  // namespace viscontact::particles

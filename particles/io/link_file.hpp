@@ -1,0 +1,35 @@
+// The motion of rigid bodies, and the forces of links, as CSV tables over time. Lengths, masses and
+// times are in the units of the case. A change must keep the names of the columns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscontact/particles/simulation.hpp"
+
+namespace viscontact::particles {
+
+/// A table that gets rows at each output time.
+struct TimeTable {
+  std::string name;       ///< of its file
+  std::string header;     ///< line with the names of its columns
+  std::size_t count = 0;  ///< number of rows at each time
+  /// The rows of a state.
+  std::string (*rows)(const Setting& setting, const State& state);
+};
+
+/// The tables that a run has, each only if the case has what it lists:
+///
+/// - bodies.csv: time,id,x,y,angle,vx,vy,angular_velocity; in space
+///   time,id,x,y,z,vx,vy,vz,orientation_w,...,angular_velocity_x,...
+/// - hinges.csv: time,id,force_x,force_y,torque; in space force_x,force_y,force_z
+/// - springs.csv: time,id,length,force
+/// - arms.csv: time,id,length,force,power
+///
+/// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
+/// forces of springs and arms are positive where they push the ends apart. Forces are those of the
+/// step that ended at the time, 0 before the first one. The power is what an arm does: its force
+/// times the mean rate of its length in a time step.
+std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,78 @@
+// Piecewise linear and sinusoidal lengths of arms (arm_length.hpp).
+#include "viscontact/particles/links/arm_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace viscontact::particles {
+namespace {
+
+// More times than these decide nothing that a reader of a case could check.
+constexpr std::size_t kMostTimes = 10000;
+
+double value_at(const PiecewiseLinearLength& length, double t) {
+  const auto& points = length.points;
+  const double first = points.front()[0];
+  if (length.period > 0) t -= length.period * std::floor((t - first) / length.period);
+  if (t <= first) return points.front()[1];
+  const auto next = std::ranges::upper_bound(points, t, {}, [](const auto& p) { return p[0]; });
+  if (next == points.end() && !(length.period > 0)) return points.back()[1];
+  const auto& before = *(next - 1);
+  const std::array<double, 2> after =
+      next == points.end() ? std::array{first + length.period, points.front()[1]} : *next;
+  const double share = (t - before[0]) / (after[0] - before[0]);
+  return (1 - share) * before[1] + share * after[1];
+}
+
+double value_at(const SinusoidalLength& length, double t) {
+  return length.mean + length.amplitude * std::sin(length.angular_frequency * t + length.phase);
+}
+
+void add_times(const PiecewiseLinearLength& length, double end, std::vector<double>& times) {
+  for (double shift = 0; shift <= end; shift += length.period) {
+    for (const auto& point : length.points) {
+      const double time = point[0] + shift;
+      if (time > 0 && time < end) times.push_back(time);
+    }
+    if (!(length.period > 0) || times.size() > kMostTimes) break;
+  }
+}
+
+void add_times(const SinusoidalLength& length, double end, std::vector<double>& times) {
+  // Eighths of a period hold all extrema if they begin at one; between them the chord is off by at
+  // most 8 percent of the amplitude.
+  const double frequency = std::abs(length.angular_frequency);
+  if (!(frequency > 0)) return;
+  const double step = std::numbers::pi / 4 / frequency;
+  const double phase = length.angular_frequency > 0 ? length.phase : -length.phase;
+  const double first = std::ceil(phase / (std::numbers::pi / 4));
+  for (double n = first; times.size() < kMostTimes; ++n) {
+    const double time = n * step - phase / frequency;
+    if (time >= end) break;
+    if (time > 0) times.push_back(time);
+  }
+}
+
+}  // namespace
+
+double length_at(const ArmLength& length, double t) {
+  return std::visit([&](const auto& of) { return value_at(of, t); }, length);
+}
+
+std::vector<double> decisive_times(const ArmLength& length, double end) {
+  std::vector<double> times = {0};
+  std::visit([&](const auto& of) { add_times(of, end, times); }, length);
+  times.push_back(end);
+  return times;
+}
+
+double least_length(const ArmLength& length, double end) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double time : decisive_times(length, end))
+    least = std::min(least, length_at(length, time));
+  return least;
+}
+
+}  // namespace viscontact::particles

@@ -1,0 +1,73 @@
+// The equations of hinges, springs and arms in a time step, docs/physics.md (5.12) to (5.14). Units
+// are those of the case.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "viscontact/particles/links/links.hpp"
+#include "viscontact/particles/particles.hpp"
+
+namespace viscontact::particles {
+
+/// Part of an equation: `direction` . displacement of a point at `arm` from the centre of a unit (a
+/// particle without a body, or a rigid body), or the turn about z of the unit.
+struct RowPart {
+  std::int32_t particle = -1;  ///< of the unit; -1: no unit, a fixed place
+  Vector direction{};          ///< a unit vector; with `is_turn`, not used
+  Vector arm{};                ///< [L]
+  bool is_turn = false;
+};
+
+/// One equation of a link: value + first + second + compliance * impulse = 0 after the step.
+struct LinkRow {
+  RowPart first, second;
+  double value = 0;       ///< before the step, with the length at its end [L], or angle [rad]
+  double compliance = 0;  ///< [T/M]; 0: the equation holds whatever impulse it needs
+  // Of springs: what value and compliance follow from.
+  double extension = 0;  ///< [L], [rad]
+  double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
+};
+
+/// The equations of one link, all of them between the same units, and what they are called.
+struct LinkEquations {
+  enum class Kind { kHinge, kTorsion, kSpring, kArm };
+  Kind kind = Kind::kArm;
+  std::size_t number = 0;       ///< of the link in its list
+  std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
+  std::vector<LinkRow> rows{};
+};
+
+/// The times of a step that links depend on.
+struct LinkTimes {
+  double h = 0;     ///< length of the step [T]
+  double kick = 0;  ///< time for which forces act on the velocities in it [T]
+  double end = 0;   ///< time at its end [T]
+  /// Whether it is the first step of a simulation, before which the particles are taken to have
+  /// moved as if time ran backwards.
+  bool is_first = false;
+};
+
+/// The equations of all links. Springs are integrated by Newmark's method with beta = 1/4 (Newmark
+/// 1959, "A method of computation for structural dynamics"), which is stable for every stiffness and
+/// does not damp.
+std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
+                                          const LinkTimes& times);
+
+/// Displacements and turns of the unit of a particle: 3 numbers each, of discs in the plane.
+struct UnitMotion {
+  Vector displacement{}, turn{};
+};
+
+/// Values of the rows of a link for the motions of its first and second unit, with their finite
+/// turns, without the part of the compliance.
+std::vector<double> values_after(const LinkEquations& equations, const Links& links,
+                                 const Particles& particles, const LinkTimes& times,
+                                 const UnitMotion& first, const UnitMotion& second);
+
+/// "arm 2 (particles 3 and 4)": the name of a link in messages, with the ids of its particles and
+/// numbers from 1 on.
+std::string name_of(const LinkEquations& equations, const Links& links, const Particles& particles);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,72 @@
+// Hinges, springs and arms that hold particles and rigid bodies. Lengths, masses and times are in
+// the units of the case.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "viscontact/particles/links/arm_length.hpp"
+#include "viscontact/particles/vector.hpp"
+
+namespace viscontact::particles {
+
+/// A point that moves with a particle or with its rigid body.
+struct LinkedPoint {
+  std::int32_t particle =
+      0;  ///< number of a particle; if it belongs to a body, the point does, too
+  /// From the centre of the body, as it is at the start, or from the centre of the particle if it
+  /// has no body, as it is at the angle 0 [L].
+  Vector offset{};
+};
+
+/// Holds a point of a particle or body at a place, about which it turns freely, or against a
+/// torsion spring (discs only).
+struct Hinge {
+  LinkedPoint point;
+  Vector at{};           ///< [L]
+  double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0
+  /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start, that of a
+  /// particle is its own.
+  double rest_angle = 0;
+  std::int32_t body = -1;  ///< number of the body, -1: of a particle; names the hinge in messages
+};
+
+/// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
+struct Spring {
+  std::int32_t first = 0, second = 0;  ///< numbers of particles, not of one body
+  double stiffness = 0;                ///< [M/T^2], > 0
+  double length = 0;                   ///< at which it is relaxed [L], >= 0
+};
+
+/// Keeps the distance of the centres of two particles at a length prescribed in time.
+struct Arm {
+  std::int32_t first = 0, second = 0;  ///< numbers of particles, not of one body
+  ArmLength length;                    ///< > 0 at all times
+};
+
+/// The links of a case.
+struct Links {
+  std::vector<Hinge> hinges;
+  std::vector<Spring> springs;
+  std::vector<Arm> arms;
+
+  bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
+  /// Number of forces in State::link_forces, in `dimension` dimensions: those of all hinges
+  /// (`dimension` components and, in the plane, the torque of the spring), of all springs and of all
+  /// arms.
+  std::size_t force_count(int dimension) const {
+    return hinges.size() * forces_of_hinge(dimension) + springs.size() + arms.size();
+  }
+  static std::size_t forces_of_hinge(int dimension) {
+    return static_cast<std::size_t>(dimension) + (dimension == 2 ? 1 : 0);
+  }
+  std::size_t place_of_spring(std::size_t k, int dimension) const {
+    return hinges.size() * forces_of_hinge(dimension) + k;
+  }
+  std::size_t place_of_arm(std::size_t k, int dimension) const {
+    return place_of_spring(springs.size(), dimension) + k;
+  }
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,234 @@
+// Hinges, springs and arms against closed forms.
+#include "viscontact/particles/links/links.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Setting setting_of(double h, Scheme scheme = Scheme::kLeapfrog) {
+  Setting setting;
+  setting.time_step = h;
+  setting.scheme = scheme;
+  setting.solver.tolerance = 1e-10;
+  return setting;
+}
+
+State two_particles(int dimension, double apart, const Vector& velocity = {}) {
+  State state = no_particles(dimension);
+  add_particle(state, {}, 0.1, 2);
+  add_particle(state, {apart, 0, 0}, 0.1, 3, velocity);
+  add_rotation(state.particles);
+  return state;
+}
+
+void expect_converged(const StepReport& report) { EXPECT_TRUE(report.converged) << report.time; }
+
+double distance(const State& state) {
+  return norm(state.particles.position(1) - state.particles.position(0));
+}
+
+TEST(Springs, TwoMassesSwingWithTheirPeriodAndOfSecondOrder) {
+  const double k = 5, amplitude = 0.3, w = std::sqrt(k / (2.0 * 3.0 / 5.0));
+  std::vector<double> errors;
+  for (const double h : {0.04, 0.02, 0.01}) {
+    auto setting = setting_of(h);
+    setting.links.springs = {{0, 1, k, 2.0}};
+    Simulation simulation(setting, two_particles(2, 2 + amplitude), 1);
+    run(simulation, 4, expect_converged);
+    errors.push_back(distance(simulation.state()) - 2 - amplitude * std::cos(4 * w));
+  }
+  EXPECT_LT(std::abs(errors[2]), 1e-3);
+  EXPECT_NEAR(std::log2(std::abs(errors[0] / errors[1])), 2, 0.3);
+  EXPECT_NEAR(std::log2(std::abs(errors[1] / errors[2])), 2, 0.3);
+}
+
+TEST(Springs, AStiffSpringStaysStableAndIsNotDamped) {
+  // h w = 100: an explicit method would fail at 2.
+  const double h = 0.01, k = 1.2e8;
+  auto setting = setting_of(h);
+  setting.links.springs = {{0, 1, k, 2.0}};
+  Simulation simulation(setting, two_particles(3, 2 + 1e-6), 1);
+  double largest = 0;
+  run(simulation, 10, [&](const StepReport& report) {
+    expect_converged(report);
+    if (report.time > 5) largest = std::max(largest, std::abs(distance(simulation.state()) - 2));
+  });
+  EXPECT_LT(largest, 1.01e-6);
+  EXPECT_GT(largest, 0.9e-6);
+}
+
+class Hinges : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Dimensions, Hinges, ::testing::Values(2, 3));
+
+/// A body of two particles whose centre of mass is at a distance 1 from a hinge at the origin.
+State pendulum(int dimension, double angle) {
+  State state = no_particles(dimension);
+  for (const double at : {0.8, 1.2})
+    add_particle(state, {at * std::sin(angle), -at * std::cos(angle), 0}, 0.3, 1);
+  add_rotation(state.particles);
+  add_rigid_body(state.particles, {{0, 1}});
+  return state;
+}
+
+TEST_P(Hinges, APendulumSwingsWithItsPeriodAndOfSecondOrder) {
+  const int dimension = GetParam();
+  const double inertia = 2 * homogeneous_inertia(dimension, 1, 0.3) + 0.8 * 0.8 + 1.2 * 1.2;
+  const double g = 9.81, w = std::sqrt(2 * g / inertia), amplitude = 1e-3;
+  std::vector<double> errors;
+  for (const double h : {0.04, 0.02, 0.01}) {
+    auto setting = setting_of(h);
+    setting.gravity = {0, -g, 0};
+    auto state = pendulum(dimension, amplitude);
+    Hinge hinge;
+    hinge.point = {0, -1 * state.particles.bodies.bodies[0].centre};
+    setting.links.hinges = {hinge};
+    Simulation simulation(setting, state, 1);
+    run(simulation, 3, expect_converged);
+    const auto& body = simulation.state().particles.bodies.bodies[0];
+    EXPECT_NEAR(norm(body.centre), 1, 1e-10);
+    errors.push_back(body.centre[0] / amplitude - std::cos(3 * w));
+    // The hinge carries the weight, up to squares of the amplitude.
+    EXPECT_NEAR(simulation.state().link_forces[1], 2 * g, 1e-4);
+  }
+  EXPECT_LT(std::abs(errors[2]), 1e-2);
+  EXPECT_NEAR(std::log2(std::abs(errors[0] / errors[1])), 2, 0.3);
+  EXPECT_NEAR(std::log2(std::abs(errors[1] / errors[2])), 2, 0.3);
+}
+
+TEST_P(Hinges, ALargeSwingKeepsThePointAndTheEnergy) {
+  const int dimension = GetParam();
+  auto setting = setting_of(0.01);
+  setting.gravity = {0, -9.81, 0};
+  auto state = pendulum(dimension, 2.5);
+  Hinge hinge;
+  hinge.point = {0, -1 * state.particles.bodies.bodies[0].centre};
+  setting.links.hinges = {hinge};
+  Simulation simulation(setting, state, 1);
+  double highest = -1;
+  run(simulation, 10, [&](const StepReport& report) {
+    expect_converged(report);
+    const auto& body = simulation.state().particles.bodies.bodies[0];
+    EXPECT_NEAR(norm(body.centre), 1, 1e-9);
+    if (report.time > 5) highest = std::max(highest, body.centre[1]);
+  });
+  // It swings back to where it began, -cos(2.5) = 0.8011; the method neither gains nor loses much.
+  EXPECT_NEAR(highest, -std::cos(2.5), 5e-3);
+}
+
+TEST(TorsionSprings, ADiscOnAHingeTurnsAsAnOscillator) {
+  auto setting = setting_of(0.01);
+  State state = no_particles(2);
+  add_particle(state, {1, 2, 0}, 0.5, 4);
+  add_rotation(state.particles);
+  Hinge hinge;
+  hinge.at = {1, 2, 0};
+  hinge.stiffness = 3;
+  hinge.rest_angle = 0.5;
+  setting.links.hinges = {hinge};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 2, expect_converged);
+  const double w = std::sqrt(3 / homogeneous_inertia(2, 4, 0.5));
+  EXPECT_NEAR(simulation.state().particles.angles[0], 0.5 - 0.5 * std::cos(2 * w), 2e-3);
+  EXPECT_NEAR(norm(simulation.state().particles.position(0) - Vector{1, 2, 0}), 0, 1e-14);
+  // The torque of the spring is that of its extension.
+  EXPECT_NEAR(simulation.state().link_forces[2],
+              -3 * (simulation.state().particles.angles[0] - 0.5), 0.1);
+}
+
+TEST(Arms, APrescribedLengthIsKeptAndItsForceIsTheReducedMassTimesTheAcceleration) {
+  for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
+    for (const int dimension : {2, 3}) {
+      auto setting = setting_of(0.01, scheme);
+      const SinusoidalLength length{2, 0.5, 3, 0.2};
+      setting.links.arms = {{0, 1, length}};
+      auto state = two_particles(dimension, length_at(length, 0));
+      // The velocities of the start are those of the arm.
+      const double rate = 0.5 * 3 * std::cos(0.2);
+      state.particles.velocities[0] = -rate * 3 / 5;
+      state.particles.velocities[static_cast<std::size_t>(dimension)] = rate * 2 / 5;
+      Simulation simulation(setting, state, 1);
+      run(simulation, 2, [&](const StepReport& report) {
+        expect_converged(report);
+        EXPECT_NEAR(distance(simulation.state()), length_at(length, report.time), 1e-10);
+      });
+      // The force of a step is that at its beginning.
+      const double acceleration = -0.5 * 9 * std::sin(3 * 1.99 + 0.2);
+      EXPECT_NEAR(simulation.state().link_forces[0], 2.0 * 3 / 5 * acceleration, 1e-3);
+      EXPECT_NEAR(norm(momentum(simulation.state().particles)), 0, 1e-9);
+    }
+}
+
+TEST(Arms, ARotatingArmThatShortensTurnsFasterByItsAngularMomentum) {
+  auto setting = setting_of(1e-3);
+  setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 2}, {1, 2}, {3, 1}}}}};
+  auto state = two_particles(2, 2, {0, 1, 0});
+  Simulation simulation(setting, state, 1);
+  run(simulation, 4, expect_converged);
+  const auto& p = simulation.state().particles;
+  const Vector apart = p.position(1) - p.position(0), v = p.velocity(1) - p.velocity(0);
+  // r x v is constant: 2 at the start.
+  EXPECT_NEAR(apart[0] * v[1] - apart[1] * v[0], 2, 1e-2);
+  EXPECT_NEAR(norm(apart), 1, 1e-10);
+}
+
+TEST(Arms, ThreeArmsThatBreakTheTriangleInequalityAreNamed) {
+  auto setting = setting_of(0.01);
+  setting.solver.tolerance = 1e-6;
+  State state = no_particles(2);
+  add_particle(state, {0, 0, 0}, 0.1, 1);
+  add_particle(state, {1, 0, 0}, 0.1, 1);
+  add_particle(state, {0.5, 0.5, 0}, 0.1, 1);
+  add_rotation(state.particles);
+  const double side = std::sqrt(0.5);
+  setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 1}, {1, 3}}}},
+                        {1, 2, PiecewiseLinearLength{{{0, side}}}},
+                        {2, 0, PiecewiseLinearLength{{{0, side}}}}};
+  Simulation simulation(setting, state, 1);
+  try {
+    run(simulation, 1);
+    FAIL() << "the arms cannot meet after 2 side = 1.414, at t = 0.207";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
+    for (const auto* name :
+         {"arm 1 (particles 0 and 1)", "arm 2 (particles 1 and 2)", "arm 3 (particles 2 and 0)"})
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    EXPECT_NEAR(simulation.state().time, 0.207, 0.02);
+  }
+}
+
+TEST(Links, AChainOfHingedBodiesHangsAtRest) {
+  // Redundant links do no harm: two bodies, each held by two hinges at its ends.
+  auto setting = setting_of(0.01, Scheme::kEuler);
+  setting.gravity = {0, -9.81, 0};
+  State state = no_particles(2);
+  for (int k = 0; k < 4; ++k) add_particle(state, {0.5 * k, 0, 0}, 0.3, 1);
+  add_rotation(state.particles);
+  add_rigid_body(state.particles, {{0, 1, 2, 3}});
+  for (const double x : {0.0, 1.5}) {
+    Hinge hinge;
+    hinge.at = {x, 0, 0};
+    hinge.point = {0, {x - 0.75, 0, 0}};
+    setting.links.hinges.push_back(hinge);
+  }
+  Simulation simulation(setting, state, 1);
+  run(simulation, 1, expect_converged);
+  EXPECT_NEAR(simulation.state().particles.position(0)[1], 0, 1e-12);
+  EXPECT_NEAR(simulation.state().link_forces[1] + simulation.state().link_forces[4], 4 * 9.81,
+              1e-6);
+}
+
+}  // namespace
+}  // namespace viscontact::particles
