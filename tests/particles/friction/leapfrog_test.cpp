@@ -8,6 +8,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/step_times.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -26,6 +27,16 @@ Simulation release(double h, Scheme scheme) {
   return {setting, state, 1};
 }
 
+/// The gap at t = 10 if solid contact begins at gamma = -2.
+double released_from_solid(double h, Scheme scheme) {
+  auto before = release(h, scheme);
+  auto setting = before.setting();
+  setting.law.gamma_min = -2;
+  Simulation simulation(setting, before.state(), 1);
+  run(simulation, 10);
+  return simulation.state().particles.position(0)[1] - 1;
+}
+
 double gap_at_12(double h, Scheme scheme) {
   auto simulation = release(h, scheme);
   run(simulation, 12);
@@ -40,6 +51,43 @@ TEST(Leapfrog, AfterAReleaseIsOfSecondOrder) {
     EXPECT_NEAR(gap_at_12(h, Scheme::kLeapfrog), exact, 0.09 * h * h + 1e-9) << h;
   // Without it positions are ahead by h u/2, u = sqrt(2).
   EXPECT_NEAR(gap_at_12(0.01, Scheme::kEuler) - exact, 0.005 * std::numbers::sqrt2, 1e-4);
+}
+
+TEST(Leapfrog, AReleaseFromSolidContactIsOfSecondOrder) {
+  // With gamma_min = -2 the film is given back 2 sqrt(2) after the force has changed sign at t = 5.
+  const double pull = std::sqrt(0.5), left = 5 + 2 / pull;
+  const double exact = pull / 2 * (10 - left) * (10 - left);
+  EXPECT_NEAR(exact, 1.66726189, 1e-8);
+  // As above, the share of the release in its step counts, here also that of the jump of the force,
+  // which falls on the grid, or between two of its points.
+  for (const double h : {0.1, 0.037, 0.0193, 0.01, 1e-3})
+    EXPECT_NEAR(released_from_solid(h, Scheme::kLeapfrog), exact, 0.09 * h * h + 1e-9) << h;
+  EXPECT_NEAR(released_from_solid(0.01, Scheme::kEuler) - exact, 7.7e-3, 1e-4);
+}
+
+TEST(Leapfrog, StepsAroundJumpsHaveTheJumpInTheirMiddleAndReturnToTheGrid) {
+  const double h = 0.1;
+  for (const double jump : {0.5, 0.51, 0.53, 0.549, 0.55, 0.56, 0.58, 0.599, 0.04, 0.001}) {
+    SCOPED_TRACE(jump);
+    double time = 0;
+    bool is_in_middle = false;
+    const std::vector<double> jumps = {jump};
+    for (int n = 0; time < 1; ++n) {
+      const double grid_end = h * (std::floor(time / h + 1e-6) + 1);
+      const double end = leapfrog_step_end(time, grid_end, h, jumps);
+      EXPECT_GT(end, time);
+      EXPECT_LE(end - time, 1.001 * h);
+      is_in_middle = is_in_middle || std::abs((time + end) / 2 - jump) < 1e-12;
+      // No jump is between the middle of a step and its end, or of the next one and its beginning.
+      if (std::abs((time + end) / 2 - jump) > 1e-12 && jump > 0.01) {
+        EXPECT_FALSE(jump > time && jump < end) << time << " " << end;
+      }
+      time = end;
+      ASSERT_LT(n, 20);
+    }
+    EXPECT_TRUE(is_in_middle);
+    EXPECT_NEAR(time, 1, 1e-12);
+  }
 }
 
 TEST(Leapfrog, ReportsVelocitiesAtThePresentTime) {
