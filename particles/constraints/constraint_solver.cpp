@@ -1,4 +1,4 @@
-// Sweeps, proximal steps and their acceleration (constraint_solver.hpp). The constants change how
+// Sweeps and proximal steps (constraint_solver.hpp). The constants change how
 // long a solution takes, and the results within the tolerances.
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "viscontact/particles/constraints/anderson.hpp"
 #include "viscontact/particles/constraints/contact_sweeps.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
@@ -43,41 +42,57 @@ class Iteration {
   }
 
   ConstraintSolution<D> solve(int max_iterations) {
-    int& iterations = best_.result.iterations;
-    if (residual_ <= 1) return finish();
-    constexpr int kSweeps = 30;
-    sweep(kSweeps);
-    if (residual_ <= 1 || iterations >= max_iterations) return finish();
+    sweep_while_it_gains(max_iterations);
+    if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
-    while (residual_ > 1 && iterations < max_iterations) {
-      const auto center = problem_.impulses;
-      const double before = residual_;
-      iterations += proximal_->solve(center, motions_, lifts_, true,
-                                     std::max(1, max_iterations - iterations));
-      if (proximal_->failed())
-        iterations += proximal_->solve(center, motions_, lifts_, false,
-                                       std::max(1, max_iterations - iterations));
-      problem_.impulses = proximal_->impulses();
-      update();
-      constexpr double kMuchWorse = 1e9;
-      if (proximal_->failed() || !(residual_ <= kMuchWorse * best_.result.residual)) {
-        if (plain_.empty())
-          retreat(kSweeps);
-        else
-          retract();
-      } else {
-        advance(center, before);
-      }
-    }
+    while (residual_ > 1 && best_.result.iterations < max_iterations)
+      take_proximal_step(max_iterations);
     return finish();
   }
 
  private:
-  void sweep(int count) {
-    sweeps_.sweep(count, w_);
-    best_.result.iterations += count;
+  void sweep() {
+    constexpr int kSweeps = 30;
+    sweeps_.sweep(kSweeps, w_);
+    best_.result.iterations += kSweeps;
     update();
+  }
+
+  /// A sweep costs a small part of a factorisation, so that sweeps go on as long as they gain.
+  void sweep_while_it_gains(int max_iterations) {
+    constexpr double kGain = 0.7;
+    double before = std::numeric_limits<double>::infinity();
+    while (residual_ > 1 && residual_ < kGain * before && best_.result.iterations < max_iterations) {
+      before = residual_;
+      sweep();
+    }
+  }
+
+  /// Takes a proximal step, or goes back and makes the next one easier to solve. Between jammed
+  /// particles that stick, impulses that balance each other must grow until a contact slips or
+  /// opens. Small epsilons go there fast, but Newton's method then fails more often, so that
+  /// epsilon follows what it achieves. Where even the easiest step fails, sweeps go on.
+  void take_proximal_step(int max_iterations) {
+    constexpr int kMostIterations = 50, kFewIterations = 4;
+    constexpr double kLeastEpsilon = 1e-12, kLargestEpsilon = 1, kFactor = 3, kMuchWorse = 5;
+    const auto center = problem_.impulses;
+    const double before = residual_;
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    const int taken = proximal_->solve(center, motions_, lifts_, most);
+    best_.result.iterations += taken;
+    problem_.impulses = proximal_->impulses();
+    update();
+    if (proximal_->failed() || taken == most || !(residual_ <= kMuchWorse * before)) {
+      problem_.impulses = center;
+      update();
+      if (epsilon_ == kLargestEpsilon) sweep();
+      epsilon_ = std::min(kLargestEpsilon, kFactor * epsilon_);
+      proximal_->set_epsilon(epsilon_);
+    } else if (taken <= kFewIterations && epsilon_ > kLeastEpsilon) {
+      epsilon_ /= kFactor;
+      proximal_->set_epsilon(epsilon_);
+    }
   }
 
   /// Computes motions and residuals, and keeps the solution if it is the best so far.
@@ -108,69 +123,22 @@ class Iteration {
     best_impulses_ = problem_.impulses;
   }
 
-  /// Goes on from where the last extrapolation began.
-  void retract() {
-    problem_.impulses = std::move(plain_);
-    plain_.clear();
-    acceleration_.forget();
-    update();
-  }
-
-  /// Goes on by sweeps from the best solution, with steps that are easier to solve.
-  void retreat(int sweeps) {
-    problem_.impulses = best_impulses_;
-    sweep(sweeps);
-    acceleration_.forget();
-    steps_ = 0;
-    at_reduction_ = residual_;
-  }
-
-  /// Goes on after a step from `center`, whose residual was `before`.
-  void advance(const std::vector<double>& center, double before) {
-    // An epsilon that gains less than a half in some steps is too large, because the constraints
-    // nearly contradict each other or form a long chain.
-    constexpr int kPatience = 8;
-    constexpr double kWorse = 3, kLeastEpsilon = 1e-9;
-    plain_.clear();
-    if (residual_ <= 1) return;
-    if (residual_ > kWorse * before) acceleration_.forget();
-    if (++steps_ >= kPatience) {
-      steps_ = 0;
-      const bool gained = residual_ < at_reduction_ / 2;
-      at_reduction_ = residual_;
-      if (!gained && epsilon_ > kLeastEpsilon) {
-        epsilon_ /= 10;
-        proximal_->set_epsilon(epsilon_);
-        acceleration_.forget();
-        return;
-      }
-    }
-    plain_ = problem_.impulses;
-    acceleration_.improve(center, problem_.impulses, w_);
-    if (acceleration_.size() == 0) plain_.clear();
-  }
-
   ConstraintSolution<D> finish() {
     problem_.impulses = best_impulses_;
     return std::move(best_);
   }
 
   static constexpr double kFirstEpsilon = 0.1;
-  static constexpr std::size_t kMemory = 8;
 
   ConstraintProblem<D>& problem_;
   std::vector<double> w_;
   ContactSweeps<D> sweeps_;
   std::optional<ProximalStep<D>> proximal_;
-  AndersonAcceleration acceleration_{kMemory};
   std::vector<double> lifts_, best_impulses_;
-  std::vector<double> plain_;  // impulses before the last extrapolation; empty if there was none
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
   double residual_ = 0, epsilon_ = kFirstEpsilon;
-  double at_reduction_ = std::numeric_limits<double>::infinity();
-  int steps_ = 0;
 };
 
 }  // namespace

@@ -19,10 +19,9 @@ struct ConstraintSolution {
 /// Improves problem.impulses until the residual of each block is allowed, or until about
 /// `max_iterations` sweeps, factorisations and solutions with factors are done.
 ///
-/// Some sweeps (contact_sweeps.hpp) begin. Steps of the proximal method (proximal_step.hpp) follow,
-/// and Anderson's acceleration (anderson.hpp) extrapolates from their impulses. If a number of
-/// steps gains little, epsilon is reduced; if a step fails, sweeps follow again. The solution
-/// returned is the best that was found.
+/// Sweeps (contact_sweeps.hpp) begin and go on as long as they gain. Steps of the proximal method
+/// (proximal_step.hpp) follow, whose epsilon falls after a step that Newton's method solved easily
+/// and grows after one that it did not solve. The solution returned is the best that was found.
 template <int D>
 ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations);
 

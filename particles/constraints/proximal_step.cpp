@@ -56,7 +56,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
   }
   Branch branch{q[0] > block.lowest};
   p[0] = branch.is_closed ? q[0] : block.lowest;
-  const double bound = this->bound(b, p[0]);
+  const double bound = block.bound(p[0]);
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
   const bool slips = square >= bound * bound;
@@ -140,11 +140,11 @@ void ProximalStep<D>::add_block(std::size_t b) {
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
   const double length = std::sqrt(square);
-  if (branch.is_closed && is_coupled_)
+  if (branch.is_closed)
     for (std::size_t k = 1; k < block.rows; ++k)
       add_product(b, rows[k], rows[0], rho[0] * block.friction * q[k] / length);
   if (block.rows < 3) return;
-  const double factor = rho[1] * bound(b, projected_[block.row]) / length;
+  const double factor = rho[1] * block.bound(projected_[block.row]) / length;
   for (std::size_t k = 1; k < 3; ++k)
     for (std::size_t l = 1; l < 3; ++l)
       add_product(b, rows[k], rows[l], factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
@@ -184,7 +184,7 @@ void ProximalStep<D>::find_direction() {
 
 /// Length of a step that makes the error fall.
 template <int D>
-double ProximalStep<D>::coupled_length(double before) {
+double ProximalStep<D>::length_of_step(double before) {
   // A step is shortened until the error falls by a share of what it promises.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
@@ -192,47 +192,6 @@ double ProximalStep<D>::coupled_length(double before) {
   for (int n = 0; n < kMostHalvings; ++n, length /= 2)
     if (error_at(length, false) <= (1 - kPromised * length) * before) break;
   return length;
-}
-
-/// Derivative of the convex function after a step `t` along the direction.
-template <int D>
-double ProximalStep<D>::slope(double t) const {
-  double sum = 0;
-  for (std::size_t u = 0; u < y_.size(); ++u) {
-    const auto& unit = problem_.units[u];
-    Motion<D> moved;
-    for (std::size_t k = 0; k < moved.size(); ++k)
-      moved[k] = y_[u][k] + t * direction_[u][k] - unit.free[k];
-    const auto impulse = unit.impulse_of(moved);
-    for (std::size_t k = 0; k < moved.size(); ++k) sum += impulse[k] * direction_[u][k];
-  }
-  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
-    const auto& block = problem_.blocks[b];
-    std::array<double, kMostRows> q{}, p{};
-    unprojected(b, t, q.data());
-    project(b, q.data(), p.data());
-    for (std::size_t k = 0; k < block.rows; ++k) sum -= changes_[block.row + k] * p[k];
-  }
-  return sum;
-}
-
-/// Length of a step, at most 1, at which the convex function has a small slope.
-template <int D>
-double ProximalStep<D>::decoupled_length() const {
-  constexpr double kSmall = 0.1;
-  constexpr int kMostTries = 30;
-  double low = 0, high = 1, at_low = slope(0), at_high = slope(1);
-  const double small = kSmall * std::abs(at_low);
-  if (at_high <= small) return 1;
-  for (int n = 0; n < kMostTries; ++n) {
-    // Regula falsi, kept away from the ends, because the slope is steep beyond a kink.
-    const double share = std::clamp(at_low / (at_low - at_high), 0.05, 0.95);
-    const double t = low + share * (high - low), here = slope(t);
-    if (std::abs(here) <= small) return t;
-    (here < 0 ? low : high) = t;
-    (here < 0 ? at_low : at_high) = here;
-  }
-  return low > 0 ? low : high;
 }
 
 /// Size of rounding errors in the error of the impulses.
@@ -251,13 +210,8 @@ double ProximalStep<D>::rounding_error() const {
 
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
-                           const std::vector<double>& lifts, bool is_coupled, int max_iterations) {
+                           const std::vector<double>& lifts, int max_iterations) {
   constexpr double kExact = 1e-10;
-  has_factor_ = has_factor_ && is_coupled_ == is_coupled;
-  is_coupled_ = is_coupled;
-  bounds_.resize(problem_.blocks.size());
-  for (std::size_t b = 0; b < bounds_.size(); ++b)
-    bounds_[b] = problem_.blocks[b].bound(center[problem_.blocks[b].row]);
   center_ = center;
   lifts_ = lifts;
   y_ = start;
@@ -275,7 +229,7 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     }
     ++iterations;
     find_direction();
-    const double length = is_coupled_ ? coupled_length(before) : decoupled_length();
+    const double length = length_of_step(before);
     for (std::size_t u = 0; u < y_.size(); ++u)
       for (std::size_t k = 0; k < y_[u].size(); ++k) y_[u][k] += length * direction_[u][k];
     for (std::size_t r = 0; r < values_.size(); ++r) values_[r] += length * changes_[r];
@@ -285,7 +239,7 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // without a change ends at the solution, within rounding errors.
     const bool is_linear = D == 2 || here <= kExact * first || here > before / 2;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    if (is_coupled_ ? !(here < before) : here <= rounding_error()) {
+    if (!(here < before)) {
       failed_ = !(here <= rounding_error());
       break;
     }

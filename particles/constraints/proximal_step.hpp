@@ -32,13 +32,10 @@ class ProximalStep {
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
   /// Solves from `center` and the motions `start`. `lifts` are what each block is opened by [L].
-  /// If `is_coupled` is false, the bounds mu_s s are those of `center` (Tresca's friction). The
-  /// equation then is the minimum of a convex function, which the method always finds, but the
-  /// fixed point is reached more slowly or not at all.
   /// Returns the number of factorisations and solutions with factors. Sets failed() if Newton's
   /// method made no progress.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
-            const std::vector<double>& lifts, bool is_coupled, int max_iterations);
+            const std::vector<double>& lifts, int max_iterations);
 
   bool failed() const { return failed_; }
   const std::vector<double>& impulses() const { return projected_; }
@@ -56,9 +53,6 @@ class ProximalStep {
 
   void unprojected(std::size_t b, double t, double* q) const;
   Branch project(std::size_t b, const double* q, double* p) const;
-  double bound(std::size_t b, double normal_impulse) const {
-    return is_coupled_ ? problem_.blocks[b].bound(normal_impulse) : bounds_[b];
-  }
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
@@ -66,21 +60,18 @@ class ProximalStep {
                    double weight);
   void find_direction();
   double rounding_error() const;
-  double coupled_length(double before);
-  double slope(double t) const;
-  double decoupled_length() const;
+  double length_of_step(double before);
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
   std::vector<double> rho_, center_, lifts_;
-  std::vector<double> bounds_;            // of the tangential impulses at the center
   std::vector<double> values_, changes_;  // v + J y of the rows, and J of the direction
   std::vector<double> projected_;
   std::vector<Branch> branches_, factored_;
   std::vector<Motion<D>> y_, direction_, error_;
   BlockFactor<kMotion> factor_;
   std::vector<std::size_t> edge_of_;  // of each block; the largest number if it has one unit
-  bool has_factor_ = false, failed_ = false, is_coupled_ = true;
+  bool has_factor_ = false, failed_ = false;
 };
 
 }  // namespace viscontact::particles
