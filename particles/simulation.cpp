@@ -60,6 +60,7 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
 void scale_impulses(Pair& pair, double factor) {
   pair.impulse *= factor;
   pair.friction = factor * pair.friction;
+  pair.carried *= factor;
 }
 
 }  // namespace
@@ -194,6 +195,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
       auto& sums = impulses_of_parts_[key_of(pair)];
       sums.normal += pair.impulse;
       sums.friction = sums.friction + pair.friction;
+      sums.carried += pair.carried;
     });
 }
 
@@ -235,9 +237,10 @@ StepReport Simulation::step(double end) {
   if (!impulses_of_parts_.empty()) {
     for_pairs([&](Pair& pair) {
       const auto sums = impulses_of_parts_.find(key_of(pair));
-      const auto [normal, friction] = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
-      pair.impulse = normal;
-      pair.friction = friction;
+      const auto impulses = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
+      pair.impulse = impulses.normal;
+      pair.friction = impulses.friction;
+      pair.carried = impulses.carried;
     });
     impulses_of_parts_.clear();
   }

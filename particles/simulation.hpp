@@ -191,6 +191,7 @@ class Simulation {
   struct Impulses {
     double normal = 0;
     Vector friction{};
+    double carried = 0;
   };
   std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;

@@ -28,6 +28,9 @@ struct Pair {
   /// Impulse of friction on `second` in the last step [M L/T], tangential; the first guess of the
   /// next one. Zero without friction.
   Vector friction{};
+  /// Part of the impulse of the last step that the solids carried [M L/T], >= 0: s of docs/physics.md
+  /// (5.7), which bounds the friction. Zero without friction.
+  double carried = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   bool operator==(const Pair&) const = default;

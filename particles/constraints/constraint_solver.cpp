@@ -63,7 +63,8 @@ class Iteration {
   void sweep_while_it_gains(int max_iterations) {
     constexpr double kGain = 0.7;
     double before = std::numeric_limits<double>::infinity();
-    while (residual_ > 1 && residual_ < kGain * before && best_.result.iterations < max_iterations) {
+    while (residual_ > 1 && residual_ < kGain * before &&
+           best_.result.iterations < max_iterations) {
       before = residual_;
       sweep();
     }

@@ -64,6 +64,7 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Vector& friction)
   tangents_.push_back(
       tangents_of(contact, particles_, step_.law, step_.obstacles, step_.begin, step_.end));
   frictions_.push_back(friction);
+  carried_.push_back(0);
   residuals_.emplace_back();
 }
 
@@ -240,6 +241,7 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     const auto& block = problem_.blocks[c];
     system.contacts[c].impulse = problem_.impulses[block.row];
     frictions_[c] = {};
+    carried_[c] = block.rows > 1 ? std::max(0.0, system.contacts[c].impulse - block.capacity) : 0;
     for (std::size_t k = 1; k < block.rows; ++k)
       frictions_[c] =
           frictions_[c] + problem_.impulses[block.row + k] * tangents_[c].directions[k - 1];

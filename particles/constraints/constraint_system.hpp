@@ -68,6 +68,8 @@ class ConstraintSystem {
 
   /// Impulse of friction on the second particle of contact number `c` [M L/T].
   const Vector& friction(std::size_t c) const { return frictions_[c]; }
+  /// Part of the normal impulse of contact number `c` that the solids carry [M L/T].
+  double carried(std::size_t c) const { return carried_[c]; }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
   /// Residual of link number `l` of links() in the last solution [L]; of a torsion spring times the
@@ -97,6 +99,7 @@ class ConstraintSystem {
   std::vector<LinkEquations> links_;
   std::vector<ContactTangents<D>> tangents_;  // of the contacts
   std::vector<Vector> frictions_;
+  std::vector<double> carried_;
   std::vector<BlockResidual> residuals_;
   std::vector<double> link_residuals_, link_forces_;
   // Of the present solution: the unit of each particle that takes part (-1: none), of each body.

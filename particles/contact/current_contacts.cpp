@@ -16,6 +16,16 @@ double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePositio
   return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
 }
 
+ContactFriction friction_of(const Setting& setting, const Pair& pair) {
+  // Solvers project friction on its bound, so that it reaches the bound within rounding errors. The
+  // sum over the parts of a divided step reaches it if its direction did not change.
+  constexpr double kRounding = 1e-9;
+  if (!setting.friction || !(pair.carried > 0)) return ContactFriction::kNone;
+  const double bound = setting.friction->coefficient * pair.carried;
+  return norm(pair.friction) >= (1 - kRounding) * bound ? ContactFriction::kSlides
+                                                        : ContactFriction::kSticks;
+}
+
 }  // namespace
 
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
@@ -56,7 +66,8 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
     for (const auto& pair : *pairs)
       if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
         contacts.push_back(
-            {pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image});
+            {pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
+             friction_of(setting, pair)});
   return contacts;
 }
 

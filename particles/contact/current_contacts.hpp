@@ -11,6 +11,13 @@
 
 namespace viscontact::particles {
 
+/// What friction did at a contact in the last step.
+enum class ContactFriction : std::int8_t {
+  kNone,   ///< no friction: a film, no load, or a case without friction
+  kSticks,
+  kSlides  ///< friction is at Coulomb's bound
+};
+
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second;     ///< number of a particle
@@ -18,6 +25,7 @@ struct CurrentContact {
   double gamma;            ///< [M L/T]
   double gamma_error = 0;  ///< Pair::gamma_error [M L/T]
   std::int32_t image = 0;  ///< Pair::image
+  ContactFriction friction = ContactFriction::kNone;
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle

@@ -1,6 +1,7 @@
 // The frames of a simulation, kept in memory for pages and pictures. Units are those of the case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -19,10 +20,20 @@ struct Frame {
   std::vector<float> positions;
   std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
-  std::vector<float> angles{};           ///< of each particle [rad]; empty if none turns
+  std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
+  /// Of each sphere in space, unit quaternions (w, x, y, z); empty if none turns.
+  std::vector<float> orientations{};
   /// File of the flow around the particles (flow_vtk.hpp); empty if there is none. A picture reads
   /// the flows one after the other, because all of them may be too large for the memory.
   std::filesystem::path flow{};
+};
+
+/// The links that a page or a picture shows, which are the same in all frames.
+struct DrawnLinks {
+  using Ends = std::array<std::int32_t, 2>;  ///< numbers of two particles
+  std::vector<Vector> hinges{};              ///< their places [L]
+  std::vector<Ends> springs{}, arms{};
+  bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
 };
 
 /// All frames that a page or a picture shows.
@@ -32,6 +43,10 @@ struct Playback {
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles
   PeriodicCell cell{};              ///< as in Particles
+  /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
+  std::vector<std::int32_t> bodies{};
+  DrawnLinks links{};
+  bool has_friction = false;  ///< whether contacts stick and slide
 };
 
 /// Position of particle k in a frame [L].

@@ -24,8 +24,8 @@ constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
     std::endian::native == std::endian::little ? "little-endian" : "big-endian";
 
-/// A pair as versions from 2 on store it. The images (from version 3 on) and the impulses of
-/// friction (from version 4 on) are arrays of their own.
+/// A pair as versions from 2 on store it. The images (from version 3 on), the impulses of friction
+/// (from version 4 on) and what the solids carried (from version 5 on) are arrays of their own.
 struct StoredPair {
   std::int32_t first, second;
   double gamma, impulse, gamma_error;
@@ -38,11 +38,18 @@ struct StoredBody {
   Vector angular_momentum, angular_velocity;
 };
 
+/// What a file stores in another form than the state.
+struct StoredArrays {
+  std::vector<std::int32_t> images;  ///< of state.pairs; empty if all are 0
+  std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
+  std::vector<double> carried;       ///< as `frictions`
+  std::vector<StoredBody> bodies;
+};
+
 /// Calls `field` for each stored field, in the order of a file of version `version`, for writing
 /// and for reading.
-template <class State, class Images, class Frictions, class Bodies, class Field>
-void for_fields(State& state, Images& images, Frictions& frictions, Bodies& bodies, int version,
-                Field&& field) {
+template <class State, class Arrays, class Field>
+void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   auto& p = state.particles;
   field(p.dimension);
   field(state.time);
@@ -58,7 +65,7 @@ void for_fields(State& state, Images& images, Frictions& frictions, Bodies& bodi
   field(state.positions_at_listing);
   field(state.skins);
   if (version < 3) return;
-  field(images);
+  field(arrays.images);
   field(p.angles);
   field(p.angular_velocities);
   field(p.inertias);
@@ -67,10 +74,11 @@ void for_fields(State& state, Images& images, Frictions& frictions, Bodies& bodi
   field(state.earlier_step);
   if (version < 4) return;
   field(p.orientations);
-  field(frictions);
+  field(arrays.frictions);
   field(state.velocity_lag);
   if (version < 5) return;
-  field(bodies);
+  field(arrays.carried);
+  field(arrays.bodies);
   field(state.link_forces);
 }
 
@@ -201,28 +209,32 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
-         pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
+         pair.gamma_error >= 0 && pair.carried >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
 }
 
 }  // namespace
 
 std::string write_restart(const State& state) {
-  // No images are stored if no pair has one.
-  std::vector<std::int32_t> images;
-  for (const auto& pair : state.pairs) images.push_back(pair.image);
-  if (std::ranges::all_of(images, [](std::int32_t image) { return image == 0; })) images.clear();
-  std::string bytes;
-  // No impulses of friction are stored if there are none.
-  std::vector<Vector> frictions;
+  StoredArrays arrays;
+  for (const auto& pair : state.pairs) arrays.images.push_back(pair.image);
   for (const auto* pairs : {&state.pairs, &state.walls})
-    for (const auto& pair : *pairs) frictions.push_back(pair.friction);
-  if (std::ranges::all_of(frictions, [](const Vector& p) { return p == Vector{}; }))
-    frictions.clear();
-  std::vector<StoredBody> bodies;
+    for (const auto& pair : *pairs) {
+      arrays.frictions.push_back(pair.friction);
+      arrays.carried.push_back(pair.carried);
+    }
+  const auto clear_zeros = [](auto& values) {
+    using Value = std::remove_cvref_t<decltype(values[0])>;
+    if (std::ranges::all_of(values, [](const Value& value) { return value == Value{}; }))
+      values.clear();
+  };
+  clear_zeros(arrays.images);
+  clear_zeros(arrays.frictions);
+  clear_zeros(arrays.carried);
   for (const auto& body : state.particles.bodies.bodies)
-    bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
-                      body.angular_momentum, body.angular_velocity});
-  for_fields(state, images, frictions, bodies, kVersion, Writer{bytes});
+    arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
+                             body.angular_momentum, body.angular_velocity});
+  std::string bytes;
+  for_fields(state, arrays, kVersion, Writer{bytes});
   std::string text;
   text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
   text.append(kHash).append(sha256(bytes)).append("\n");
@@ -240,18 +252,23 @@ State read_restart(const std::filesystem::path& path) {
   Reader reader(rest, file, version);
   if (hash != sha256(rest)) reader.throw_short();
   State state;
-  std::vector<std::int32_t> images;
-  std::vector<Vector> frictions;
-  std::vector<StoredBody> bodies;
-  for_fields(state, images, frictions, bodies, version, reader);
-  if (!reader.at_end() || !(images.empty() || images.size() == state.pairs.size()) ||
-      !(frictions.empty() || frictions.size() == state.pairs.size() + state.walls.size()))
+  StoredArrays arrays;
+  for_fields(state, arrays, version, reader);
+  const auto fits = [](const auto& values, std::size_t count) {
+    return values.empty() || values.size() == count;
+  };
+  const auto all_pairs = state.pairs.size() + state.walls.size();
+  if (!reader.at_end() || !fits(arrays.images, state.pairs.size()) ||
+      !fits(arrays.frictions, all_pairs) || !fits(arrays.carried, all_pairs))
     reader.throw_short();
-  for (std::size_t k = 0; k < images.size(); ++k) state.pairs[k].image = images[k];
-  for (std::size_t k = 0; k < frictions.size(); ++k)
-    (k < state.pairs.size() ? state.pairs[k] : state.walls[k - state.pairs.size()]).friction =
-        frictions[k];
-  for (const auto& stored : bodies) {
+  const auto pair_at = [&](std::size_t k) -> Pair& {
+    return k < state.pairs.size() ? state.pairs[k] : state.walls[k - state.pairs.size()];
+  };
+  for (std::size_t k = 0; k < arrays.images.size(); ++k) pair_at(k).image = arrays.images[k];
+  for (std::size_t k = 0; k < arrays.frictions.size(); ++k)
+    pair_at(k).friction = arrays.frictions[k];
+  for (std::size_t k = 0; k < arrays.carried.size(); ++k) pair_at(k).carried = arrays.carried[k];
+  for (const auto& stored : arrays.bodies) {
     RigidBody body;
     body.centre = stored.centre;
     body.velocity = stored.velocity;

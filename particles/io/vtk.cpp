@@ -23,9 +23,10 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
 
 }  // namespace
 
-std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts) {
+std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
+                      bool has_friction) {
   std::vector<double> points, velocities, gaps, gammas;
-  std::vector<std::int32_t> ids, firsts, seconds, images;
+  std::vector<std::int32_t> ids, firsts, seconds, images, frictions;
   std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
   for (std::size_t k = 0; k < particles.count(); ++k) {
     append(points, particles.position(k), particles.dimension);
@@ -49,6 +50,7 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
       firsts.push_back(first);
       seconds.push_back(second);
       images.push_back(contact.image);
+      frictions.push_back(static_cast<std::int32_t>(contact.friction));
     }
   AppendedData data;
   std::string text = AppendedData::opening("PolyData");
@@ -63,12 +65,19 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
     text += data.array("Float64", "angle", 1, particles.angles);
     text += data.array("Float64", "angular_velocity", 1, particles.angular_velocities);
   }
+  if (!particles.orientations.empty()) {
+    text += data.array("Float64", "orientation", 4, particles.orientations);
+    text += data.array("Float64", "angular_velocity", 3, particles.angular_velocities);
+  }
+  if (!particles.bodies.empty())
+    text += data.array("Int32", "body", 1, particles.bodies.of_particle);
   text += "</PointData>\n<CellData Scalars=\"gamma\">\n";
   text += data.array("Float64", "gap", 1, gaps);
   text += data.array("Float64", "gamma", 1, gammas);
   text += data.array("Int32", "i", 1, firsts);
   text += data.array("Int32", "j", 1, seconds);
   if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, images);
+  if (has_friction) text += data.array("Int32", "friction", 1, frictions);
   text += "</CellData>\n<Points>\n";
   text += data.array("Float64", "Points", 3, points);
   text += "</Points>\n<Verts>\n";

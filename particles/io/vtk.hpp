@@ -16,16 +16,21 @@ namespace viscontact::particles {
 /// Each particle is a point with radius, velocity and id. Each contact of two particles is a line,
 /// and each contact with an obstacle a vertex at the particle; both have gap, gamma and the ids of
 /// both bodies (-1, -2, ... for obstacles), and in a periodic domain the image of the second
-/// particle. In two dimensions z = 0. The spheres of dimension 1 are on the axis z. In a fluid the
-/// points also have angle and angular velocity.
-std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts);
+/// particle. In two dimensions z = 0. The spheres of dimension 1 are on the axis z. Particles that
+/// turn also have an angle or, in space, an orientation (w, x, y, z), and an angular velocity; if
+/// there are rigid bodies, each point has the number of its body or -1. With `has_friction`
+/// contacts have friction: 0 none, 1 sticks, 2 slides.
+std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
+                      bool has_friction = false);
 
 /// What read_vtp reads from the file of a frame.
 struct VtpContent {
   /// Flat array [L], `dimension` numbers for each particle.
   std::vector<double> positions;
-  /// Of each particle, counter-clockwise [rad], [1/T]; empty without a fluid.
+  /// Of each particle, counter-clockwise [rad], [1/T]; empty if they do not turn, or are in space.
   std::vector<double> angles, angular_velocities;
+  /// Unit quaternions (w, x, y, z) of spheres in space; empty if they do not turn.
+  std::vector<double> orientations;
   /// In the order of contacts_of: first pairs of particles, then particles at obstacles.
   std::vector<CurrentContact> contacts;
 };

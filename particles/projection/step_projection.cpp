@@ -301,7 +301,10 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     pair(chosen_[c]).impulse = system_.contacts[c].impulse;
-    if (constraints_) pair(chosen_[c]).friction = constraints_->friction(c);
+    if (constraints_) {
+      pair(chosen_[c]).friction = constraints_->friction(c);
+      pair(chosen_[c]).carried = constraints_->carried(c);
+    }
     result.pairs.push_back(&pair(chosen_[c]));
   }
   result.bodies = system_.bodies();

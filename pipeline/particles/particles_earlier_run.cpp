@@ -170,6 +170,9 @@ bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c, const
   const auto is_there = [&](const auto& name) { return fs::is_regular_file(folder / name); };
   if (!std::ranges::all_of(kParticleResults, is_there)) return false;
   if (c.setting.fluid && !std::ranges::all_of(kFluidResults, is_there)) return false;
+  if (!c.setting.links.empty() && !is_there("links.pvd")) return false;
+  for (const auto& [name, text] : run.frames.tables())
+    if (!is_there(name)) return false;
   try {
     // run.json is the last file that a run writes.
     const auto record = nlohmann::json::parse(read_file(folder / "run.json"));

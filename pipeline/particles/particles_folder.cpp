@@ -1,5 +1,6 @@
-// Recognises frames by their names, particles_NNNNN.vtp and flow_NNNNN.vtu, and files that
-// Viscontact wrote by their provenance. The form of the names must agree with ParticleFrames.
+// Recognises frames by their names, particles_NNNNN.vtp, flow_NNNNN.vtu and links_NNNNN.vtp, and
+// files that Viscontact wrote by their provenance. The form of the names must agree with
+// ParticleFrames.
 #include "viscontact/pipeline/particles/particles_folder.hpp"
 
 #include <algorithm>
@@ -28,7 +29,8 @@ bool is_numbered(std::string_view name, std::string_view begin, std::string_view
 
 bool is_named_as_frame(const fs::path& path) {
   const std::string name = path.filename();
-  return is_numbered(name, "particles_", ".vtp") || is_numbered(name, "flow_", ".vtu");
+  return is_numbered(name, "particles_", ".vtp") || is_numbered(name, "flow_", ".vtu") ||
+         is_numbered(name, "links_", ".vtp");
 }
 
 /// The files in the folder that are named as frames.
@@ -82,7 +84,8 @@ void remove_results(const fs::path& folder) {
 void remove_other_frames(const std::vector<FrameFile>& frames, const fs::path& folder) {
   const auto belongs_to = [](const std::string& file) {
     return [&file](const FrameFile& frame) {
-      return frame.second == file || flow_name(frame.second) == file;
+      return frame.second == file || flow_name(frame.second) == file ||
+             links_name(frame.second) == file;
     };
   };
   for (const auto& file : frames_in(folder))

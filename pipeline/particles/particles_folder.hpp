@@ -22,7 +22,7 @@ inline constexpr auto kFluidResults =
 
 /// Those that only a run with rigid bodies or links has.
 inline constexpr auto kLinkResults =
-    std::to_array<const char*>({"bodies.csv", "hinges.csv", "springs.csv", "arms.csv"});
+    std::to_array<const char*>({"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.

@@ -16,6 +16,7 @@
 #include "viscontact/particles/contact/current_contacts.hpp"
 #include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/particles/io/link_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
@@ -25,15 +26,28 @@ namespace {
 namespace fs = std::filesystem;
 using particles::Frame;
 
-Frame frame_at(double time, const particles::Setting& setting, const std::vector<double>& positions,
-               const std::vector<double>& angles, std::vector<particles::CurrentContact> contacts) {
+/// A frame of `motion`, which has positions, angles and orientations.
+Frame frame_at(double time, const particles::Setting& setting, const auto& motion,
+               std::vector<particles::CurrentContact> contacts) {
   Frame frame;
   frame.time = time;
-  frame.positions.assign(positions.begin(), positions.end());
-  frame.angles.assign(angles.begin(), angles.end());
+  frame.positions.assign(motion.positions.begin(), motion.positions.end());
+  frame.angles.assign(motion.angles.begin(), motion.angles.end());
+  frame.orientations.assign(motion.orientations.begin(), motion.orientations.end());
   frame.planes = positions_of(particles::obstacles_of(setting), time);
   frame.contacts = std::move(contacts);
   return frame;
+}
+
+/// Another name with the number of the frame in the file `frame`, particles_NNNNN.vtp.
+std::string named_as(const std::string& frame, std::string_view begin, std::string_view end) {
+  constexpr std::string_view kBegin = "particles", kEnd = ".vtp";
+  return std::string(begin) +
+         frame.substr(kBegin.size(), frame.size() - kBegin.size() - kEnd.size()) + std::string(end);
+}
+
+void check_exists(const fs::path& file) {
+  if (!fs::is_regular_file(file)) throw_bad_input({file.string()}, "is missing");
 }
 
 }  // namespace
@@ -47,24 +61,35 @@ ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& prove
                                const particles::Particles& particles)
     : folder_(std::move(folder)),
       provenance_(provenance),
+      has_links_(!setting.links.empty()),
       tables_(particles::time_tables(setting, particles)),
       table_rows_(tables_.size()) {
   playback_.dimension = particles.dimension;
   playback_.radii.assign(particles.radii.begin(), particles.radii.end());
   playback_.ids = particles.ids;
+  playback_.bodies = particles.bodies.of_particle;
+  playback_.has_friction = setting.friction.has_value();
+  for (const auto& hinge : setting.links.hinges) playback_.links.hinges.push_back(hinge.at);
+  for (const auto& spring : setting.links.springs)
+    playback_.links.springs.push_back({spring.first, spring.second});
+  for (const auto& arm : setting.links.arms)
+    playback_.links.arms.push_back({arm.first, arm.second});
 }
 
-std::string flow_name(const std::string& frame) {
-  constexpr std::string_view kBegin = "particles", kEnd = ".vtp";
-  return "flow" + frame.substr(kBegin.size(), frame.size() - kBegin.size() - kEnd.size()) + ".vtu";
-}
+std::string flow_name(const std::string& frame) { return named_as(frame, "flow", ".vtu"); }
+
+std::string links_name(const std::string& frame) { return named_as(frame, "links", ".vtp"); }
 
 void ParticleFrames::add(const particles::Setting& setting, const particles::State& state) {
   playback_.cell = state.particles.cell;
   auto contacts = particles::contacts_of(setting, state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
-  results::write_output(folder_ / name, TextKind::kXml,
-                        particles::write_vtp(state.particles, contacts), provenance_);
+  results::write_output(
+      folder_ / name, TextKind::kXml,
+      particles::write_vtp(state.particles, contacts, setting.friction.has_value()), provenance_);
+  if (has_links_)
+    results::write_output(folder_ / links_name(name), TextKind::kXml,
+                          particles::write_links(setting, state), provenance_);
   files_.emplace_back(state.time, name);
   if (setting.fluid) {
     if (motion_.empty()) motion_ = particles::motion_header(playback_.dimension);
@@ -74,8 +99,7 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
   for (std::size_t t = 0; t < tables_.size(); ++t)
     table_rows_[t] += tables_[t].rows(setting, state);
   if ((files_.size() - 1) % every_ == 0)
-    keep(frame_at(state.time, setting, state.particles.positions, state.particles.angles,
-                  std::move(contacts)));
+    keep(frame_at(state.time, setting, state.particles, std::move(contacts)));
 }
 
 void ParticleFrames::add_flow(const particles::FlowField& flow) {
@@ -104,8 +128,7 @@ void ParticleFrames::resume_fluid(double time) {
   for (const auto& [frame_time, name] : files_)
     if (frame_time < time) flows_.emplace_back(frame_time, flow_name(name));
   for (const auto& flow : flows_) {
-    if (!fs::is_regular_file(folder_ / flow.second))
-      throw_bad_input({(folder_ / flow.second).string()}, "is missing");
+    check_exists(folder_ / flow.second);
     show_flow(flow);
   }
   motion_ = particles::motion_header(playback_.dimension) +
@@ -133,6 +156,13 @@ std::string ParticleFrames::earlier_rows(const std::string& name,
   return text;
 }
 
+std::vector<FrameFile> ParticleFrames::links() const {
+  std::vector<FrameFile> links;
+  if (has_links_)
+    for (const auto& [time, name] : files_) links.emplace_back(time, links_name(name));
+  return links;
+}
+
 std::vector<std::pair<std::string, std::string>> ParticleFrames::tables() const {
   std::vector<std::pair<std::string, std::string>> texts;
   for (std::size_t t = 0; t < tables_.size(); ++t)
@@ -152,9 +182,9 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles
       throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
     if (setting.fluid) add_contact_rows(file.first, content.contacts);
     if ((files_.size() - 1) % every_ == 0)
-      keep(frame_at(file.first, setting, content.positions, content.angles,
-                    std::move(content.contacts)));
+      keep(frame_at(file.first, setting, content, std::move(content.contacts)));
   }
+  for (const auto& links : links()) check_exists(folder_ / links.second);
   if (setting.fluid) resume_fluid(time);
   for (std::size_t t = 0; t < tables_.size(); ++t)
     table_rows_[t] = earlier_rows(tables_[t].name, tables_[t].count);
@@ -164,8 +194,7 @@ void ParticleFrames::end(const particles::Setting& setting, const particles::Sta
   if (files_.empty()) return;  // writing the first frame failed
   if (files_.back().first < state.time) add(setting, state);
   if (playback_.frames.back().time < state.time)
-    keep(frame_at(state.time, setting, state.particles.positions, state.particles.angles,
-                  particles::contacts_of(setting, state)));
+    keep(frame_at(state.time, setting, state.particles, particles::contacts_of(setting, state)));
 }
 
 void ParticleFrames::keep(Frame frame) {

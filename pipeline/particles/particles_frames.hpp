@@ -33,6 +33,8 @@ using FrameFile = std::pair<double, std::string>;
 /// The name of the file of the flow of the frame in the file `frame`, particles_NNNNN.vtp:
 /// flow_NNNNN.vtu.
 std::string flow_name(const std::string& frame);
+/// The name of the file of the links of that frame: links_NNNNN.vtp.
+std::string links_name(const std::string& frame);
 
 /// Writes frames to files, and keeps those that the page and the picture draw. The memory for the
 /// kept frames is bounded: if there are too many, every second of them is dropped.
@@ -67,6 +69,8 @@ class ParticleFrames {
   const std::vector<FrameFile>& files() const { return files_; }
   /// The files of flows, in the order of their frames; empty without a fluid.
   const std::vector<FrameFile>& flows() const { return flows_; }
+  /// The files of links, in the order of their frames; empty without links.
+  std::vector<FrameFile> links() const;
   /// The text of motion.csv; empty without a fluid.
   const std::string& motion() const { return motion_; }
   /// The text of contacts.csv; empty without a fluid.
@@ -83,6 +87,7 @@ class ParticleFrames {
 
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
+  bool has_links_;
   particles::Playback playback_;
   std::vector<FrameFile> files_, flows_;
   std::string motion_, contacts_;

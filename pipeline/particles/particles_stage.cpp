@@ -155,6 +155,8 @@ class Run {
       write("motion.csv", TextKind::kHashComment, frames_.motion());
       write("contacts.csv", TextKind::kHashComment, frames_.contacts());
     }
+    if (!case_.setting.links.empty())
+      write("links.pvd", TextKind::kXml, particles::write_pvd(frames_.links()));
     for (const auto& [name, text] : frames_.tables())
       write(name.c_str(), TextKind::kHashComment, text);
     write("steps.csv", TextKind::kHashComment,

@@ -23,6 +23,12 @@ bool has_contact_without_film(const particles::Frame& frame) {
   return std::ranges::any_of(frame.contacts, [](const auto& c) { return !(c.gamma < 0); });
 }
 
+bool has_sliding_contact(const particles::Frame& frame) {
+  return std::ranges::any_of(frame.contacts, [](const particles::CurrentContact& contact) {
+    return contact.friction == particles::ContactFriction::kSlides;
+  });
+}
+
 std::string film_colour(double share) {
   // Colour-blind readers can tell the colours of the scale viridis apart, and so can readers of a
   // print in grey.

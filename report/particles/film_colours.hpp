@@ -15,6 +15,9 @@ double lowest_gamma(const particles::Playback& playback);
 /// True if a contact of the frame has gamma = 0.
 bool has_contact_without_film(const particles::Frame& frame);
 
+/// True if a contact of the frame slides.
+bool has_sliding_contact(const particles::Frame& frame);
+
 /// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
 std::string film_colour(double share);
 /// The colour of one of `levels` evenly spaced shares, the first of which is 0.
@@ -27,5 +30,6 @@ std::string film_tick_text(double tick);
 inline constexpr const char* kFilmWords =
     "gamma: minus the impulse that the film has absorbed [mass × length/time]";
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
+inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts that slide
 
 }  // namespace viscontact::report

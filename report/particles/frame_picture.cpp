@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/report/particles/film_colours.hpp"
+#include "viscontact/report/particles/frame_marks.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -130,7 +131,11 @@ std::size_t colour_class(double gamma, double lowest) {
                  std::lround(std::clamp(gamma / lowest, 0.0, 1.0) * (kContactColours - 1)));
 }
 
+// The class of contacts that slide, after those of gamma.
+constexpr std::size_t kSlidingClass = kContactColours + 1;
+
 std::string class_colour(std::size_t colour) {
+  if (colour == kSlidingClass) return kSlidingColour;
   return colour == 0 ? kTouchingColour : film_colour(static_cast<int>(colour) - 1, kContactColours);
 }
 
@@ -158,7 +163,9 @@ ContactLine line_of(const PanelSettings& d, const Frame& frame,
     radius = std::min(radius, static_cast<double>(d.playback.radii[first]));
   }
   ContactLine line;
-  line.colour = colour_class(contact.gamma, d.lowest);
+  line.colour = contact.friction == particles::ContactFriction::kSlides
+                    ? kSlidingClass
+                    : colour_class(contact.gamma, d.lowest);
   line.width = line.colour == 0 ? std::clamp(0.06 * d.view.scale * radius, 0.3, 1.0)
                                 : std::clamp(0.3 * d.view.scale * radius, 0.8, 5.0);
   // The line to an image is drawn at both sides of the period.
@@ -173,57 +180,18 @@ bool drawn(const PanelSettings& d, const particles::CurrentContact& contact) {
   return shown(contact.second) && (contact.first < 0 || shown(contact.first));
 }
 
-/// True if the panel shows a part of a circle about (x, y) of the page.
-bool is_seen(const PanelSettings& d, double x, double y, double r) {
-  return x > -r && x < d.width + r && y > -r && y < d.height + r;
-}
-
-std::string circle(const PanelSettings& d, const Vector& at, double radius) {
-  const double x = d.view.x(at), y = d.view.y(at), r = d.view.scale * radius;
-  return is_seen(d, x, y, r)
-             ? fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", x, y, r)
-             : "";
-}
-
-/// Calls visit(k, place) for each drawn particle k and for those of its images that may be seen.
-template <class Visit>
-void for_each_image(const PanelSettings& d, const Frame& frame, const Visit& visit) {
-  for (std::size_t k = 0; k < d.playback.radii.size(); k += d.every)
-    for (std::int32_t image = -particles::kLargestImage; image <= particles::kLargestImage;
-         ++image) {
-      const Vector shift = shift_of(d.playback.cell, image);
-      if (image == 0 || shift[0] != 0 || shift[1] != 0)
-        visit(k, position(d.playback, frame, k) + shift);
-    }
-}
-
-/// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
-std::string angle_marks(const PanelSettings& d, const Frame& frame) {
-  constexpr double kFromCentre = 0.66, kRadius = 0.13;  // of the disc's radius
-  constexpr double kSmallest = 0.5;                     // radius of a dot [page units]
-  if (frame.angles.size() != d.playback.radii.size()) return "";
-  std::string text;
-  for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
-    const double r = d.playback.radii[k], angle = frame.angles[k];
-    if (kRadius * r * d.view.scale >= kSmallest)
-      text += circle(d, centre + kFromCentre * r * Vector{std::cos(angle), std::sin(angle), 0},
-                     kRadius * r);
-  });
-  return "<g fill=\"#4a4a44\">\n" + text + "</g>\n";
-}
-
 std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
   std::string text = behind + plane_2d_solids(d, frame);
   text += d.is_in_fluid ? "<g fill=\"#f1ece0\" stroke=\"#3c3a34\" stroke-width=\".8\">\n"
                         : "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
   for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
-    text += circle(d, centre, d.playback.radii[k]);
+    if (!is_in_body(d.playback, k)) text += circle(d, centre, d.playback.radii[k]);
   });
-  text += "</g>\n" + angle_marks(d, frame) + plane_2d_lines(d, frame);
+  text += "</g>\n" + body_discs(d, frame) + angle_marks(d, frame) + plane_2d_lines(d, frame);
   // All contacts of one colour make one path. Its width is the mean of the widths of these
   // contacts.
-  std::array<ContactLine, kContactColours + 1> lines;
-  std::array<int, kContactColours + 1> counts{};
+  std::array<ContactLine, kSlidingClass + 1> lines;
+  std::array<int, kSlidingClass + 1> counts{};
   for (const auto& contact : frame.contacts) {
     if (!drawn(d, contact)) continue;
     const auto line = line_of(d, frame, contact);
@@ -236,7 +204,7 @@ std::string discs(const PanelSettings& d, const Frame& frame, const std::string&
     if (counts[c] > 0)
       text += fmt::format("<path stroke=\"{}\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
                           class_colour(c), lines[c].width / counts[c], lines[c].path);
-  return text + "</g>\n";
+  return text + "</g>\n" + link_marks(d, frame);
 }
 
 std::string spheres(const PanelSettings& d, const Frame& frame) {
@@ -258,11 +226,13 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
   std::string text = plane_3d_patches(d, frame, true);
   text +=
       "<g fill=\"url(#ball)\" stroke=\"#34536e\" stroke-width=\".5\" stroke-linecap=\"round\">\n";
-  for (std::size_t i = 0; i < order.size(); ++i)
-    text +=
-        circle(d, position(d.playback, frame, order[i].second), d.playback.radii[order[i].second]) +
-        with[i];
-  return text + "</g>\n" + plane_3d_patches(d, frame, false);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto k = order[i].second;
+    const auto sphere = circle(d, position(d.playback, frame, k), d.playback.radii[k]);
+    text += is_in_body(d.playback, k) ? "<g fill=\"url(#body)\">" + sphere + "</g>\n" : sphere;
+    text += orientation_marks(d, frame, k) + with[i];
+  }
+  return text + "</g>\n" + link_marks(d, frame) + plane_3d_patches(d, frame, false);
 }
 
 }  // namespace

@@ -67,13 +67,14 @@ void choose_frames(PageData& data, const Playback& playback, std::size_t every_f
 }
 
 /// The contacts of all frames: a list of all pairs that are ever in contact, and for each frame the
-/// contacts in it. A contact is written as its distance in the list from the contact before it, and
-/// a byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma).
+/// contacts in it. A contact is written as its distance in the list from the contact before it, a
+/// byte for gamma from 0 (gamma = 0) to 255 (the lowest gamma) and, in a motion with friction, a
+/// byte with its ContactFriction.
 struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
   Bytes images;   ///< int8: CurrentContact::image of each pair
   Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
-  Bytes frames;
+  Bytes frames;   ///< as said above
 };
 
 using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
@@ -96,7 +97,11 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
     append(contacts.pairs, second / every);
     append(contacts.images, static_cast<std::int8_t>(image));
   }
-  std::vector<std::pair<std::uint32_t, unsigned char>> listed;
+  struct Listed {
+    std::uint32_t at;
+    unsigned char level, friction;
+  };
+  std::vector<Listed> listed;
   for (const auto f : data.frames) {
     listed.clear();
     for (const auto& c : playback.frames[f].contacts) {
@@ -106,13 +111,15 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
       const auto level =
           c.gamma < 0 ? std::max(1L, std::lround(255 * std::clamp(c.gamma / lowest, 0.0, 1.0)))
                       : 0L;
-      listed.emplace_back(static_cast<std::uint32_t>(at), static_cast<unsigned char>(level));
+      listed.push_back({static_cast<std::uint32_t>(at), static_cast<unsigned char>(level),
+                        static_cast<unsigned char>(c.friction)});
     }
-    std::ranges::sort(listed);
+    std::ranges::sort(listed, {}, &Listed::at);
     std::uint32_t before = 0;
-    for (const auto& [at, level] : listed) {
+    for (const auto& [at, level, friction] : listed) {
       append_short(contacts.frames, at - before);
       contacts.frames.push_back(level);
+      if (playback.has_friction) contacts.frames.push_back(friction);
       before = at;
     }
     append(contacts.offsets, static_cast<std::uint32_t>(contacts.frames.size()));
@@ -120,12 +127,17 @@ Contacts contacts_of(const Playback& playback, const PageData& data, double lowe
   return contacts;
 }
 
-/// True if the page shows how far the particles have turned.
-bool has_angles(const Playback& playback) {
-  return !playback.frames.empty() &&
-         std::ranges::all_of(playback.frames, [&](const particles::Frame& frame) {
-           return !frame.angles.empty() && frame.angles.size() == playback.radii.size();
-         });
+/// Numbers that say how far a particle has turned: none, an angle, or a quaternion.
+std::size_t numbers_of_turn(const Playback& playback) {
+  const auto all_have = [&](const std::vector<float> particles::Frame::*member,
+                            std::size_t numbers) {
+    return !playback.frames.empty() && !playback.radii.empty() &&
+           std::ranges::all_of(playback.frames, [&](const particles::Frame& frame) {
+             return (frame.*member).size() == numbers * playback.radii.size();
+           });
+  };
+  if (all_have(&particles::Frame::angles, 1)) return 1;
+  return all_have(&particles::Frame::orientations, 4) ? 4 : 0;
 }
 
 /// Chooses frames, and whether contacts are shown, so that the page is not too large.
@@ -138,7 +150,7 @@ Contacts choose_content(PageData& data, const Playback& playback, double lowest,
   const auto planes = playback.frames.empty() ? 0 : playback.frames.front().planes.size();
   const auto positions =
       particles * static_cast<std::size_t>(playback.dimension * data.position_bytes);
-  const auto angles = has_angles(playback) ? particles * sizeof(float) : 0;
+  const auto angles = particles * numbers_of_turn(playback) * sizeof(float);
   const auto bytes_of_frame =
       base64_size(positions + angles + planes * 6 * sizeof(float) + sizeof(double));
   const auto radii_and_ids =
@@ -165,12 +177,13 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
   PageData data;
   choose_position_bytes(data, playback);
   auto contacts = choose_content(data, playback, lowest_gamma, other_bytes);
-  Bytes radii, ids, times, positions, angles, planes;
-  const bool turns = has_angles(playback);
+  Bytes radii, ids, bodies, times, positions, turns, planes;
+  const auto turn_numbers = numbers_of_turn(playback);
   const auto dimension = static_cast<std::size_t>(playback.dimension);
   for (std::size_t k = 0; k < playback.radii.size(); k += data.every_particle) {
     append(radii, playback.radii[k]);
     if (!playback.ids.empty()) append(ids, playback.ids[k]);
+    if (!playback.bodies.empty()) append(bodies, playback.bodies[k]);
   }
   for (const auto f : data.frames) {
     const auto& frame = playback.frames[f];
@@ -186,8 +199,9 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
                  static_cast<std::uint16_t>(std::lround(
                      step > 0 ? std::clamp((x - data.low[d]) / step, 0.0, 65535.0) : 0.0)));
       }
-    for (std::size_t k = 0; turns && k < playback.radii.size(); k += data.every_particle)
-      append(angles, frame.angles[k]);
+    const auto& written = turn_numbers == 1 ? frame.angles : frame.orientations;
+    for (std::size_t k = 0; turn_numbers > 0 && k < playback.radii.size(); k += data.every_particle)
+      for (std::size_t i = 0; i < turn_numbers; ++i) append(turns, written[k * turn_numbers + i]);
     for (const auto& plane : frame.planes) {
       // In two dimensions, a third component of the normal is the radius of a circle.
       const auto normal = plane.is_curved() ? particles::Vector{0, 0, plane.radius} : plane.normal;
@@ -197,7 +211,9 @@ PageData page_data(const Playback& playback, double lowest_gamma, std::size_t ot
   }
   data.blocks = {{"radii", radii}};
   if (!ids.empty()) data.blocks.emplace_back("ids", ids);
-  if (turns) data.blocks.emplace_back("angles", angles);
+  if (!bodies.empty()) data.blocks.emplace_back("bodies", bodies);
+  if (turn_numbers > 0)
+    data.blocks.emplace_back(turn_numbers == 1 ? "angles" : "orientations", turns);
   if (playback.cell.is_periodic()) data.blocks.emplace_back("images", contacts.images);
   data.blocks.insert(data.blocks.end(), {{"times", times},
                                          {"positions", positions},

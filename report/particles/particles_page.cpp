@@ -30,18 +30,30 @@ std::string data_of(const Playback& playback, const PageData& data, double lowes
   std::string colours;
   for (int c = 0; c < kPageColours; ++c)
     colours += fmt::format("{}\"{}\"", c == 0 ? "" : ",", film_colour(c, kPageColours));
+  // The numbers of the ends are those of the drawn particles.
+  const auto& links = data.every_particle == 1 ? playback.links : particles::DrawnLinks{};
+  const auto ends_of = [](const std::vector<particles::DrawnLinks::Ends>& ends) {
+    std::vector<std::string> texts;
+    for (const auto& [first, second] : ends) texts.push_back(fmt::format("[{},{}]", first, second));
+    return fmt::format("{}", fmt::join(texts, ","));
+  };
+  std::string hinges;
+  for (const auto& at : links.hinges)
+    hinges += fmt::format("{}[{}]", hinges.empty() ? "" : ",", fmt::join(at, ","));
   const auto list = [&](const auto& x) {
     return fmt::format("[{}]", fmt::join(x.begin(), x.begin() + playback.dimension, ","));
   };
   auto text = fmt::format(
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
-      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{}}}"
+      "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{},"
+      "\"sliding\":{},\"hinges\":[{}],\"springs\":[{}],\"arms\":[{}]}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(box.low), list(box.high), lowest, kTouchingColour, colours, playback.cell.from[0],
       playback.cell.from[1], playback.cell.lengths[0], playback.cell.lengths[1], has_axis,
-      flow.settings);
+      flow.settings, playback.has_friction ? fmt::format("\"{}\"", kSlidingColour) : "null", hinges,
+      ends_of(links.springs), ends_of(links.arms));
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,
@@ -69,7 +81,7 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
-std::string legend(double lowest, bool touching, const FlowOfPage& flow) {
+std::string legend(double lowest, bool touching, bool sliding, const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (lowest < 0) {
     std::vector<std::string> colours;
@@ -84,6 +96,10 @@ std::string legend(double lowest, bool touching, const FlowOfPage& flow) {
         "<div class=touching><span class=line style=\"background:{}\"></span> touching, no "
         "film</div>\n",
         kTouchingColour);
+  if (sliding)
+    text += fmt::format(
+        "<div class=touching><span class=line style=\"background:{}\"></span> sliding</div>\n",
+        kSlidingColour);
   return text.empty() ? "" : "<div class=legend>\n" + text + "</div>\n";
 }
 
@@ -110,6 +126,7 @@ std::string particles_page(const Playback& original, const std::string& title) {
   const auto data = page_data(playback, lowest, bytes_of_flow);
   if (!extent) box = view_box_of(playback, data.frames);
   const bool touching = std::ranges::any_of(playback.frames, has_contact_without_film);
+  const bool sliding = std::ranges::any_of(playback.frames, has_sliding_contact);
   const bool flat = playback.dimension == 2;
   const auto words = words_for(original, data);
   // The Content-Security-Policy forbids the browser to load anything from elsewhere.
@@ -136,7 +153,7 @@ std::string particles_page(const Playback& original, const std::string& title) {
       "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
       "see "
       "its values.</p>\n",
-      escaped(words), flow.controls, legend(lowest, touching, flow),
+      escaped(words), flow.controls, legend(lowest, touching, sliding, flow),
       flat ? "Drag to move the picture; use the wheel or pinch to zoom."
            : "Drag to turn the picture, or with Shift or two fingers to move it; use the wheel or "
              "pinch to zoom.");

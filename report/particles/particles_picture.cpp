@@ -134,7 +134,7 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
 }
 
 /// The beginning of the SVG, with the title.
-std::string opening(const std::string& title, double height) {
+std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
@@ -142,12 +142,17 @@ std::string opening(const std::string& title, double height) {
       "<title>{2}</title>\n"
       "<defs><radialGradient id=\"ball\" cx=\".36\" cy=\".32\" r=\".72\">"
       "<stop offset=\"0\" stop-color=\"#e3eef7\"/><stop offset=\".5\" stop-color=\"#a3bfd8\"/>"
-      "<stop offset=\"1\" stop-color=\"#5b7f9f\"/></radialGradient></defs>\n"
+      "<stop offset=\"1\" stop-color=\"#5b7f9f\"/></radialGradient>{5}</defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kPictureWidth, height, escaped(title), kPictureWidth / 2,
       // A character is on average about half as wide as high.
-      std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)));
+      std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
+      has_bodies ? "<radialGradient id=\"body\" cx=\".36\" cy=\".32\" r=\".72\">"
+                   "<stop offset=\"0\" stop-color=\"#f6ead0\"/><stop offset=\".5\" "
+                   "stop-color=\"#dcc79c\"/><stop offset=\"1\" stop-color=\"#a98d55\"/>"
+                   "</radialGradient>"
+                 : "");
 }
 
 /// The panels of the chosen frames with their times, in rows of `columns`.
@@ -208,13 +213,21 @@ std::string particles_picture(const Playback& original, const std::string& title
     bars.push_back(film_bar(panel.lowest, std::ranges::any_of(chosen, [&](std::size_t f) {
                               return has_contact_without_film(playback.frames[f]);
                             })));
-  auto svg = opening(title, bottom + (bars.empty() ? 0 : 60));
+  const bool slides = std::ranges::any_of(
+      chosen, [&](std::size_t f) { return has_sliding_contact(playback.frames[f]); });
+  auto svg =
+      opening(title, bottom + (bars.empty() ? (slides ? 12 : 0) : 60), !playback.bodies.empty());
   svg += panels_of(panel, flows, chosen, columns);
   if (panel.every > 1)
     svg += fmt::format(
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "
         "is drawn</text>\n",
         kPictureWidth - kEdge, bottom + 4, panel.every);
+  if (slides)
+    svg += fmt::format(
+        "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" fill=\"{}\">contacts that slide are "
+        "orange</text>\n",
+        kEdge, bottom + 4, kSlidingColour);
   constexpr double kBar = 360;  // width of a colour bar
   for (std::size_t b = 0; b < bars.size(); ++b) {
     const double middle =

@@ -5,9 +5,13 @@
 let withContacts = true;  // whether the reader wants to see them
 
 // The colours of contacts: index 0 is for gamma = 0, the others for gamma < 0 from light to dark.
-const colours = [motion.touching, ...motion.colours];
-const colourOf = level =>
-  (level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1)));
+// The last colour is for contacts that slide.
+const colours = [motion.touching, ...motion.colours, ...(motion.sliding ? [motion.sliding] : [])];
+function colourOf(i) {
+  if (lines.friction[i] === 2) return colours.length - 1;
+  const level = lines.level[i];
+  return level === 0 ? 0 : 1 + Math.round(level / 255 * (motion.colours.length - 1));
+}
 
 /** The line of a contact, from a centre to the other centre or to the foot on the plane. */
 function traceContact(i) {
@@ -37,8 +41,9 @@ function traceContact(i) {
 function widthOf(i) {
   const first = pairs[2 * lines.pair[i]], second = pairs[2 * lines.pair[i] + 1];
   const r = first < 0 ? pageRadius[second] : Math.min(pageRadius[first], pageRadius[second]);
-  return lines.level[i] === 0 ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
-                              : Math.min(9 * dots, Math.max(1, 0.3 * r));
+  return lines.level[i] === 0 && lines.friction[i] !== 2
+    ? Math.min(1.5 * dots, Math.max(0.5, 0.08 * r))
+    : Math.min(9 * dots, Math.max(1, 0.3 * r));
 }
 
 const contactSeen = i => {
@@ -54,7 +59,7 @@ function drawContacts() {
     let width = 0, drawn = 0;
     pen.beginPath();
     for (let i = 0; i < lines.count; ++i)
-      if (colourOf(lines.level[i]) === c && contactSeen(i)) {
+      if (colourOf(i) === c && contactSeen(i)) {
         traceContact(i);
         width += widthOf(i);
         ++drawn;

@@ -21,6 +21,10 @@ const written = motion.bytes === 2 ? new Uint16Array(bytes('positions'))
 const planeNumbers = new Float32Array(bytes('planes'));
 const optional = (id, Kind) => (document.getElementById(id) ? new Kind(bytes(id)) : null);
 const writtenAngles = optional('angles', Float32Array);
+// Unit quaternions (w, x, y, z) of spheres, and the numbers of the rigid bodies of all particles (-1:
+// none).
+const writtenOrientations = optional('orientations', Float32Array);
+const bodies = optional('bodies', Int32Array);
 // Of each pair: x + 3 y, where the second particle is shifted by x and y periods.
 const images = optional('images', Int8Array);
 const pairs = new Int32Array(bytes('pairs')), offsets = new Uint32Array(bytes('offsets'));
@@ -35,6 +39,7 @@ const firstTime = frames ? times[0] : 0, lastTime = frames ? times[frames - 1] :
 
 const positions = new Float32Array(count * dim);  // at the present time
 const angles = new Float32Array(writtenAngles ? count : 0);
+const orientations = new Float32Array(writtenOrientations ? 4 * count : 0);
 // At the present time: {point, normal, radius}. With a radius > 0 it is a circle about `point`,
 // whose normal is 0.
 let planes = [];
@@ -43,6 +48,7 @@ const lines = {
   count: 0,
   pair: new Int32Array(pairs.length / 2),
   level: new Uint8Array(pairs.length / 2),
+  friction: new Uint8Array(pairs.length / 2),  // 0 none, 1 sticks, 2 slides
 };
 
 /** The frame at or before a time, and the share (0 to 1) of the way to the next frame. */
@@ -74,6 +80,7 @@ function setTime(time) {
   const fromAngle = frame * count, toAngle = Math.min(frame + 1, frames - 1) * count;
   for (let k = 0; k < angles.length; ++k)
     angles[k] = (1 - share) * writtenAngles[fromAngle + k] + share * writtenAngles[toAngle + k];
+  setOrientations(frame, Math.min(frame + 1, frames - 1), share);
   const m = planeCount * 6, fromPlane = frame * m, toPlane = Math.min(frame + 1, frames - 1) * m;
   planes = [];
   for (let i = 0; i < m; i += 6) {
@@ -86,8 +93,25 @@ function setTime(time) {
   readContacts(Math.min(frames - 1, frame + Math.round(share)));
 }
 
+/** Interpolates orientations between two frames, along the shorter way. */
+function setOrientations(frame, next, share) {
+  for (let k = 0; k < orientations.length; k += 4) {
+    const from = 4 * count * frame + k, to = 4 * count * next + k;
+    let along = 0, length = 0;
+    for (let i = 0; i < 4; ++i)
+      along += writtenOrientations[from + i] * writtenOrientations[to + i];
+    for (let i = 0; i < 4; ++i) {
+      const end = Math.sign(along || 1) * writtenOrientations[to + i];
+      orientations[k + i] = (1 - share) * writtenOrientations[from + i] + share * end;
+      length += orientations[k + i] ** 2;
+    }
+    for (let i = 0; i < 4; ++i) orientations[k + i] /= Math.sqrt(length) || 1;
+  }
+}
+
 /**
- * Decodes a frame's contacts: distance in the list of pairs (seven bits a byte), level of gamma.
+ * Decodes a frame's contacts: distance in the list of pairs (seven bits a byte), level of gamma,
+ * and what friction does if there is friction.
  */
 function readContacts(frame) {
   if (lines.frame === frame) return;
@@ -103,6 +127,7 @@ function readContacts(frame) {
     } while (byte & 128);
     pair += step;
     lines.pair[lines.count] = pair;
-    lines.level[lines.count++] = contactBytes[at++];
+    lines.level[lines.count] = contactBytes[at++];
+    lines.friction[lines.count++] = motion.sliding ? contactBytes[at++] : 0;
   }
 }

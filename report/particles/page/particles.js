@@ -3,21 +3,27 @@
 
 const kLargestSprite = 512;  // [device pixels]
 const kDisc = {fill: '#a9c3da', edge: '#4f728f'};
-const kDiscInFluid = {fill: '#f1ece0', edge: '#3c3a34', mark: '#4a4a44'};
-const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];  // from the brightest point to the rim
+const kDiscInFluid = {fill: '#f1ece0', edge: '#3c3a34'};
+const kDiscOfBody = {fill: '#e0cda6', edge: '#8a713b'};
+// From the brightest point to the rim.
+const kBall = ['#e3eef7', '#a3bfd8', '#5b7f9f', '#34536e'];
+const kBallOfBody = ['#f6ead0', '#dcc79c', '#a98d55', '#7a6231'];
 const disc = motion.flow ? kDiscInFluid : kDisc;
+const isInBody = k => bodies !== null && bodies[k] >= 0;
 
-function paintParticle(p, x, y, r) {
+function paintParticle(p, x, y, r, inBody) {
   const rim = Math.min(2 * dots, Math.max(0.5, 0.07 * r));
   if (flat) {
-    p.fillStyle = disc.fill;
-    p.strokeStyle = disc.edge;
+    const colours = inBody ? kDiscOfBody : disc;
+    p.fillStyle = colours.fill;
+    p.strokeStyle = colours.edge;
   } else {
+    const ball = inBody ? kBallOfBody : kBall;
     const lightX = x - 0.28 * r, lightY = y - 0.36 * r;
     const light = p.createRadialGradient(lightX, lightY, 0, lightX, lightY, 1.44 * r);
-    for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, kBall[i]);
+    for (let i = 0; i < 3; ++i) light.addColorStop(i / 2, ball[i]);
     p.fillStyle = light;
-    p.strokeStyle = kBall[3];
+    p.strokeStyle = ball[3];
   }
   p.lineWidth = rim;
   p.beginPath();
@@ -27,27 +33,31 @@ function paintParticle(p, x, y, r) {
 }
 
 // Copying a picture is faster than drawing thousands of spheres. There is one picture for each
-// power of two in size, so that none is reduced to less than half its size.
+// power of two in size, so that none is reduced to less than half its size; negative sizes are
+// those of particles of bodies.
 const sprites = new Map();
-function spriteFor(size) {
+function spriteFor(size, inBody) {
   const side = 2 ** Math.ceil(Math.log2(Math.max(4, size)));
-  if (!sprites.has(side)) {
+  const key = inBody ? -side : side;
+  if (!sprites.has(key)) {
     const sprite = document.createElement('canvas');
     sprite.width = sprite.height = side;
-    paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2);
-    sprites.set(side, sprite);
+    paintParticle(sprite.getContext('2d'), side / 2, side / 2, side / 2,
+                  inBody);
+    sprites.set(key, sprite);
   }
-  return sprites.get(side);
+  return sprites.get(key);
 }
 
-function particle(x, y, r) {
+function particle(x, y, r, inBody) {
   if (r < 1) {
+    pen.fillStyle = flat ? (inBody ? kDiscOfBody : disc).fill : (inBody ? kBallOfBody : kBall)[1];
     const half = Math.max(r, 0.35);
     pen.fillRect(x - half, y - half, 2 * half, 2 * half);
   } else if (2 * r > kLargestSprite) {
-    paintParticle(pen, x, y, r);
+    paintParticle(pen, x, y, r, inBody);
   } else {
-    pen.drawImage(spriteFor(2 * r), x - r, y - r, 2 * r, 2 * r);
+    pen.drawImage(spriteFor(2 * r, inBody), x - r, y - r, 2 * r, 2 * r);
   }
 }
 
@@ -110,29 +120,18 @@ function drawSpheres() {
   for (let j = 0; j < count; ++j) {
     const k = order[j];
     if (isSeen(k)) {
-      pen.fillStyle = kBall[1];
-      particle(pageX[k], pageY[k], pageRadius[k]);
+      particle(pageX[k], pageY[k], pageRadius[k], isInBody(k));
+      if (orientations.length) drawAxes(k);
     }
     for (let i = chain[k]; i >= 0; i = chained[i]) {
       if (!contactSeen(i)) continue;
-      pen.strokeStyle = colours[colourOf(lines.level[i])];
+      pen.strokeStyle = colours[colourOf(i)];
       pen.lineWidth = widthOf(i);
       pen.beginPath();
       traceContact(i);
       pen.stroke();
     }
   }
-}
-
-/** A dot at the rim, which shows how far a disc has turned. */
-function drawMark(k, x, y) {
-  const r = pageRadius[k];
-  if (r < 4 * dots) return;
-  const markX = x + 0.66 * r * Math.cos(angles[k]), markY = y - 0.66 * r * Math.sin(angles[k]);
-  pen.beginPath();
-  pen.arc(markX, markY, 0.13 * r, 0, 2 * Math.PI);
-  pen.fillStyle = disc.mark || disc.edge;
-  pen.fill();
 }
 
 function drawDiscs() {
@@ -147,8 +146,7 @@ function drawDiscs() {
         const size = pageRadius[k];
         if (pageAtX < -size || pageAtX > canvas.width + size) continue;
         if (pageAtY < -size || pageAtY > canvas.height + size) continue;
-        pen.fillStyle = disc.fill;
-        particle(pageAtX, pageAtY, size);
+        particle(pageAtX, pageAtY, size, isInBody(k));
         if (angles.length) drawMark(k, pageAtX, pageAtY);
       }
   }

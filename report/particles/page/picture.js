@@ -59,13 +59,16 @@ function draw() {
     if (flow) flow.draw(pen, player.time, flowField.value, streamlines.checked, dots);
     drawSolids();
     drawDiscs();
+    drawBodies();
     drawLines();
     if (withContacts) drawContacts();
+    drawLinks();
     pen.restore();
     if (periodX || periodY) drawPeriods();
   } else {
     drawPatches(true);
     drawSpheres();
+    drawLinks();
     drawPatches(false);
   }
   if (hovered >= 0) {

@@ -27,7 +27,8 @@ function readPointer() {
   const first = hovered * dim + (motion.hasAxis ? 1 : 0);
   const place = [...positions.subarray(first, hovered * dim + dim)].map(number).join(', ');
   const name = ids ? ids[hovered] : hovered * motion.every;
-  readout.textContent = `particle ${name}: radius ${number(radii[hovered])}, at (${place}), ` +
+  const body = isInBody(hovered) ? ` of body ${bodies[hovered]}` : '';
+  readout.textContent = `particle ${name}${body}: radius ${number(radii[hovered])}, at (${place}), ` +
       `${contacts} contact${contacts === 1 ? '' : 's'}`;
 }
 

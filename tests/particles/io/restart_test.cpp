@@ -53,8 +53,8 @@ std::string of_version(int version, const State& state,
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
   // Version 3 added the lengths of six lists, which are empty here, and a number; version 4 the
-  // lengths of two more, and a number.
-  const std::size_t added = version == 4 ? 16 : version == 3 ? 40 : 96;
+  // lengths of two more, and a number; version 5 the lengths of three more.
+  const std::size_t added = version == 4 ? 24 : version == 3 ? 48 : 104;
   EXPECT_EQ(bytes.substr(bytes.size() - added), std::string(added, '\0'));
   bytes.erase(bytes.size() - added);
   change(bytes);
@@ -136,6 +136,16 @@ TEST_F(RestartFile, OfAFluidIsReadAsItWasWritten) {
   EXPECT_EQ(again.earlier_forces, state.earlier_forces);
   EXPECT_EQ(again.earlier_step, 0.1);
   EXPECT_EQ(write_restart(again), write_restart(state));
+}
+
+TEST_F(RestartFile, OfFrictionHasWhatTheSolidsCarried) {
+  State state = disc_on_plane(-0.5);
+  state.walls[0].friction = {0.125, 0, 0};
+  state.walls[0].carried = 1.0 / 3;
+  EXPECT_EQ(read(write_restart(state)).walls, state.walls);
+  state.walls[0].carried = -1;
+  EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
+              HasSubstr("is not a whole restart file"));
 }
 
 TEST_F(RestartFile, OnAnAxisHasOneNumberForEachParticle) {

@@ -1,0 +1,98 @@
+// Writes hinges, springs and arms as VTK PolyData (link_vtk.hpp).
+#include "viscontact/particles/io/link_vtk.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "viscontact/particles/io/appended_data.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+enum class Kind : std::int32_t { kHinge, kSpring, kArm };
+
+/// The arrays of the file.
+struct LinkCells {
+  std::vector<double> points, forces;
+  std::vector<std::int32_t> kinds, ids;
+  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+
+  std::int64_t add_point(const Vector& x) {
+    points.insert(points.end(), x.begin(), x.end());
+    return std::ssize(points) / 3 - 1;
+  }
+  void add_cell(Kind kind, std::size_t id, const Vector& force) {
+    kinds.push_back(static_cast<std::int32_t>(kind));
+    ids.push_back(static_cast<std::int32_t>(id));
+    forces.insert(forces.end(), force.begin(), force.end());
+  }
+};
+
+/// A place in space; on an axis the first number is along z.
+Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
+
+/// Adds the line of a spring or arm that pushes its ends apart with `force`.
+void add_line(LinkCells& cells, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
+              std::int32_t second, double force) {
+  const Vector from = p.position(index_of(first));
+  Vector apart = p.position(index_of(second)) - from;
+  for (std::size_t d = 0; d < 2; ++d)
+    if (const double period = p.cell.lengths[d]; period > 0)
+      apart[d] -= period * std::round(apart[d] / period);
+  const auto begin = cells.add_point(in_space(from, p.dimension));
+  const auto end = cells.add_point(in_space(from + apart, p.dimension));
+  cells.lines.insert(cells.lines.end(), {begin, end});
+  cells.line_ends.push_back(std::ssize(cells.lines));
+  const double distance = norm(apart);
+  cells.add_cell(kind, id,
+                 distance > 0 ? in_space(force / distance * apart, p.dimension) : Vector{});
+}
+
+}  // namespace
+
+std::string write_links(const Setting& setting, const State& state) {
+  const auto& p = state.particles;
+  const auto& links = setting.links;
+  const auto force = [&](std::size_t place) {
+    return state.link_forces.empty() ? 0 : state.link_forces[place];
+  };
+  LinkCells cells;
+  for (std::size_t k = 0; k < links.hinges.size(); ++k) {
+    cells.vertices.push_back(cells.add_point(links.hinges[k].at));
+    cells.vertex_ends.push_back(std::ssize(cells.vertices));
+    Vector on_body{};
+    for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d)
+      on_body[d] = force(k * Links::forces_of_hinge(p.dimension) + d);
+    cells.add_cell(Kind::kHinge, k, on_body);
+  }
+  for (std::size_t k = 0; k < links.springs.size(); ++k)
+    add_line(cells, p, Kind::kSpring, k, links.springs[k].first, links.springs[k].second,
+             force(links.place_of_spring(k, p.dimension)));
+  for (std::size_t k = 0; k < links.arms.size(); ++k)
+    add_line(cells, p, Kind::kArm, k, links.arms[k].first, links.arms[k].second,
+             force(links.place_of_arm(k, p.dimension)));
+  AppendedData data;
+  auto text = AppendedData::opening("PolyData");
+  text += fmt::format(
+      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
+      cells.points.size() / 3, cells.vertex_ends.size(), cells.line_ends.size());
+  text += "<CellData Scalars=\"kind\" Vectors=\"force\">\n";
+  text += data.array("Int32", "kind", 1, cells.kinds);
+  text += data.array("Int32", "id", 1, cells.ids);
+  text += data.array("Float64", "force", 3, cells.forces);
+  text += "</CellData>\n<Points>\n";
+  text += data.array("Float64", "Points", 3, cells.points);
+  text += "</Points>\n<Verts>\n";
+  text += data.array("Int64", "connectivity", 1, cells.vertices);
+  text += data.array("Int64", "offsets", 1, cells.vertex_ends);
+  text += "</Verts>\n<Lines>\n";
+  text += data.array("Int64", "connectivity", 1, cells.lines);
+  text += data.array("Int64", "offsets", 1, cells.line_ends);
+  text += "</Lines>\n</Piece>\n</PolyData>\n";
+  return text + data.closing();
+}
+
+}  // namespace viscontact::particles
