@@ -69,6 +69,25 @@ def raft():
     write("raft.csv", 2, rows)
 
 
+def heap_discs(seed):
+    """A row of HEAP_FLOOR discs of radius 0.5 that make the floor, and 300 discs of radii 0.4 to 0.6 in a steep triangle above it."""
+    random.seed(seed)
+    rows = [(k - HEAP_FLOOR / 2 + 0.5, 0, 0, 0, 0.5, 1) for k in range(HEAP_FLOOR)]
+    for row in range(24):
+        for k in range(24 - row):
+            radius = 0.4 * (0.6 / 0.4) ** random.random()
+            x = 1.22 * (k - (23 - row) / 2) + random.uniform(-0.005, 0.005)
+            rows.append((x, 1.12 + 1.236 * row, 0, 0, radius, math.pi * radius**2))
+    return rows
+
+
+HEAP_FLOOR = 100
+
+
+def heap():
+    write("heap.csv", 2, heap_discs(1))
+
+
 if __name__ == "__main__":
-    for make in (billiard_break, billiards, lottery, settling, raft):
+    for make in (billiard_break, billiards, heap, lottery, settling, raft):
         make()

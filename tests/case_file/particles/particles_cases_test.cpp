@@ -16,6 +16,8 @@ namespace {
 
 using particles::CurrentContact;
 using particles::dot;
+using particles::norm;
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 using particles::Simulation;
 using ::testing::ElementsAre;
 
@@ -158,6 +160,53 @@ TEST(Lottery, BallsHangFromTheWallsThatPressedThem) {
   });
   EXPECT_TRUE(overhead);
   EXPECT_LE(lottery.overlap(), lottery.of().setting.solver.tolerance);
+}
+
+TEST(LotteryWithFriction, WallsTurnTheBallsAndCarryThemUp) {
+  ShippedRun lottery("lottery_friction");
+  bool slides = false, sticks = false;
+  lottery.to(5, [&] {
+    for (const auto& c : lottery.contacts()) {
+      slides = slides || c.friction == particles::ContactFriction::kSlides;
+      sticks = sticks || c.friction == particles::ContactFriction::kSticks;
+    }
+  });
+  EXPECT_TRUE(slides && sticks);
+  EXPECT_LE(lottery.overlap(), lottery.of().setting.solver.tolerance);
+  const auto& spins = lottery.now().angular_velocities;
+  EXPECT_TRUE(std::ranges::any_of(spins, [](double w) { return std::abs(w) > 0.1; }));
+}
+
+TEST(Heap, RoughDiscsComeToRestInAHeapOnTheFloorThatHingesHold) {
+  ShippedRun heap("heap");
+  const auto start = heap.now();
+  heap.to(20);
+  const auto now = heap.now();
+  double highest = 0;
+  for (std::size_t k = 0; k < now.count(); ++k) {
+    if (k < 100)
+      EXPECT_LT(norm(now.position(k) - start.position(k)), 1e-5) << k;
+    else
+      highest = std::max(highest, now.position(k)[1]);
+  }
+  // A heap of slope 0, 300 discs of area pi/4 on a length of 100, would be 3 high.
+  EXPECT_GT(highest, 6);
+  EXPECT_LT(heap.kinetic_energy(), 1e-2 * fallen(start, now));
+}
+
+TEST(Catapult, ThrowsADiscAndTheHoistLiftsItsLoad) {
+  ShippedRun catapult("catapult");
+  double highest = 0;
+  catapult.to(catapult.of().end_time, [&] {
+    const auto& p = catapult.now();
+    highest = std::max(highest, p.position(8)[1]);
+    EXPECT_NEAR(norm(p.position(3) - particles::Vector{0, 4, 0}), 0, 1e-9) << catapult.time();
+    const double length = catapult.time() < 2 ? 10 : std::max(4.0, 10 - 1.5 * (catapult.time() - 2));
+    EXPECT_NEAR(norm(p.position(10) - p.position(9)), length, 1e-9) << catapult.time();
+  });
+  EXPECT_GT(highest, 9);
+  // The load hangs about the length 3.5 + m g/k below the end of the arm.
+  EXPECT_NEAR(catapult.now().position(11)[1], 16 - 4 - (3.5 + 2.0 / 4), 1);
 }
 
 TEST(Settling, DiscsLoseTheEnergyOfTheirFallInTheBox) {
