@@ -56,6 +56,9 @@ constexpr std::array kModels = {
           kInertia, kNoFluid, kContactParameters, &kContactTimeStep},
     Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
           kOnRequest, kInertia, kFluid, kContactParameters, &kContactTimeStep},
+    Model{"viscous_contact_leapfrog", "viscous contact by a leapfrog, of second order", nullptr,
+          viscous_contact_leapfrog, kOnRequest, kInertia, kFluid, kContactParameters,
+          &kContactTimeStep},
     // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 

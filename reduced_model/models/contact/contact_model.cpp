@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,12 @@ class DragAtDistance {
   double contact_gap_;
 };
 
+/// A step lasts from `begin` to `end`; the force acts on the momentum in it from `kick_begin` to
+/// `kick_end`, which are other times only if steps are staggered.
+struct StepTimes {
+  double begin = 0, end = 0, kick_begin = 0, kick_end = 0;
+};
+
 /// Adds a step to the budget. The work of each impulse is the impulse times the mean velocity of
 /// the step, so that the works add up to the change of kinetic energy exactly.
 void add_to(MomentumEnergyBudget& budget, double velocity_before, double push,
@@ -79,10 +86,11 @@ class ContactClock {
  public:
   explicit ContactClock(double mass) : mass_(mass) {}
 
-  void look_at(double time, double next, const ContactState& before, double push,
+  void look_at(const StepTimes& times, const ContactState& before, double push,
                const ContactStep& step) {
     const bool contact =
         step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
+    const auto [time, next, kick_begin, kick_end] = times;
     const double h = next - time;
     if (contact && !touching_) {
       // Without contact the sphere would reach the contact gap after this share of the step.
@@ -95,7 +103,7 @@ class ContactClock {
       // The momentum that the step brings raises gamma to 0 after this share of the step.
       const double rise = mass_ * before.velocity + push;
       const double share = before.gamma < 0 && rise > 0 ? -before.gamma / rise : 0;
-      (*interval_)[1] = time + h * std::min(1.0, share);
+      (*interval_)[1] = kick_begin + (kick_end - kick_begin) * std::min(1.0, share);
     }
     touching_ = contact;
   }
@@ -107,26 +115,76 @@ class ContactClock {
   bool touching_ = false;
 };
 
-/// Makes the steps from the start to the end and calls
-/// `add(time, next, setting, state before, push, force at next, step)` after each.
-template <class Drag, class Add>
-void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag, const Add& add) {
+/// What an impulse of the force does without a displacement.
+ContactStep kicked(const ContactState& state, double push, const ContactSetting& setting) {
+  ContactStep step{state};
+  const double momentum = setting.mass * state.velocity + push;
+  if (state.gap > 0) {
+    step.state.velocity = momentum * setting.per_mass;
+    return step;
+  }
+  const double gamma = state.gamma + momentum;
+  step.state.velocity = std::max(0.0, gamma) * setting.per_mass;
+  step.state.gamma = std::clamp(gamma, setting.gamma_min, 0.0);
+  step.film = state.gamma - step.state.gamma;
+  step.solid = step.state.gamma - std::min(gamma, 0.0);
+  return step;
+}
+
+/// Makes the steps from the start to the end. Calls `kick(velocity before, push, step)` for each
+/// impulse of the force and `add(times, setting, state before, push, step, state at the end)` after
+/// each step. `turns` are the times at which the force changes its sign: in staggered steps the
+/// impulses before and after them act one after the other, because what the solids carry before must
+/// not be given back after.
+template <class Drag, class Kick, class Add>
+void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
+               std::span<const double> turns, const Kick& kick, const Add& add) {
   const double end = motion.end_time;
   const double h = motion.parameter(kContactTimeStep);
   const int steps = step_count(end, h);
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
-  ForceWalk force(motion.external_force);
-  double t = 0;
+  // The half kick at the end of a step overlaps with the next whole one, and a walk does not go back.
+  ForceWalk force(motion.external_force), force_of_half(motion.external_force);
+  auto turn = turns.begin();
+  double t = 0, since = 0;
   for (int n = 0; n < steps; ++n) {
     const double next = step_time(n + 1, steps, end, h);
     if (n + 1 == steps) setting = ContactSetting(motion.mass, model.gamma_min, next - t);
     if (n % kStepsBetweenProgressReports == 0) report_progress(motion, t);
-    const double push = setting.step * force.mean(t, next);
-    const ContactStep step = contact_step(state, push, setting, drag);
-    add(t, next, setting, state, push, force.value(next), step);
+    StepTimes times{t, next, since, next};
+    const ContactState before = state;
+    ContactStep earlier;
+    double push = setting.step;
+    if (model.is_staggered) {
+      times.kick_end = t + setting.step / 2;
+      for (; turn != turns.end() && *turn < times.kick_end; ++turn) {
+        const double part = (*turn - since) * force.mean(since, *turn);
+        const auto step = kicked(state, part, setting);
+        kick(state.velocity, part, step);
+        earlier.film += step.film;
+        earlier.solid += step.solid;
+        state = step.state;
+        since = *turn;
+      }
+      push = times.kick_end - since;
+    }
+    push *= force.mean(since, times.kick_end);
+    ContactStep step = contact_step(state, push, setting, drag);
+    kick(state.velocity, push, step);
+    step.film += earlier.film;
+    step.solid += earlier.solid;
+    ContactState at_end = step.state;
+    if (model.is_staggered) {
+      const double rest = (next - times.kick_end) * force_of_half.mean(times.kick_end, next);
+      const auto last = kicked(step.state, rest, setting);
+      at_end = last.state;
+      if (n + 1 == steps) kick(step.state.velocity, rest, last);
+    }
+    add(times, setting, before, push, step, at_end);
     state = step.state;
     t = next;
+    since = times.kick_end;
   }
 }
 
@@ -155,29 +213,35 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
   MomentumEnergyBudget budget;
   ContactClock clock(motion.mass);
   double lowest_gamma = 0;
-  const auto add = [&](double t, double next, const ContactSetting& setting,
-                       const ContactState& before, double push, double force,
-                       const ContactStep& step) {
-    const auto& after = step.state;
-    trajectory.rows.push_back({next, model.contact_gap + after.gap, after.velocity,
-                               (step.film + step.drag) * setting.per_step, force, after.gamma,
-                               step.solid * setting.per_step});
-    add_to(budget, before.velocity, push, step);
-    clock.look_at(t, next, before, push, step);
-    lowest_gamma = std::min(lowest_gamma, after.gamma);
+  ForceWalk force(motion.external_force);
+  const auto add = [&](const StepTimes& times, const ContactSetting& setting,
+                       const ContactState& before, double push, const ContactStep& step,
+                       const ContactState& end) {
+    const double per_kick = times.kick_end == times.end && times.kick_begin == times.begin
+                                ? setting.per_step
+                                : 1 / (times.kick_end - times.kick_begin);
+    trajectory.rows.push_back({times.end, model.contact_gap + end.gap, end.velocity,
+                               (step.film + step.drag) * per_kick, force.value(times.end),
+                               end.gamma, step.solid * per_kick});
+    clock.look_at(times, before, push, step);
+    lowest_gamma = std::min(lowest_gamma, end.gamma);
     // If contact lasts through a step in which the force changes its sign, gamma is lowest at that
     // time.
-    for (; turn != turns.end() && *turn < next; ++turn)
-      if (*turn > t && before.gamma < 0 && after.gamma < 0)
+    const double begin = times.kick_begin;
+    for (; turn != turns.end() && *turn < times.kick_end; ++turn)
+      if (*turn > begin && before.gamma < 0 && step.state.gamma < 0)
         lowest_gamma = std::min(
-            lowest_gamma,
-            std::max(model.gamma_min, before.gamma + motion.mass * before.velocity +
-                                          (*turn - t) * motion.external_force.mean(t, *turn)));
+            lowest_gamma, std::max(model.gamma_min,
+                                   before.gamma + motion.mass * before.velocity +
+                                       (*turn - begin) * motion.external_force.mean(begin, *turn)));
+  };
+  const auto kick = [&](double velocity, double push, const ContactStep& step) {
+    add_to(budget, velocity, push, step);
   };
   if (model.drag)
-    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), add);
+    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, kick, add);
   else
-    run_steps(motion, model, NoDrag(), add);
+    run_steps(motion, model, NoDrag(), turns, kick, add);
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
   trajectory.contact_interval = clock.interval();

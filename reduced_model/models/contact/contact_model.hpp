@@ -34,13 +34,17 @@ struct ContactModel {
   std::function<double(double gamma)> film_thickness;
   /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
+  /// Whether velocity and gamma of the steps stand in the middle of the steps (leapfrog), so that the
+  /// gap is of second order; only without resolved drag.
+  bool is_staggered = false;
 };
 
 /// Makes the steps of contact_step.hpp from the start of the motion to its end. The forces in a row
 /// are means over the step before it; the lubrication force is that of film and resolved drag
 /// together. The beginning and the end of contact are found within the steps of impact and release,
 /// as if the force were constant in each step. The error of these times is that which the scheme
-/// makes in a step. The lowest gamma, and thus the recovered film, includes its values where the
+/// makes in a step. Staggered steps kick for half a step first and at the end; their rows have the
+/// velocity and gamma that another half kick gives at the time of the row. The lowest gamma, and thus the recovered film, includes its values where the
 /// force changes its sign within a step.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 

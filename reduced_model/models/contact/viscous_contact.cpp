@@ -1,5 +1,5 @@
-// The model `viscous_contact`: contact at q = 0 and no resolved drag. A change of its results must
-// raise kModelsRevision.
+// The models `viscous_contact` and `viscous_contact_leapfrog`: contact at q = 0 and no resolved drag.
+// A change of their results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 #include <algorithm>
@@ -21,6 +21,13 @@ ContactModel viscous_contact(const Motion& motion, const lubrication::Lubricatio
   };
   model.film_law = "initial_gap * exp(gamma/k)";
   if (solid_gap > 0) model.film_law += ", at least the roughness heights together";
+  return model;
+}
+
+ContactModel viscous_contact_leapfrog(const Motion& motion,
+                                      const lubrication::LubricationForce& force) {
+  auto model = viscous_contact(motion, force);
+  model.is_staggered = true;
   return model;
 }
 

@@ -21,4 +21,10 @@ namespace viscontact::reduced_model {
 /// r1 + r2. Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
+/// The same model with the scheme read as a leapfrog: u^n and gamma^n stand at the time t^n - h/2, so
+/// that the force in a step is its mean from t^n - h/2 to t^n + h/2 (in the first step from 0). The
+/// gap then is of second order in h away from impacts.
+ContactModel viscous_contact_leapfrog(const Motion& motion,
+                                      const lubrication::LubricationForce& force);
+
 }  // namespace viscontact::reduced_model

@@ -27,7 +27,8 @@ const std::vector<std::string> kNames = {"reference",
                                          "viscous_contact_threshold",
                                          "viscous_contact_exact",
                                          "inelastic_contact",
-                                         "explicit_euler"};
+                                         "explicit_euler",
+                                         "viscous_contact_leapfrog"};
 
 TEST(Models, AreThoseOfThePage) {
   std::vector<std::string> names;

@@ -129,6 +129,68 @@ TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
   }
 }
 
+Trajectory leapfrog(const Motion& motion, double k) {
+  Trajectory trajectory = run_contact_model(viscous_contact_leapfrog, motion,
+                                            lubrication::LubricationForce(leading_term_fit(k)));
+  trajectory.model = "viscous_contact_leapfrog";
+  return trajectory;
+}
+
+TEST(ViscousContactLeapfrog, FollowsTheParabolasOfTheLimitCaseToSecondOrder) {
+  // Steps that hit the times of landing and release, and steps that do not. A release within a step
+  // leaves an error of at most h^2 f/(8 m), the landing one of h^2.
+  for (const double step : {1e-2, 6e-2 / 7, 1e-3, 1e-4}) {
+    Motion motion = limit_motion();
+    motion.set(kContactTimeStep, step);
+    const auto trajectory = leapfrog(motion, 0.1);
+    for (const auto& row : trajectory.rows) {
+      EXPECT_NEAR(row.gap, limit_gap(row.time), step * step) << step << ", t = " << row.time;
+      const double velocity = row.time < 1 ? -2 * row.time : row.time < 4 ? 0 : 2 * (row.time - 4);
+      if (std::abs(row.time - 1) > 2 * step && std::abs(row.time - 4) > 2 * step) {
+        EXPECT_NEAR(row.velocity, velocity, 1e-9) << step << ", t = " << row.time;
+      }
+      const double gamma = row.time < 1   ? 0
+                           : row.time < 2 ? -2 * row.time
+                           : row.time < 4 ? 2 * row.time - 8
+                                          : 0;
+      if (std::abs(row.time - 1) > 2 * step) {
+        EXPECT_NEAR(*row.gamma, gamma, 1e-9) << row.time;
+      }
+    }
+    const auto [from, to] = contact_interval(trajectory);
+    EXPECT_NEAR(from, 1, step * (1 + 1e-6)) << step;
+    EXPECT_NEAR(to, 4, 1e-9) << step;
+  }
+}
+
+TEST(ViscousContactLeapfrog, ReleasesASphereOfSolidContactToSecondOrder) {
+  // The release case of physics.md section 5: m = 1, gap 1, gamma_min = -2, pulled from t = 5 on.
+  const double g = std::numbers::sqrt2 / 2, landed = std::sqrt(2 / g);
+  for (const double step : {0.01, 0.0123}) {
+    Motion motion{1, 1, 0, 10, ExternalForce({{5, -g}, {10, g}})};
+    motion.set(kContactTimeStep, step);
+    motion.roughness = {std::exp(-2.0), 0};  // k = 1
+    const auto trajectory = leapfrog(motion, 1);
+    const double left = 5 + 2 / g;
+    ASSERT_LT(landed, 5);
+    EXPECT_NEAR(trajectory.rows.back().gap, g / 2 * (10 - left) * (10 - left), step * step);
+    EXPECT_NEAR(contact_interval(trajectory)[1], left, 1e-9);
+  }
+}
+
+TEST(ViscousContactLeapfrog, KeepsTheBudgetsToRoundOff) {
+  Motion motion{1, 0.1, -0.2, 4, ExternalForce({{1.03, -40}, {4, 13}})};
+  motion.set(kContactTimeStep, 7e-3);
+  motion.roughness = {0.004, 0.006};
+  const auto trajectory = leapfrog(motion, 0.5);
+  const auto& budget = *trajectory.budget;
+  const auto& last = trajectory.rows.back();
+  EXPECT_NEAR(motion.mass * (last.velocity + 0.2),
+              budget.external_impulse + budget.film_impulse + budget.solid_impulse, 1e-11);
+  EXPECT_NEAR(0.5 * motion.mass * (last.velocity * last.velocity - 0.04),
+              budget.external_work + budget.film_work + budget.solid_work, 1e-11);
+}
+
 TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
   const double k = 0.5;
   Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -40}, {4, 3}})};
