@@ -7,6 +7,7 @@
 
 #include "viscontact/case_file/particles/particle_ids.hpp"
 #include "viscontact/case_file/vector_values.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -31,6 +32,17 @@ void check_members(const TomlSection& section, const std::vector<std::int32_t>& 
   }
 }
 
+/// In a periodic domain a body must not touch itself across the period.
+void check_fits(const TomlSection& section, const ParticlesCase& c) {
+  const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
+  for (const double period : c.particles.cell.lengths)
+    if (period > 0 && !(diameter < period))
+      section.fail("particles",
+                   fmt::format("make a body of diameter {:.6g}; it must be smaller than the period "
+                               "of the domain, {:.6g}",
+                               diameter, period));
+}
+
 }  // namespace
 
 void read_bodies(const TomlSection& root, ParticlesCase& c) {
@@ -41,6 +53,7 @@ void read_bodies(const TomlSection& root, ParticlesCase& c) {
         "particles",
         "belong to a body on an axis; spheres on an axis are held together by an "
         "[[arm]] of constant length");
+  c.particles.cell = particles::cell_of(c.setting.domain);
   const ParticleIds ids(c);
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& positive = in_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive;
@@ -59,6 +72,7 @@ void read_bodies(const TomlSection& root, ParticlesCase& c) {
     section.finish();
     if (!in_fluid) particles::add_rotation(c.particles);
     particles::add_rigid_body(c.particles, body);
+    check_fits(section, c);
   }
 }
 

@@ -61,7 +61,7 @@ std::vector<StartGap> gaps_at_start(const ParticlesCase& c, double limit) {
   for (const auto& [first, second, image] :
        cell.is_periodic() ? particles::close_pairs_in_period(cell, p.positions, extents, pool)
                           : particles::close_pairs(p.dimension, p.positions, extents, pool)) {
-    if (image == 0 && p.bodies.are_one(first, second)) continue;
+    if (p.bodies.are_one(first, second)) continue;
     const auto i = particles::index_of(first), j = particles::index_of(second);
     const auto apart = p.position(j) + particles::shift_of(cell, image) - p.position(i);
     gaps.push_back({first, second, particles::norm(apart) - p.radii[i] - p.radii[j]});

@@ -32,6 +32,16 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
   for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
 }
 
+/// The image of member `m` of a body that is nearest to its first member.
+Vector nearest_image(const Particles& p, const RigidBody& body, std::size_t m) {
+  const Vector first = p.position(index_of(body.members[0]));
+  Vector x = p.position(index_of(body.members[m]));
+  for (std::size_t d = 0; d < 2; ++d)
+    if (const double period = p.cell.lengths[d]; period > 0)
+      x[d] -= period * std::round((x[d] - first[d]) / period);
+  return x;
+}
+
 /// Sets centre, velocity, mass, inertia and angular momentum from the members.
 void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody& body) {
   for (const auto member : body.members) body.mass += p.masses[index_of(member)];
@@ -41,13 +51,13 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
     const auto k = index_of(body.members[m]);
     const double weight =
         body.mass > 0 ? masses[m] / body.mass : 1 / static_cast<double>(masses.size());
-    body.centre = body.centre + weight * p.position(k);
+    body.centre = body.centre + weight * nearest_image(p, body, m);
     body.velocity = body.velocity + weight * p.velocity(k);
   }
   Vector turning{};  // angular momentum of the members
   for (std::size_t m = 0; m < masses.size(); ++m) {
     const auto k = index_of(body.members[m]);
-    const Vector offset = p.position(k) - body.centre;
+    const Vector offset = nearest_image(p, body, m) - body.centre;
     body.offsets.push_back(offset);
     body.member_angles.push_back(p.angles.empty() ? 0 : p.angles[k]);
     add_point_mass(body.inertia, masses[m], offset);
@@ -93,6 +103,13 @@ void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
     bodies.of_particle[index_of(member)] = static_cast<std::int32_t>(bodies.count());
   bodies.bodies.push_back(std::move(body));
   place_members(particles);
+}
+
+double diameter(const RigidBody& body, const Particles& particles) {
+  double radius = 0;
+  for (std::size_t m = 0; m < body.members.size(); ++m)
+    radius = std::max(radius, norm(body.offsets[m]) + particles.radii[index_of(body.members[m])]);
+  return 2 * radius;
 }
 
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension) {

@@ -58,7 +58,8 @@ struct RigidBodies {
   std::int32_t body_of(std::int32_t particle) const {
     return of_particle.empty() ? -1 : of_particle[static_cast<std::size_t>(particle)];
   }
-  /// True if both particles belong to one body, so that they do not touch each other.
+  /// True if both particles belong to one body, so that they do not touch each other. In a periodic
+  /// cell neither do their images, because a body is smaller than the cell.
   bool are_one(std::int32_t first, std::int32_t second) const {
     const auto body = body_of(first);
     return body >= 0 && body == body_of(second);
@@ -77,9 +78,13 @@ struct RigidBodyRequest {
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. The particles must turn (add_rotation), unless their dimension is 1, and belong to
-/// no other body.
+/// rigid motion. In a periodic cell (Particles::cell) the images of the members that are nearest to
+/// the first one make the body, which must be smaller than the cell (diameter()). The particles must
+/// turn (add_rotation), unless their dimension is 1, and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
+
+/// Diameter of the circle or sphere about the centre of a body that contains its members [L].
+double diameter(const RigidBody& body, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);

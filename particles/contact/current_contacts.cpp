@@ -42,7 +42,7 @@ double largest_overlap(const Setting& setting, const State& state) {
   for (const auto& pair : p.cell.is_periodic()
                               ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
                               : close_pairs(p.dimension, p.positions, p.radii, pool))
-    if (pair.image != 0 || !p.bodies.are_one(pair.first, pair.second))
+    if (!p.bodies.are_one(pair.first, pair.second))
       smallest = std::min(smallest, gap_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
   for (const auto& place : positions_of(obstacles_of(setting), state.time))
     for (std::size_t k = 0; k < p.count(); ++k)

@@ -123,7 +123,7 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
   };
   for (const auto& pair : close) {
     keep_until(place_of(pair));
-    if (pair.image == 0 && p.bodies.are_one(pair.first, pair.second)) continue;
+    if (p.bodies.are_one(pair.first, pair.second)) continue;
     if (old != state.pairs.end() && place_of(*old) == place_of(pair))
       pairs.push_back(*old++);
     else

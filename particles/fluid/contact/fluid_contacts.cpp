@@ -69,7 +69,7 @@ PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obst
                          : close_pairs(p.dimension, p.positions, extents, pool);
   PairLists lists;
   for (const auto& pair : close) {
-    if (pair.image == 0 && p.bodies.are_one(pair.first, pair.second)) continue;
+    if (p.bodies.are_one(pair.first, pair.second)) continue;
     Pair made{pair.first, pair.second};
     made.image = pair.image;
     lists.pairs.push_back(made);

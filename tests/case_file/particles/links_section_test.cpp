@@ -13,7 +13,9 @@
 namespace viscontact::case_file {
 namespace {
 
+using particles::norm;
 using particles::Vector;
+using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -62,6 +64,25 @@ TEST_F(LinksSection, ABodyHasTheMassesOfItsParticlesOrItsOwn) {
   EXPECT_EQ(own.bodies.bodies[0].mass, 6);
   EXPECT_EQ(own.bodies.bodies[0].inertia[8], 0.5);
   EXPECT_EQ(own.bodies.bodies[0].centre, (Vector{5, 0, 0}));
+}
+
+TEST_F(LinksSection, ABodyMayLieAcrossAPeriodButNotFillIt) {
+  const auto in_cell = [](const std::string& width) {
+    return "[domain]\nbox = { from = [-1.5, -5.0], to = [" + width +
+           ", 5.0], periodic = [true, false] }\n";
+  };
+  // The period is 9: the image of the last particle at -3 is nearest to the first one.
+  const auto c = read(
+      "[[body]]\nparticles = [0, 2]\nmoment_of_inertia = 1.0\n[[hinge]]\nbody = "
+      "0\nat = [6.5, 0.0]\n" +
+      in_cell("7.5"));
+  const auto& body = c.particles.bodies.bodies[0];
+  EXPECT_NEAR(body.centre[0], -2 + 9, 1e-12);
+  EXPECT_NEAR(norm(body.offsets[0] - Vector{2, 0, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(body.offsets[1] - Vector{-1, 0, 0}), 0, 1e-12);
+  EXPECT_NEAR(norm(c.setting.links.hinges[0].point.offset - Vector{-0.5, 0, 0}), 0, 1e-12);
+  expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell("7.0"),
+                 "body[0].particles make a body of diameter");
 }
 
 TEST_F(LinksSection, AHingeHoldsAPointOfABodyOrParticle) {

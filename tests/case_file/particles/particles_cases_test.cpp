@@ -201,7 +201,8 @@ TEST(Catapult, ThrowsADiscAndTheHoistLiftsItsLoad) {
     const auto& p = catapult.now();
     highest = std::max(highest, p.position(8)[1]);
     EXPECT_NEAR(norm(p.position(3) - particles::Vector{0, 4, 0}), 0, 1e-9) << catapult.time();
-    const double length = catapult.time() < 2 ? 10 : std::max(4.0, 10 - 1.5 * (catapult.time() - 2));
+    const double length =
+        catapult.time() < 2 ? 10 : std::max(4.0, 10 - 1.5 * (catapult.time() - 2));
     EXPECT_NEAR(norm(p.position(10) - p.position(9)), length, 1e-9) << catapult.time();
   });
   EXPECT_GT(highest, 9);

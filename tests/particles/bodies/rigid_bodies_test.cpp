@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/particles/systems.hpp"
+#include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -154,6 +155,33 @@ TEST_P(RigidBodies, CollisionsOfBodiesKeepMomentumAndAngularMomentum) {
     // taken about places after it: of first order in h.
     EXPECT_NEAR(total_angular_momentum(after)[d], l[d], 0.02);
   }
+}
+
+TEST(RigidBodiesInACell, ABodyThatCrossesThePeriodKeepsItsShapeAndMeetsOthersThere) {
+  // A rod of two discs flies through the side of the cell towards a disc behind it.
+  State state = no_particles(2);
+  add_particle(state, {8, 1, 0}, 0.5, 1, {2, 0, 0});
+  add_particle(state, {9, 1, 0}, 0.5, 1, {2, 0, 0});
+  add_particle(state, {3, 1, 0}, 0.5, 2, {});
+  add_rotation(state.particles);
+  Setting setting;
+  setting.time_step = 0.01;
+  setting.law.gamma_min = 0;
+  setting.domain = BoxDomain{.from = {0, 0}, .to = {10, 4}, .periodic = {true, false}};
+  state.particles.cell = cell_of(setting.domain);
+  add_rigid_body(state.particles, {{0, 1}});
+  Simulation simulation(setting, state, 1);
+  run(simulation, 4, [&](const StepReport& report) {
+    EXPECT_TRUE(report.converged);
+    const auto& p = simulation.state().particles;
+    double apart = p.position(1)[0] - p.position(0)[0];
+    apart -= 10 * std::round(apart / 10);
+    EXPECT_NEAR(apart, 1, 1e-12) << report.time;
+  });
+  // Inelastic: both go on together with half the velocity.
+  const auto& p = simulation.state().particles;
+  EXPECT_NEAR(p.velocity(2)[0], 1, 1e-9);
+  EXPECT_NEAR(p.velocity(0)[0], 1, 1e-9);
 }
 
 TEST(RigidBodiesInSpace, ACubeOfEightSpheresThatIsThrownComesToRestOnAFace) {

@@ -23,10 +23,18 @@ if reader.GetErrorCode():
     sys.exit("VTK cannot read it")
 data = reader.GetOutput()
 show("points", data.GetPoints().GetData())
+if data.GetCellData().GetArray("kind"):
+    for name in ("kind", "id", "force"):
+        show(name, data.GetCellData().GetArray(name))
+    sys.exit()
 for name in ("velocity", "pressure") if is_flow else ("radius", "velocity", "id"):
     show(name, data.GetPointData().GetArray(name))
 for name in () if is_flow else ("gap", "gamma", "i", "j"):
     show(name, data.GetCellData().GetArray(name))
+for group, names in ((data.GetPointData(), ("body", "angle")), (data.GetCellData(), ("friction",))):
+    for name in names:
+        if group.GetArray(name):
+            show(name, group.GetArray(name))
 if is_flow:
     sizes = vtkCellSizeFilter()
     sizes.SetInputData(data)

@@ -67,6 +67,64 @@ TEST_F(ParticlesCommand, VtkReadsTheFrames) {
                             HasSubstr("file=\"particles_00020.vtp\"")));
 }
 
+// Two discs of a body on a hinge, and a disc on an arm between them and a fixed place of another.
+TEST_F(ParticlesCommand, VtkReadsBodiesFrictionAndLinks) {
+  expect_done(run(put_case(R"(title = "A body that hangs"
+[space]
+dimension = 2
+gravity = [0.0, -1.0]
+[viscous_contact]
+time_step = 0.01
+end_time = 0.1
+gamma_min = 0.0
+[friction]
+coefficient = 0.5
+[[plane]]
+point = [0.0, -1.0]
+normal = [0.0, 1.0]
+[[particle]]
+centre = [0.0, 5.0]
+radius = 1.0
+mass = 1.0
+[[particle]]
+centre = [0.0, 3.0]
+radius = 1.0
+mass = 3.0
+[[particle]]
+centre = [3.0, 0.0]
+radius = 1.0
+mass = 1.0
+velocity = [1.0, 0.0]
+[[particle]]
+centre = [9.0, 0.0]
+radius = 1.0
+mass = 1.0
+[[body]]
+particles = [0, 1]
+[[hinge]]
+body = 0
+at = [0.0, 5.5]
+[[arm]]
+between = [2, 3]
+length = 6.0
+)"),
+                  out()));
+  const auto frame = read_by_vtk(out() / "particles_00010.vtp");
+  EXPECT_EQ(frame.at("body"), (std::vector<double>{0, 0, -1, -1}));
+  EXPECT_EQ(frame.at("angle").size(), 4U);
+  // Both discs on the floor slide: they start without spin.
+  EXPECT_EQ(frame.at("friction"), (std::vector<double>{2, 2}));
+  const auto links = read_by_vtk(out() / "links_00010.vtp");
+  EXPECT_EQ(links.at("kind"), (std::vector<double>{0, 2}));
+  EXPECT_EQ(links.at("id"), (std::vector<double>{0, 0}));
+  const auto& force = links.at("force");
+  ASSERT_EQ(force.size(), 6U);
+  EXPECT_NEAR(force[1], 4, 1e-9);  // the weight of the body
+  // Friction is the same on both ends of the arm, which go on together after the first step.
+  EXPECT_NEAR(force[3], 0, 1e-9);
+  EXPECT_EQ(links.at("points").size(), 9U);
+}
+
 // One disc that is driven along x in a round container.
 TEST_F(ParticlesCommand, VtkReadsTheFlow) {
   expect_done(run(put_case(R"(title = "A driven disc"

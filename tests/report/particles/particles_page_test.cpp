@@ -137,6 +137,38 @@ TEST_P(ParticlesInBrowser, MotionIsPlayedReadOffAndLookedAtFromElsewhere) {
   EXPECT_EQ(found["comesBack"], true);
 }
 
+TEST_P(ParticlesInBrowser, BodiesLinksTurnsAndContactsThatSlideAreDrawn) {
+  // Counts the points of some colours in the last frame, and reads off what the first particle is.
+  constexpr std::string_view kColours = R"JS(
+(async () => {
+  const pause = () => new Promise(done => setTimeout(done, 60));
+  const player = window.viscontactPlayer, canvas = document.getElementById('stage');
+  player.seek(player.last);
+  await pause();
+  const copy = document.createElement('canvas');
+  copy.width = canvas.width;
+  copy.height = canvas.height;
+  const pen = copy.getContext('2d', {willReadFrequently: true});
+  pen.drawImage(canvas, 0, 0);
+  const {data} = pen.getImageData(0, 0, copy.width, copy.height);
+  const found = {spring: 0, sliding: 0, mark: 0};
+  const names = {0x2b6e3f: 'spring', 0xd55e00: 'sliding', 0x4a4a44: 'mark'};
+  for (let i = 0; i < data.length; i += 4) {
+    const name = names[data[i] << 16 | data[i + 1] << 8 | data[i + 2]];
+    if (name) ++found[name];
+  }
+  found.legend = document.querySelector('.legend').textContent;
+  tell(found);
+})();
+)JS";
+  const auto found = read_page(particles_page(linked_row(GetParam(), 3), "Linked"), kColours, 700);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["spring"], 10);
+  EXPECT_GT(found["sliding"], 10);
+  EXPECT_GT(found["mark"], 10);
+  EXPECT_THAT(found["legend"].get<std::string>(), HasSubstr("sliding"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Dimensions, ParticlesInBrowser, ::testing::Values(2, 3));
 
 TEST(ParticlesPage, OneParticleInOneFrameStands) {

@@ -1,6 +1,7 @@
 // The still picture of a motion of particles, and its colours.
 #include "viscontact/report/particles/particles_picture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,6 +58,25 @@ TEST(ParticlesPicture, HoldsEveryDiscInEveryPanel) {
       EXPECT_THAT(svg, HasSubstr(kFilmWords));
       EXPECT_THAT(svg, Not(HasSubstr("nan")));
     }
+}
+
+TEST(ParticlesPicture, ShowsBodiesLinksTurnsAndContactsThatSlide) {
+  for (const int dimension : {2, 3}) {
+    const auto svg = particles_picture(linked_row(dimension, 2), "Linked", 2);
+    SCOPED_TRACE(svg);
+    expect_well_formed(svg);
+    EXPECT_EQ(count_of("stroke=\"#2b6e3f\"", svg), 2U);                // springs
+    EXPECT_EQ(count_of("<path stroke=\"#333\"", svg), 2U);             // arms
+    EXPECT_EQ(count_of("<g fill=\"#fff\" stroke=\"#111\"", svg), 2U);  // hinges
+    EXPECT_EQ(count_of(fmt::format("<path stroke=\"{}\"", kSlidingColour), svg), 1U);
+    EXPECT_THAT(svg, HasSubstr("contacts that slide are orange"));
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    // Five particles and the hinge in each panel; a dot on each disc, or the axes that are seen on
+    // each sphere: three in the first frame, and two after it has turned by 0.4 about z.
+    EXPECT_EQ(count_of("<circle ", svg), 2 * (5U + 1U) + (dimension == 2 ? 2 * 5U : 5 * (3U + 2U)));
+    EXPECT_EQ(count_of("url(#body)", svg), dimension == 3 ? 4U : 0U);
+  }
+  EXPECT_THAT(particles_picture(falling_row(2, 5, 2), "Free", 2), Not(HasSubstr("orange")));
 }
 
 TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {

@@ -1,6 +1,8 @@
 // Motions of particles that a page or a picture shows.
 #pragma once
 
+#include <cmath>
+
 #include "viscontact/report/particles/particles_page.hpp"
 
 namespace viscontact::report {
@@ -27,6 +29,33 @@ inline particles::Playback falling_row(int dimension, int count, int frames) {
                                : particles::PlanePosition{.point = {0, 0, 0}, .normal = {0, 0, 1}});
     playback.frames.push_back(frame);
   }
+  return playback;
+}
+
+/// falling_row with friction: the first two particles are one rigid body on a hinge, a spring ties
+/// the second to the third, an arm holds the third and the fourth, all turn, and the last one slides
+/// on the floor in the last frame.
+inline particles::Playback linked_row(int dimension, int frames) {
+  auto playback = falling_row(dimension, 5, frames);
+  playback.has_friction = true;
+  playback.bodies = {0, 0, -1, -1, -1};
+  playback.links.hinges = {{0, dimension == 2 ? 1.0 : 0.0, dimension == 2 ? 0.0 : 1.0}};
+  playback.links.springs = {{1, 2}};
+  playback.links.arms = {{2, 3}};
+  for (int f = 0; f < frames; ++f) {
+    auto& frame = playback.frames[static_cast<std::size_t>(f)];
+    for (int k = 0; k < 5; ++k)
+      if (dimension == 2)
+        frame.angles.push_back(0.3F * static_cast<float>(f));
+      else
+        frame.orientations.insert(
+            frame.orientations.end(),
+            {std::cos(0.2F * static_cast<float>(f)), 0, 0, std::sin(0.2F * static_cast<float>(f))});
+  }
+  for (auto& contact : playback.frames.back().contacts)
+    contact.friction = contact.first < 0 && contact.second == 4
+                           ? particles::ContactFriction::kSlides
+                           : particles::ContactFriction::kSticks;
   return playback;
 }
 
