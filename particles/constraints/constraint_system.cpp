@@ -7,19 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "viscontact/particles/constraints/rigid_units.hpp"
+
 namespace viscontact::particles {
 namespace {
-
-template <int D>
-void set_turn_mobility(RigidUnit<D>& unit, const Matrix3& mobility, const Matrix3& inverse) {
-  if constexpr (D == 2) {
-    unit.turn_mobility[0] = mobility[8];
-    unit.inverse_turn_mobility[0] = inverse[8];
-  } else {
-    unit.turn_mobility = mobility;
-    unit.inverse_turn_mobility = inverse;
-  }
-}
 
 /// The row of one part of a link's equation.
 template <int D>
@@ -68,35 +59,6 @@ void ConstraintSystem<D>::add(const Contact<D>& contact, const Vector& friction)
   residuals_.emplace_back();
 }
 
-template <int D>
-RigidUnit<D> ConstraintSystem<D>::unit_of(std::int32_t particle, const double* free) const {
-  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
-  const auto k = index_of(particle);
-  RigidUnit<D> unit;
-  unit.mobility = mobilities_[k];
-  unit.inverse_mobility = 1 / unit.mobility;
-  for (std::size_t i = 0; i < d; ++i) unit.free[i] = free[i];
-  for (std::size_t i = 0; i < r; ++i) {
-    unit.free[d + i] = free_turns_[k * r + i];
-    unit.turn_mobility[i * r + i] = step_.turn_mobilities[k];
-    unit.inverse_turn_mobility[i * r + i] = 1 / step_.turn_mobilities[k];
-  }
-  return unit;
-}
-
-template <int D>
-RigidUnit<D> ConstraintSystem<D>::unit_of_body(std::int32_t body) const {
-  const auto& step = free_bodies_[index_of(body)];
-  RigidUnit<D> unit;
-  unit.mobility = step.mobility;
-  unit.inverse_mobility = 1 / step.mobility;
-  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
-  for (std::size_t i = 0; i < d; ++i) unit.free[i] = step.displacement[i];
-  for (std::size_t i = 0; i < r; ++i) unit.free[d + i] = step.turn[3 - r + i];
-  set_turn_mobility<D>(unit, step.turn_mobility, step.inverse_turn_mobility);
-  return unit;
-}
-
 /// Makes a unit of each rigid body, and of each other particle, that takes part.
 template <int D>
 void ConstraintSystem<D>::number_units(const ContactSystem<D>& system) {
@@ -110,8 +72,11 @@ void ConstraintSystem<D>::number_units(const ContactSystem<D>& system) {
     if (unit >= 0) continue;
     unit = static_cast<std::int32_t>(problem_.units.size());
     if (body >= 0) unit_of_body_[index_of(body)] = unit;
-    problem_.units.push_back(body < 0 ? unit_of(particle, system.free_displacement(b))
-                                      : unit_of_body(body));
+    const auto k = index_of(particle), turns = static_cast<std::size_t>(kTurns<D>);
+    problem_.units.push_back(
+        body < 0 ? unit_of_particle<D>(mobilities_[k], step_.turn_mobilities[k],
+                                       system.free_displacement(b), &free_turns_[k * turns])
+                 : unit_of_body<D>(free_bodies_[index_of(body)]));
   }
 }
 

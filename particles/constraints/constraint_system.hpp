@@ -78,8 +78,6 @@ class ConstraintSystem {
 
  private:
   ContactSide side_of(std::int32_t particle) const;
-  RigidUnit<D> unit_of(std::int32_t particle, const double* free) const;
-  RigidUnit<D> unit_of_body(std::int32_t body) const;
   void number_units(const ContactSystem<D>& system);
   void add_contact(const Contact<D>& contact, std::size_t c, double allowed_slip);
   void add_link(std::size_t l, double mean_radius);
