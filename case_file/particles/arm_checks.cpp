@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -78,7 +79,7 @@ void check_arm(const TomlSection& section, const Arm& arm, const ParticlesCase& 
                                        c.particles.id(index_of(arm.second)), distance));
   const double touching =
       c.particles.radii[index_of(arm.first)] + c.particles.radii[index_of(arm.second)];
-  const Arm* of[] = {&arm};
+  const std::array of = {&arm};
   for (const double time : times_of(of, c.end_time)) {
     const double here = particles::length_at(arm.length, time);
     if (!(here >= touching * (1 - kRounded)))
@@ -92,7 +93,7 @@ void check_arm(const TomlSection& section, const Arm& arm, const ParticlesCase& 
 void check_triangle(std::span<const TomlSection> sections, const ParticlesCase& c,
                     std::array<std::size_t, 3> sides) {
   const auto& arms = c.setting.links.arms;
-  const Arm* of[] = {&arms[sides[0]], &arms[sides[1]], &arms[sides[2]]};
+  const std::array of = {&arms[sides[0]], &arms[sides[1]], &arms[sides[2]]};
   // Equality, where all three are on a line, is lost in rounding.
   constexpr double kRounding = 1e-9;
   for (const double time : times_of(of, c.end_time)) {

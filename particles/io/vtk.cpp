@@ -21,43 +21,48 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
     values.insert(values.end(), x.begin(), x.end());
 }
 
-}  // namespace
-
-std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
-                      bool has_friction) {
-  std::vector<double> points, velocities, gaps, gammas;
-  std::vector<std::int32_t> ids, firsts, seconds, images, frictions;
+/// The cells of a frame: a vertex for each contact with an obstacle, then a line for each contact of
+/// two particles.
+struct ContactCells {
+  std::vector<double> gaps, gammas;
+  std::vector<std::int32_t> firsts, seconds, images, frictions;
   std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+
+  ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
+    // VTK numbers vertices before lines, so contacts with planes come first.
+    for (const bool wall : {true, false})
+      for (const auto& contact : contacts)
+        if ((contact.first < 0) == wall) add(particles, contact);
+  }
+
+ private:
+  void add(const Particles& particles, const CurrentContact& contact) {
+    if (contact.first < 0) {
+      vertices.push_back(contact.second);
+      vertex_ends.push_back(std::ssize(vertices));
+    } else {
+      lines.insert(lines.end(), {contact.first, contact.second});
+      line_ends.push_back(std::ssize(lines));
+    }
+    gaps.push_back(contact.gap);
+    gammas.push_back(contact.gamma);
+    const auto [first, second] = ids_of(particles, contact);
+    firsts.push_back(first);
+    seconds.push_back(second);
+    images.push_back(contact.image);
+    frictions.push_back(static_cast<std::int32_t>(contact.friction));
+  }
+};
+
+/// The arrays of the points, one for each particle.
+std::string point_data(AppendedData& data, const Particles& particles) {
+  std::vector<double> velocities;
+  std::vector<std::int32_t> ids;
   for (std::size_t k = 0; k < particles.count(); ++k) {
-    append(points, particles.position(k), particles.dimension);
     append(velocities, particles.velocity(k), particles.dimension);
     ids.push_back(particles.id(k));
   }
-  // VTK numbers vertices before lines, so contacts with planes come first.
-  for (const bool wall : {true, false})
-    for (const auto& contact : contacts) {
-      if ((contact.first < 0) != wall) continue;
-      if (wall) {
-        vertices.push_back(contact.second);
-        vertex_ends.push_back(std::ssize(vertices));
-      } else {
-        lines.insert(lines.end(), {contact.first, contact.second});
-        line_ends.push_back(std::ssize(lines));
-      }
-      gaps.push_back(contact.gap);
-      gammas.push_back(contact.gamma);
-      const auto [first, second] = ids_of(particles, contact);
-      firsts.push_back(first);
-      seconds.push_back(second);
-      images.push_back(contact.image);
-      frictions.push_back(static_cast<std::int32_t>(contact.friction));
-    }
-  AppendedData data;
-  std::string text = AppendedData::opening("PolyData");
-  text += fmt::format(
-      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
-      particles.count(), vertex_ends.size(), line_ends.size());
-  text += "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
+  std::string text = "<PointData Scalars=\"radius\" Vectors=\"velocity\">\n";
   text += data.array("Float64", "radius", 1, particles.radii);
   text += data.array("Float64", "velocity", 3, velocities);
   text += data.array("Int32", "id", 1, ids);
@@ -71,21 +76,38 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   }
   if (!particles.bodies.empty())
     text += data.array("Int32", "body", 1, particles.bodies.of_particle);
-  text += "</PointData>\n<CellData Scalars=\"gamma\">\n";
-  text += data.array("Float64", "gap", 1, gaps);
-  text += data.array("Float64", "gamma", 1, gammas);
-  text += data.array("Int32", "i", 1, firsts);
-  text += data.array("Int32", "j", 1, seconds);
-  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, images);
-  if (has_friction) text += data.array("Int32", "friction", 1, frictions);
+  return text + "</PointData>\n";
+}
+
+}  // namespace
+
+std::string write_vtp(const Particles& particles, std::span<const CurrentContact> contacts,
+                      bool has_friction) {
+  std::vector<double> points;
+  for (std::size_t k = 0; k < particles.count(); ++k)
+    append(points, particles.position(k), particles.dimension);
+  const ContactCells cells(particles, contacts);
+  AppendedData data;
+  std::string text = AppendedData::opening("PolyData");
+  text += fmt::format(
+      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
+      particles.count(), cells.vertex_ends.size(), cells.line_ends.size());
+  text += point_data(data, particles);
+  text += "<CellData Scalars=\"gamma\">\n";
+  text += data.array("Float64", "gap", 1, cells.gaps);
+  text += data.array("Float64", "gamma", 1, cells.gammas);
+  text += data.array("Int32", "i", 1, cells.firsts);
+  text += data.array("Int32", "j", 1, cells.seconds);
+  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, cells.images);
+  if (has_friction) text += data.array("Int32", "friction", 1, cells.frictions);
   text += "</CellData>\n<Points>\n";
   text += data.array("Float64", "Points", 3, points);
   text += "</Points>\n<Verts>\n";
-  text += data.array("Int64", "connectivity", 1, vertices);
-  text += data.array("Int64", "offsets", 1, vertex_ends);
+  text += data.array("Int64", "connectivity", 1, cells.vertices);
+  text += data.array("Int64", "offsets", 1, cells.vertex_ends);
   text += "</Verts>\n<Lines>\n";
-  text += data.array("Int64", "connectivity", 1, lines);
-  text += data.array("Int64", "offsets", 1, line_ends);
+  text += data.array("Int64", "connectivity", 1, cells.lines);
+  text += data.array("Int64", "offsets", 1, cells.line_ends);
   text += "</Lines>\n</Piece>\n</PolyData>\n";
   return text + data.closing();
 }

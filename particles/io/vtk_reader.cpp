@@ -13,6 +13,59 @@
 
 namespace viscontact::particles {
 
+namespace {
+
+/// An array of the contacts, or zeros if the frame has none of this name.
+std::vector<std::int32_t> numbers_or_zeros(const AppendedReader& reader, const char* name,
+                                           std::size_t count) {
+  auto numbers = reader.has_array("CellData", name) ? reader.array<std::int32_t>("CellData", name)
+                                                    : std::vector<std::int32_t>(count, 0);
+  if (numbers.size() != count) reader.refuse();
+  return numbers;
+}
+
+std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int64_t particles) {
+  const auto gaps = reader.array<double>("CellData", "gap");
+  const auto gammas = reader.array<double>("CellData", "gamma");
+  const auto partners = reader.array<std::int32_t>("CellData", "j");
+  const auto images = numbers_or_zeros(reader, "image", gaps.size());
+  const auto frictions = numbers_or_zeros(reader, "friction", gaps.size());
+  // These are numbers of particles, which differ from their ids: one vertex for each contact with a
+  // plane, then one line for each contact of two particles.
+  const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
+  const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
+  const auto walls = vertices.size(), pairs = lines.size() / 2;
+  if (gaps.size() != walls + pairs || gammas.size() != gaps.size() ||
+      partners.size() != gaps.size() || lines.size() % 2 != 0)
+    reader.refuse();
+  const auto particle = [&](std::int64_t place) {
+    if (place < 0 || place >= particles) reader.refuse();
+    return static_cast<std::int32_t>(place);
+  };
+  const auto image = [&](std::int32_t number) {
+    if (number < -kLargestImage || number > kLargestImage) reader.refuse();
+    return number;
+  };
+  const auto friction = [&](std::int32_t number) {
+    if (number < 0 || number > static_cast<std::int32_t>(ContactFriction::kSlides)) reader.refuse();
+    return static_cast<ContactFriction>(number);
+  };
+  std::vector<CurrentContact> contacts;
+  // A frame does not store the errors of gamma, because no picture shows them.
+  for (std::size_t i = 0; i < pairs; ++i)
+    contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
+                        gammas[walls + i], 0, image(images[walls + i]),
+                        friction(frictions[walls + i])});
+  for (std::size_t i = 0; i < walls; ++i) {
+    if (partners[i] >= 0) reader.refuse();
+    contacts.push_back(
+        {partners[i], particle(vertices[i]), gaps[i], gammas[i], 0, 0, friction(frictions[i])});
+  }
+  return contacts;
+}
+
+}  // namespace
+
 VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   const std::string text = read_file(path);
   const AppendedReader reader(text, path.string(), "frame");
@@ -31,48 +84,9 @@ VtpContent read_vtp(const std::filesystem::path& path, int dimension) {
   }
   if (reader.has_array("PointData", "orientation")) {
     content.orientations = reader.array<double>("PointData", "orientation");
-    if (content.orientations.size() / 4 != points.size() / 3) reader.refuse();
+    if (content.orientations.size() != points.size() / 3 * 4) reader.refuse();
   }
-  const auto gaps = reader.array<double>("CellData", "gap");
-  const auto gammas = reader.array<double>("CellData", "gamma");
-  const auto partners = reader.array<std::int32_t>("CellData", "j");
-  auto images = reader.has_array("CellData", "image")
-                    ? reader.array<std::int32_t>("CellData", "image")
-                    : std::vector<std::int32_t>(gaps.size(), 0);
-  const auto frictions = reader.has_array("CellData", "friction")
-                             ? reader.array<std::int32_t>("CellData", "friction")
-                             : std::vector<std::int32_t>(gaps.size(), 0);
-  // These are numbers of particles, which differ from their ids: one vertex for each contact with a
-  // plane, then one line for each contact of two particles.
-  const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
-  const auto lines = reader.array<std::int64_t>("Lines", "connectivity");
-  const auto walls = vertices.size(), pairs = lines.size() / 2;
-  if (gaps.size() != walls + pairs || gammas.size() != gaps.size() ||
-      partners.size() != gaps.size() || images.size() != gaps.size() ||
-      frictions.size() != gaps.size() || lines.size() % 2 != 0)
-    reader.refuse();
-  const auto particle = [&](std::int64_t place) {
-    if (place < 0 || place >= std::ssize(points) / 3) reader.refuse();
-    return static_cast<std::int32_t>(place);
-  };
-  const auto image = [&](std::int32_t number) {
-    if (number < -kLargestImage || number > kLargestImage) reader.refuse();
-    return number;
-  };
-  const auto friction = [&](std::int32_t number) {
-    if (number < 0 || number > static_cast<std::int32_t>(ContactFriction::kSlides)) reader.refuse();
-    return static_cast<ContactFriction>(number);
-  };
-  // A frame does not store the errors of gamma, because no picture shows them.
-  for (std::size_t i = 0; i < pairs; ++i)
-    content.contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
-                                gammas[walls + i], 0, image(images[walls + i]),
-                                friction(frictions[walls + i])});
-  for (std::size_t i = 0; i < walls; ++i) {
-    if (partners[i] >= 0) reader.refuse();
-    content.contacts.push_back(
-        {partners[i], particle(vertices[i]), gaps[i], gammas[i], 0, 0, friction(frictions[i])});
-  }
+  content.contacts = read_contacts(reader, std::ssize(points) / 3);
   return content;
 }
 

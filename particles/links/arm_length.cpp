@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -31,9 +32,9 @@ double value_at(const SinusoidalLength& length, double t) {
 }
 
 void add_times(const PiecewiseLinearLength& length, double end, std::vector<double>& times) {
-  for (double shift = 0; shift <= end; shift += length.period) {
+  for (std::int64_t n = 0; static_cast<double>(n) * length.period <= end; ++n) {
     for (const auto& point : length.points) {
-      const double time = point[0] + shift;
+      const double time = point[0] + static_cast<double>(n) * length.period;
       if (time > 0 && time < end) times.push_back(time);
     }
     if (!(length.period > 0) || times.size() > kMostTimes) break;

@@ -6,6 +6,38 @@
 #include "viscontact/particles/projection/step_projection.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+/// Takes residuals into the result of a step.
+struct ResidualRecord {
+  const SolverSettings& settings;
+  double mean_radius;
+  ProjectionResult& result;
+
+  /// Returns true if the residual is larger than allowed.
+  bool residual(double residual, const ResidualScale& scale) {
+    result.residual = std::max(result.residual, residual);
+    const double allowed =
+        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
+    const bool beyond = !(residual <= allowed);
+    if (beyond) result.converged = false;
+    result.excess = std::max(result.excess, residual / allowed);
+    if (residual > scale.rounding && scale.impulse > 0)
+      result.impulse_residual =
+          std::max(result.impulse_residual, residual / scale.w / scale.impulse);
+    return beyond;
+  }
+  /// A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in
+  /// packings, and no memory depends on it.
+  void slip(double residual) {
+    const double allowed = settings.tolerance * mean_radius / 2;
+    result.residual = std::max(result.residual, residual);
+    result.excess = std::max(result.excess, residual / allowed);
+    if (residual > allowed) result.converged = false;
+  }
+};
+
+}  // namespace
 
 /// The scales of a link are those of a contact between its particles, at which a force is at work
 /// also if all is at rest: its own.
@@ -28,21 +60,14 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   auto scales = residual_scales();
   const auto& links = constraints_->links();
   std::vector<std::size_t> beyond;
+  ResidualRecord record{settings, mean_radius, result};
   for (std::size_t l = 0; l < links.size(); ++l) {
     const double residual = constraints_->link_residual(l);
     const auto scale = scale_of_link(links[l], scales);
-    const double allowed =
-        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
-    result.residual = std::max(result.residual, residual);
     result.link_residual = std::max(result.link_residual, residual);
-    result.excess = std::max(result.excess, residual / allowed);
-    if (residual > scale.rounding && scale.impulse > 0)
-      result.impulse_residual =
-          std::max(result.impulse_residual, residual / scale.w / scale.impulse);
-    if (!(residual <= allowed)) beyond.push_back(l);
+    if (record.residual(residual, scale)) beyond.push_back(l);
   }
   if (beyond.empty()) return;
-  result.converged = false;
   // Named are also the links that hold the same particles, because one of them may be the cause.
   std::vector<char> is_held(state_.particles.count(), 0);
   const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
@@ -80,27 +105,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
   result.link_residual = 0;
   result.unsolved_links.clear();
   result.impulse_errors.resize(system_.contacts.size());
-  // Records a residual and returns true if it is larger than allowed.
-  const auto record_residual = [&](double residual, const ResidualScale& scale) {
-    result.residual = std::max(result.residual, residual);
-    const double allowed =
-        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
-    const bool beyond = residual > allowed;
-    if (beyond) result.converged = false;
-    result.excess = std::max(result.excess, residual / allowed);
-    if (residual > scale.rounding && scale.impulse > 0)
-      result.impulse_residual =
-          std::max(result.impulse_residual, residual / scale.w / scale.impulse);
-    return beyond;
-  };
-  // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in packings,
-  // and no memory depends on it.
-  const auto record_slip = [&](double residual) {
-    const double allowed = settings.tolerance * mean_radius / 2;
-    result.residual = std::max(result.residual, residual);
-    result.excess = std::max(result.excess, residual / allowed);
-    if (residual > allowed) result.converged = false;
-  };
+  ResidualRecord record{settings, mean_radius, result};
   const auto record_gap = [&](std::size_t k, double gap) {
     if (gap >= result.smallest_gap) return;
     result.smallest_gap = gap;
@@ -113,8 +118,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const double residual = constraints_
                                 ? constraints_->residual(c).normal
                                 : std::abs(std::min(gap, scale.w * (here.impulse - here.gamma)));
-    record_residual(residual, scale);
-    if (constraints_) record_slip(constraints_->residual(c).tangential);
+    record.residual(residual, scale);
+    if (constraints_) record.slip(constraints_->residual(c).tangential);
     result.impulse_errors[c] = residual / scale.w;
     record_gap(chosen_[c], gap - here.tolerated);
     if ((here.impulse != 0 || here.gamma < 0) &&
@@ -129,7 +134,7 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
       continue;
     const auto here = contact(k);
     const double gap = gap_after(here, displacements_);
-    if (record_residual(-gap, scales.of(here))) closed.push_back(k);
+    if (record.residual(-gap, scales.of(here))) closed.push_back(k);
     record_gap(k, gap - here.tolerated);
   }
   return closed;
