@@ -13,7 +13,7 @@ namespace viscontact::report {
 /// and the last frame are among them; a single panel shows the last. Particles are drawn as discs
 /// in motions in the plane, and as spheres in motions in space, which are seen from a little above
 /// with the third axis upwards.
-std::string particles_picture(const particles::Playback& playback, const std::string& title,
+std::string particles_picture(const particles::Playback& original, const std::string& title,
                               int panels);
 
 }  // namespace viscontact::report
