@@ -65,9 +65,8 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)
       if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
-        contacts.push_back(
-            {pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
-             friction_of(setting, pair)});
+        contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
+                            friction_of(setting, pair)});
   return contacts;
 }
 

@@ -13,7 +13,7 @@ namespace viscontact::particles {
 
 /// What friction did at a contact in the last step.
 enum class ContactFriction : std::int8_t {
-  kNone,   ///< no friction: a film, no load, or a case without friction
+  kNone,  ///< no friction: a film, no load, or a case without friction
   kSticks,
   kSlides  ///< friction is at Coulomb's bound
 };

@@ -49,6 +49,37 @@ class AppendedData {
   std::string bytes_;
 };
 
+/// The cells of PolyData: vertices, which VTK numbers first, and lines between two points.
+struct PolyCells {
+  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+
+  void add_vertex(std::int64_t point) {
+    vertices.push_back(point);
+    vertex_ends.push_back(std::ssize(vertices));
+  }
+  void add_line(std::int64_t first, std::int64_t second) {
+    lines.insert(lines.end(), {first, second});
+    line_ends.push_back(std::ssize(lines));
+  }
+  /// The element that opens a piece with so many points.
+  std::string opening(std::size_t points) const {
+    return fmt::format(
+        "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
+        points, vertex_ends.size(), line_ends.size());
+  }
+  /// The elements of the places of the points, of the cells, and of the end of the piece.
+  std::string closing(AppendedData& data, const std::vector<double>& points) const {
+    std::string text = "<Points>\n" + data.array("Float64", "Points", 3, points);
+    text += "</Points>\n<Verts>\n";
+    text += data.array("Int64", "connectivity", 1, vertices);
+    text += data.array("Int64", "offsets", 1, vertex_ends);
+    text += "</Verts>\n<Lines>\n";
+    text += data.array("Int64", "connectivity", 1, lines);
+    text += data.array("Int64", "offsets", 1, line_ends);
+    return text + "</Lines>\n</Piece>\n</PolyData>\n";
+  }
+};
+
 /// The text between `before` and the next `after`; nothing if one of them is missing.
 inline std::optional<std::string_view> between(std::string_view text, std::string_view before,
                                                std::string_view after) {

@@ -15,10 +15,10 @@ namespace {
 enum class Kind : std::int32_t { kHinge, kSpring, kArm };
 
 /// The arrays of the file.
-struct LinkCells {
+struct DrawnCells {
   std::vector<double> points, forces;
   std::vector<std::int32_t> kinds, ids;
-  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+  PolyCells cells;
 
   std::int64_t add_point(const Vector& x) {
     points.insert(points.end(), x.begin(), x.end());
@@ -35,19 +35,18 @@ struct LinkCells {
 Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector{0, 0, x[0]} : x; }
 
 /// Adds the line of a spring or arm that pushes its ends apart with `force`.
-void add_line(LinkCells& cells, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
+void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));
   Vector apart = p.position(index_of(second)) - from;
   for (std::size_t d = 0; d < 2; ++d)
     if (const double period = p.cell.lengths[d]; period > 0)
       apart[d] -= period * std::round(apart[d] / period);
-  const auto begin = cells.add_point(in_space(from, p.dimension));
-  const auto end = cells.add_point(in_space(from + apart, p.dimension));
-  cells.lines.insert(cells.lines.end(), {begin, end});
-  cells.line_ends.push_back(std::ssize(cells.lines));
+  const auto begin = drawn.add_point(in_space(from, p.dimension));
+  const auto end = drawn.add_point(in_space(from + apart, p.dimension));
+  drawn.cells.add_line(begin, end);
   const double distance = norm(apart);
-  cells.add_cell(kind, id,
+  drawn.add_cell(kind, id,
                  distance > 0 ? in_space(force / distance * apart, p.dimension) : Vector{});
 }
 
@@ -59,39 +58,28 @@ std::string write_links(const Setting& setting, const State& state) {
   const auto force = [&](std::size_t place) {
     return state.link_forces.empty() ? 0 : state.link_forces[place];
   };
-  LinkCells cells;
+  DrawnCells drawn;
   for (std::size_t k = 0; k < links.hinges.size(); ++k) {
-    cells.vertices.push_back(cells.add_point(links.hinges[k].at));
-    cells.vertex_ends.push_back(std::ssize(cells.vertices));
+    drawn.cells.add_vertex(drawn.add_point(links.hinges[k].at));
     Vector on_body{};
     for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d)
       on_body[d] = force(k * Links::forces_of_hinge(p.dimension) + d);
-    cells.add_cell(Kind::kHinge, k, on_body);
+    drawn.add_cell(Kind::kHinge, k, on_body);
   }
   for (std::size_t k = 0; k < links.springs.size(); ++k)
-    add_line(cells, p, Kind::kSpring, k, links.springs[k].first, links.springs[k].second,
+    add_line(drawn, p, Kind::kSpring, k, links.springs[k].first, links.springs[k].second,
              force(links.place_of_spring(k, p.dimension)));
   for (std::size_t k = 0; k < links.arms.size(); ++k)
-    add_line(cells, p, Kind::kArm, k, links.arms[k].first, links.arms[k].second,
+    add_line(drawn, p, Kind::kArm, k, links.arms[k].first, links.arms[k].second,
              force(links.place_of_arm(k, p.dimension)));
   AppendedData data;
   auto text = AppendedData::opening("PolyData");
-  text += fmt::format(
-      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
-      cells.points.size() / 3, cells.vertex_ends.size(), cells.line_ends.size());
+  text += drawn.cells.opening(drawn.points.size() / 3);
   text += "<CellData Scalars=\"kind\" Vectors=\"force\">\n";
-  text += data.array("Int32", "kind", 1, cells.kinds);
-  text += data.array("Int32", "id", 1, cells.ids);
-  text += data.array("Float64", "force", 3, cells.forces);
-  text += "</CellData>\n<Points>\n";
-  text += data.array("Float64", "Points", 3, cells.points);
-  text += "</Points>\n<Verts>\n";
-  text += data.array("Int64", "connectivity", 1, cells.vertices);
-  text += data.array("Int64", "offsets", 1, cells.vertex_ends);
-  text += "</Verts>\n<Lines>\n";
-  text += data.array("Int64", "connectivity", 1, cells.lines);
-  text += data.array("Int64", "offsets", 1, cells.line_ends);
-  text += "</Lines>\n</Piece>\n</PolyData>\n";
+  text += data.array("Int32", "kind", 1, drawn.kinds);
+  text += data.array("Int32", "id", 1, drawn.ids);
+  text += data.array("Float64", "force", 3, drawn.forces);
+  text += "</CellData>\n" + drawn.cells.closing(data, drawn.points);
   return text + data.closing();
 }
 

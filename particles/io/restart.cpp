@@ -209,7 +209,8 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
-         pair.gamma_error >= 0 && pair.carried >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
+         pair.gamma_error >= 0 && pair.carried >= 0 && pair.image >= -kLargestImage &&
+         pair.image <= kLargestImage;
 }
 
 }  // namespace

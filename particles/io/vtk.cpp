@@ -26,7 +26,7 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
 struct ContactCells {
   std::vector<double> gaps, gammas;
   std::vector<std::int32_t> firsts, seconds, images, frictions;
-  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+  PolyCells cells;
 
   ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
     // VTK numbers vertices before lines, so contacts with planes come first.
@@ -37,13 +37,10 @@ struct ContactCells {
 
  private:
   void add(const Particles& particles, const CurrentContact& contact) {
-    if (contact.first < 0) {
-      vertices.push_back(contact.second);
-      vertex_ends.push_back(std::ssize(vertices));
-    } else {
-      lines.insert(lines.end(), {contact.first, contact.second});
-      line_ends.push_back(std::ssize(lines));
-    }
+    if (contact.first < 0)
+      cells.add_vertex(contact.second);
+    else
+      cells.add_line(contact.first, contact.second);
     gaps.push_back(contact.gap);
     gammas.push_back(contact.gamma);
     const auto [first, second] = ids_of(particles, contact);
@@ -86,29 +83,19 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   std::vector<double> points;
   for (std::size_t k = 0; k < particles.count(); ++k)
     append(points, particles.position(k), particles.dimension);
-  const ContactCells cells(particles, contacts);
+  const ContactCells listed(particles, contacts);
   AppendedData data;
   std::string text = AppendedData::opening("PolyData");
-  text += fmt::format(
-      "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\">\n",
-      particles.count(), cells.vertex_ends.size(), cells.line_ends.size());
+  text += listed.cells.opening(particles.count());
   text += point_data(data, particles);
   text += "<CellData Scalars=\"gamma\">\n";
-  text += data.array("Float64", "gap", 1, cells.gaps);
-  text += data.array("Float64", "gamma", 1, cells.gammas);
-  text += data.array("Int32", "i", 1, cells.firsts);
-  text += data.array("Int32", "j", 1, cells.seconds);
-  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, cells.images);
-  if (has_friction) text += data.array("Int32", "friction", 1, cells.frictions);
-  text += "</CellData>\n<Points>\n";
-  text += data.array("Float64", "Points", 3, points);
-  text += "</Points>\n<Verts>\n";
-  text += data.array("Int64", "connectivity", 1, cells.vertices);
-  text += data.array("Int64", "offsets", 1, cells.vertex_ends);
-  text += "</Verts>\n<Lines>\n";
-  text += data.array("Int64", "connectivity", 1, cells.lines);
-  text += data.array("Int64", "offsets", 1, cells.line_ends);
-  text += "</Lines>\n</Piece>\n</PolyData>\n";
+  text += data.array("Float64", "gap", 1, listed.gaps);
+  text += data.array("Float64", "gamma", 1, listed.gammas);
+  text += data.array("Int32", "i", 1, listed.firsts);
+  text += data.array("Int32", "j", 1, listed.seconds);
+  if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, listed.images);
+  if (has_friction) text += data.array("Int32", "friction", 1, listed.frictions);
+  text += "</CellData>\n" + listed.cells.closing(data, points);
   return text + data.closing();
 }
 

@@ -21,8 +21,8 @@ inline constexpr auto kFluidResults =
     std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
 
 /// Those that only a run with rigid bodies or links has.
-inline constexpr auto kLinkResults =
-    std::to_array<const char*>({"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd"});
+inline constexpr auto kLinkResults = std::to_array<const char*>(
+    {"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.
