@@ -24,7 +24,7 @@ import numpy as np
 import scipy.sparse as sp
 import siconos.numerics as sn
 
-warnings.filterwarnings("ignore")
+warnings.filterwarnings("ignore")  # Siconos warns of each conversion of indices to 64 bits
 H, FRICTION, TOLERANCE, ITERATIONS = 0.05, 0.3, 1e-6, 10000
 
 

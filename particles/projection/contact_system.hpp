@@ -14,8 +14,8 @@
 
 namespace viscontact::particles {
 
-/// Particles that take part are called bodies, also if they belong to a rigid body; they are numbered in the order in which the contacts
-/// name them. Contacts are only added, never removed.
+/// Particles that take part are called bodies, also if they belong to a rigid body; they are
+/// numbered in the order in which the contacts name them. Contacts are only added, never removed.
 template <int D>
 class ContactSystem {
  public:

@@ -34,8 +34,8 @@ struct ContactModel {
   std::function<double(double gamma)> film_thickness;
   /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
-  /// Whether velocity and gamma of the steps stand in the middle of the steps (leapfrog), so that the
-  /// gap is of second order; only without resolved drag.
+  /// Whether velocity and gamma of the steps stand in the middle of the steps (leapfrog), so that
+  /// the gap is of second order; only without resolved drag.
   bool is_staggered = false;
 };
 
@@ -44,8 +44,8 @@ struct ContactModel {
 /// together. The beginning and the end of contact are found within the steps of impact and release,
 /// as if the force were constant in each step. The error of these times is that which the scheme
 /// makes in a step. Staggered steps kick for half a step first and at the end; their rows have the
-/// velocity and gamma that another half kick gives at the time of the row. The lowest gamma, and thus the recovered film, includes its values where the
-/// force changes its sign within a step.
+/// velocity and gamma that another half kick gives at the time of the row. The lowest gamma, and
+/// thus the recovered film, includes its values where the force changes its sign within a step.
 Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 /// Makes a contact model and runs it.

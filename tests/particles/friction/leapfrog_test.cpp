@@ -99,6 +99,23 @@ TEST(Leapfrog, ReportsVelocitiesAtThePresentTime) {
               std::numbers::sqrt2 - 0.005 * std::sqrt(0.5), 1e-9);
 }
 
+TEST(Leapfrog, FreeFallIsExactAlsoInStepsThatAFastDiscDivides) {
+  // The first disc moves by two diameters in a step and strikes the second.
+  State state = no_particles(2);
+  add_particle(state, {0, 0, 0}, 0.5, 1, {100, 0, 0});
+  add_particle(state, {6, 0, 0}, 0.5, 1, {});
+  Setting setting;
+  setting.time_step = 0.02;
+  setting.scheme = Scheme::kLeapfrog;
+  setting.law.gamma_min = 0;
+  setting.gravity = {0, -1, 0};
+  Simulation simulation(setting, state, 1);
+  run(simulation, 0.4, [](const StepReport& report) { EXPECT_TRUE(report.converged); });
+  for (const std::size_t k : {0U, 1U})
+    EXPECT_NEAR(simulation.state().particles.position(k)[1], -0.4 * 0.4 / 2, 1e-13) << k;
+  EXPECT_NEAR(simulation.state().particles.velocity(1)[0], 50, 1e-8);
+}
+
 TEST(Leapfrog, FreeFlightIsExactAlsoWithCutSteps) {
   // x = g t^2/2, in steps of h and of what is left at each end. A step that is cut changes the
   // places at which velocities stand, which costs h^2 g/8 at most.

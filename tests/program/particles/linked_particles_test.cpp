@@ -41,31 +41,10 @@ every = 0.5
 [[plane]]
 point = [0.0, 0.0]
 normal = [0.0, 1.0]
-[[particle]]
-centre = [0.0, 5.0]
-radius = 0.5
-mass = 1.0
-[[particle]]
-centre = [3.0, 5.0]
-radius = 0.5
-mass = 2.0
-[[particle]]
-centre = [0.6, 0.5]
-radius = 0.5
-mass = 1.0
-[[particle]]
-centre = [2.5, 0.5]
-radius = 0.5
-mass = 1.0
-[[particle]]
-centre = [10.0, 1.0]
-radius = 1.0
-mass = 1.0
-[[particle]]
-centre = [13.0, 1.0]
-radius = 1.0
-mass = 1.0
-[[body]]
+)" + disc("0.0, 5.0", "0.5", "1.0") +
+         disc("3.0, 5.0", "0.5", "2.0") + disc("0.6, 0.5", "0.5", "1.0") +
+         disc("2.5, 0.5", "0.5", "1.0") + disc("10.0, 1.0", "1.0", "1.0") +
+         disc("13.0, 1.0", "1.0", "1.0") + R"([[body]]
 particles = [0, 1]
 [[hinge]]
 body = 0

@@ -70,6 +70,13 @@ file = "discs.csv"
 )" + more;
 }
 
+/// The table of a disc of a case, with more lines.
+inline std::string disc(const std::string& centre, const std::string& radius,
+                        const std::string& mass, const std::string& more = "") {
+  return "[[particle]]\ncentre = [" + centre + "]\nradius = " + radius + "\nmass = " + mass + "\n" +
+         more;
+}
+
 class ParticlesCommand : public ::testing::Test {
  protected:
   ParticlesCommand() { folder_.file("discs.csv", kDiscs); }

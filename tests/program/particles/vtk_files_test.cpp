@@ -82,24 +82,10 @@ coefficient = 0.5
 [[plane]]
 point = [0.0, -1.0]
 normal = [0.0, 1.0]
-[[particle]]
-centre = [0.0, 5.0]
-radius = 1.0
-mass = 1.0
-[[particle]]
-centre = [0.0, 3.0]
-radius = 1.0
-mass = 3.0
-[[particle]]
-centre = [3.0, 0.0]
-radius = 1.0
-mass = 1.0
-velocity = [1.0, 0.0]
-[[particle]]
-centre = [9.0, 0.0]
-radius = 1.0
-mass = 1.0
-[[body]]
+)" + disc("0.0, 5.0", "1.0", "1.0") +
+                           disc("0.0, 3.0", "1.0", "3.0") +
+                           disc("3.0, 0.0", "1.0", "1.0", "velocity = [1.0, 0.0]\n") +
+                           disc("9.0, 0.0", "1.0", "1.0") + R"([[body]]
 particles = [0, 1]
 [[hinge]]
 body = 0
