@@ -142,7 +142,7 @@ TEST(WorkingFolder, WithFilesNamedLikeTheScriptsIncludesIsNotLookedInto) {
   const auto result = run_freefem(default_freefem(), "plane.edp", {});
   std::filesystem::current_path(before);
   // plane.edp itself speaks: it was compiled with its own includes.
-  EXPECT_THAT(result.output, HasSubstr("viscontact-error -radius is missing"));
+  EXPECT_THAT(result.output, HasSubstr("viscontact-error -accuracy is missing"));
 }
 
 }  // namespace
