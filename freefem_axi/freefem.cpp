@@ -6,9 +6,33 @@
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/freefem/freefem_command.hpp"
 
 namespace viscontact::freefem_axi {
+namespace {
+
+// Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
+// each of the others is twice as fine as the one before it. If the accuracy is not reached, further
+// sequences start from finer meshes (extrapolation.idp). The first sequence reaches an accuracy of
+// 1e-5 for gaps of 1e-6 to 10 radii in about a second (bench/README.md). With fewer than two cells
+// the film would be a single layer of triangles.
+constexpr int kCoarsestCells = 2;
+constexpr int kLevels = 3;
+constexpr int kAttempts = 3;
+
+/// The last lines of a program's output, joined to one line.
+std::string last_lines(const std::string& output) {
+  constexpr std::size_t kLines = 4;
+  std::vector<std::string> lines;
+  std::istringstream stream(output);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
+  if (lines.size() > kLines) lines.erase(lines.begin(), lines.end() - kLines);
+  return fmt::format("{}", fmt::join(lines, " | "));
+}
+
+}  // namespace
 
 FreeFem default_freefem(const StopToken& stop) {
   FreeFem freefem;
@@ -34,11 +58,24 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
   return result;
 }
 
+void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy) {
+  arguments.insert(
+      arguments.end(),
+      {"-accuracy", format_number(relative_accuracy), "-cells", std::to_string(kCoarsestCells),
+       "-levels", std::to_string(kLevels), "-attempts", std::to_string(kAttempts)});
+}
+
 std::string timed_out_in_words(std::chrono::seconds time_limit) {
   return fmt::format(
       "it had not ended after {} s and was stopped; too little memory can make FreeFEM hang "
       "(ulimit -v); on a slow machine set {} to more seconds",
       time_limit.count(), freefem::kTimeLimit);
+}
+
+std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit) {
+  if (result.timed_out) return timed_out_in_words(time_limit);
+  const std::string said = line_after(result.output, "viscontact-error");
+  return said.empty() ? last_lines(result.output) : said;
 }
 
 std::string line_after(const std::string& output, std::string_view prefix) {

@@ -42,9 +42,17 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
+/// Appends the arguments of scripts/mesh_arguments.idp: the relative accuracy [1] that is asked of
+/// each force, in (0, 1), and how the meshes are refined.
+void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
+
 /// The part of an error message that says that FreeFEM was killed at its time limit, and the
 /// remedy.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
+
+/// Why a script failed, for an error message: its time limit, the error that it printed, or the last
+/// lines of its output.
+std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
 /// The rest of the first line of `output` that starts with `prefix` and a space; empty if no line
 /// does.

@@ -18,29 +18,9 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-// Each row is solved on three meshes. The coarsest has kCoarsestCells cells across the film, and
-// each of the others is twice as fine as the one before it. If the accuracy is not reached, further
-// sequences start from finer meshes (drag.idp). The first sequence reaches an accuracy of 1e-5 for
-// gaps of 1e-6 to 10 radii in about a second (bench/README.md). With fewer than two cells the film
-// would be a single layer of triangles.
-constexpr int kCoarsestCells = 2;
-constexpr int kLevels = 3;
-constexpr int kAttempts = 3;
-
 // Revision of the scripts. Raise it when a change of the scripts changes their results: tables of
 // another revision are then computed again.
-constexpr int kMethod = 3;
-
-/// The last lines of a program's output, joined to one line.
-std::string last_lines(const std::string& output) {
-  constexpr std::size_t kLines = 4;
-  std::vector<std::string> lines;
-  std::istringstream stream(output);
-  for (std::string line; std::getline(stream, line);)
-    if (line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
-  if (lines.size() > kLines) lines.erase(lines.begin(), lines.end() - kLines);
-  return fmt::format("{}", fmt::join(lines, " | "));
-}
+constexpr int kDragMethod = 3;
 
 /// The first numbers of the script's line "viscontact-result".
 struct Answer {
@@ -60,13 +40,10 @@ Answer read_answer(const ProcessResult& result, double gap, double reference_vel
   const auto order = parse_number(words[3]);
   if (result.exit_status == 0 && force && estimate && unknowns && order)
     return {*force, *estimate, *unknowns, *order};
-  const std::string said = line_after(result.output, "viscontact-error");
   throw Error(ErrorKind::kExternalProgram,
               fmt::format("FreeFEM failed at gap {}, velocity {} (exit status {}): {}",
                           format_number(gap), format_number(reference_velocity), result.exit_status,
-                          result.timed_out ? timed_out_in_words(time_limit)
-                          : said.empty()   ? last_lines(result.output)
-                                           : said));
+                          failure_in_words(result, time_limit)));
 }
 
 }  // namespace
@@ -107,7 +84,7 @@ std::string tabulation_hash(const Tabulation& tabulation) {
   std::string text = fmt::format(
       "{}; {}; {} {} {} {};", geometry_in_words(tabulation), container_in_words(tabulation),
       format_number(tabulation.viscosity), format_number(tabulation.radius),
-      format_number(tabulation.relative_accuracy), kMethod);
+      format_number(tabulation.relative_accuracy), kDragMethod);
   for (const double gap : tabulation.gaps) text += " " + format_number(gap);
   text += ";";
   for (const double velocity : tabulation.reference_velocities)
@@ -121,11 +98,8 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
   std::vector<std::string> arguments = {"-radius",    format_number(tabulation.radius),
                                         "-gap",       format_number(gap),
                                         "-viscosity", format_number(tabulation.viscosity),
-                                        "-velocity",  format_number(reference_velocity),
-                                        "-accuracy",  format_number(tabulation.relative_accuracy),
-                                        "-cells",     std::to_string(kCoarsestCells),
-                                        "-levels",    std::to_string(kLevels),
-                                        "-attempts",  std::to_string(kAttempts)};
+                                        "-velocity",  format_number(reference_velocity)};
+  append_mesh_arguments(arguments, tabulation.relative_accuracy);
   if (geometry.takes_container) {
     const auto container = tabulation.container.value_or(Container{});  // 0 means unbounded
     arguments.insert(arguments.end(), {"-containerRadius", format_number(container.radius),

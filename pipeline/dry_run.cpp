@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "viscontact/freefem_axi/journal/row_record.hpp"
@@ -14,17 +13,6 @@
 
 namespace viscontact::pipeline {
 namespace {
-
-/// The time of one row on one core [s], from measurements on two cores of 2.1 GHz with one row on
-/// each, at gaps of 0.01 and 0.3. The time is constant down to a relative accuracy of 1e-5 (kKnee),
-/// because the coarsest meshes suffice there. Below, it grows by a factor of 2.8 = 10^kPower for
-/// each decade of the accuracy. The geometry's relative_cost multiplies it.
-double typical_seconds(const freefem_axi::Tabulation& tabulation) {
-  constexpr double kCoarse = 1.3, kKnee = 1e-5, kPower = 0.45;
-  const double finer = std::max(1.0, kKnee / tabulation.relative_accuracy);
-  return kCoarse * std::pow(finer, kPower) *
-         freefem_axi::find_geometry(tabulation.geometry).relative_cost;
-}
 
 double remaining_seconds(const DryRun& run, int jobs) {
   const auto left = run.rows - run.finished;
@@ -45,16 +33,15 @@ std::string duration(double seconds) {
 }  // namespace
 
 DryRun dry_run(const CaseTable& one) {
-  const auto& tabulation = one.tabulation();
-  const auto grid = freefem_axi::grid_of(tabulation);
-  DryRun run{one.table.string(), grid.size(), 0, typical_seconds(tabulation),
+  const auto& grid = one.plan.points;
+  DryRun run{one.table.string(), grid.size(), 0, one.plan.typical_seconds,
              "the shipped tables' rows"};
-  const auto record = freefem_axi::read_row_record(one.table, one.hash());
+  const auto record = freefem_axi::read_row_record(one.table, one.plan);
   run.finished = grid.size() - freefem_axi::missing_points(record, grid).size();
   if (record.finished.empty()) return run;
   run.seconds_per_row = 0;
   for (const auto& [point, row] : record.finished)
-    run.seconds_per_row += row.row.seconds / static_cast<double>(record.finished.size());
+    run.seconds_per_row += one.plan.seconds_of(row) / static_cast<double>(record.finished.size());
   run.basis = "its finished rows";
   return run;
 }

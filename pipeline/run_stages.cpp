@@ -93,7 +93,7 @@ fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
   check_run(c, models);
   warn_of_gaps_outside(c, models, stop);
   results::refuse_other_kind(run.table(), "# case: ", "table");
-  tabulate_stage({{c, run.table()}}, jobs, stop);
+  tabulate_stage({case_table(c, run.table())}, jobs, stop);
   stop.throw_if_stop_requested();
   fit_stage(run.table(), run.fit(), request.settings,
             results::provenance_of({given, {run.table()}}), stop);

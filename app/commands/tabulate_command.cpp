@@ -60,8 +60,13 @@ void tabulate_cases(const TabulateOptions& o) {
   std::vector<std::vector<double>> pictures;
   if (o.plot_option->count() > 0)
     for (const auto& one : tables) {
+      if (!one.tabulation)
+        throw Error(ErrorKind::kWrongUsage,
+                    fmt::format("--plot: {} has no section [tabulation]; flows are drawn only for "
+                                "one sphere",
+                                one.case_path.string()));
       pictures.push_back(
-          with_place("--plot", [&] { return pipeline::gaps_to_picture(one.tabulation(), gaps); }));
+          with_place("--plot", [&] { return pipeline::gaps_to_picture(*one.tabulation, gaps); }));
       pipeline::check_pictures(pictures.back(), pipeline::picture_folder(one.table));
     }
   if (o.dry_run) {
@@ -83,8 +88,8 @@ void tabulate_cases(const TabulateOptions& o) {
   else
     pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    pipeline::picture_stage(tables[i].tabulation(), pictures[i],
-                            pipeline::picture_folder(tables[i].table), tables[i].c.path,
+    pipeline::picture_stage(*tables[i].tabulation, pictures[i],
+                            pipeline::picture_folder(tables[i].table), tables[i].case_path,
                             interrupt_token());
 }
 

@@ -1,10 +1,9 @@
-// Writes and reads the lines of a journal. A line is "HASH row NUMBERS VERSION CHECKSUM" or "HASH
-// failed GAP VELOCITY REASON CHECKSUM".
+// Writes and reads the lines of a journal. A line is "HASH row POINT NUMBERS VERSION CHECKSUM" or
+// "HASH failed POINT REASON CHECKSUM".
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 
 #include <fmt/format.h>
 
-#include <initializer_list>
 #include <sstream>
 
 #include "viscontact/common/files/file.hpp"
@@ -24,16 +23,23 @@ std::string checksum(std::string_view text) {
   return sha256(text).substr(0, kDigits);
 }
 
-/// Reads a number into each of `places`. Returns false if a word is missing or is not a number.
-bool read_numbers(std::istream& words, std::initializer_list<double*> places) {
-  for (double* place : places) {
+/// Reads `count` numbers. Returns nothing if a word is missing or is not a number.
+std::optional<std::vector<double>> read_numbers(std::istream& words, std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
     std::string word;
     words >> word;
     const auto number = parse_number(word);
-    if (!number) return false;
-    *place = *number;
+    if (!number) return {};
+    numbers.push_back(*number);
   }
-  return true;
+  return numbers;
+}
+
+std::string text_of(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += format_number(number) + " ";
+  return text;
 }
 
 std::string rest_of(std::istream& words) {
@@ -43,51 +49,50 @@ std::string rest_of(std::istream& words) {
 }
 
 std::string text_of(const FinishedRow& finished) {
-  const auto& row = finished.row;
-  return fmt::format("{} {} {} {} {} {} {} {} {} {}", kFinished, format_number(row.gap),
-                     format_number(row.reference_velocity), format_number(row.force),
-                     format_number(row.drag_factor), format_number(row.relative_error_estimate),
-                     format_number(row.degrees_of_freedom), format_number(row.seconds),
-                     format_number(row.observed_order), on_one_line(finished.freefem_version));
+  return fmt::format("{} {}{}{}", kFinished, text_of(finished.point), text_of(finished.numbers),
+                     on_one_line(finished.freefem_version));
 }
 
 std::string text_of(const FailedRow& failed) {
-  return fmt::format("{} {} {} {}", kFailed, format_number(failed.point.gap),
-                     format_number(failed.point.reference_velocity), on_one_line(failed.reason));
+  return fmt::format("{} {}{}", kFailed, text_of(failed.point), on_one_line(failed.reason));
+}
+
+/// The line without its checksum, or nothing if the checksum is wrong.
+std::optional<std::string> checked_text(std::string_view line) {
+  const auto end = line.rfind(' ');
+  if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
+    return {};
+  return std::string(line.substr(0, end));
 }
 
 }  // namespace
 
-std::string write_journal_line(const JournalLine& line) {
-  const std::string text = line.tabulation_hash + " " +
-                           std::visit([](const auto& entry) { return text_of(entry); }, line.entry);
+std::string write_journal_line(const std::string& hash, const JournalEntry& entry) {
+  const std::string text =
+      hash + " " + std::visit([](const auto& row) { return text_of(row); }, entry);
   return fmt::format("{} {}\n", text, checksum(text));
 }
 
-std::optional<JournalLine> read_journal_line(std::string_view line) {
-  const auto end = line.rfind(' ');
-  if (end == std::string_view::npos || checksum(line.substr(0, end)) != line.substr(end + 1))
-    return {};
-  std::istringstream words{std::string(line.substr(0, end))};
+std::optional<std::string> hash_of_journal_line(std::string_view line) {
+  const auto text = checked_text(line);
+  if (!text) return {};
+  return text->substr(0, text->find(' '));
+}
+
+std::optional<JournalEntry> read_journal_line(std::string_view line, const RowShape& shape) {
+  const auto text = checked_text(line);
+  if (!text) return {};
+  std::istringstream words(*text);
   std::string hash;
   std::string kind;
   words >> hash >> kind;
-  if (kind == kFinished) {
-    FinishedRow finished;
-    auto& row = finished.row;
-    if (!read_numbers(words, {&row.gap, &row.reference_velocity, &row.force, &row.drag_factor,
-                              &row.relative_error_estimate, &row.degrees_of_freedom, &row.seconds,
-                              &row.observed_order}))
-      return {};
-    finished.freefem_version = rest_of(words);
-    return JournalLine{hash, finished};
-  }
-  FailedRow failed;
-  if (kind != kFailed ||
-      !read_numbers(words, {&failed.point.gap, &failed.point.reference_velocity}))
-    return {};
-  failed.reason = rest_of(words);
-  return JournalLine{hash, failed};
+  if (kind != kFinished && kind != kFailed) return {};
+  const auto point = read_numbers(words, shape.point);
+  if (!point) return {};
+  if (kind == kFailed) return FailedRow{*point, rest_of(words)};
+  const auto numbers = read_numbers(words, shape.numbers);
+  if (!numbers) return {};
+  return FinishedRow{*point, *numbers, rest_of(words)};
 }
 
 }  // namespace viscontact::freefem_axi

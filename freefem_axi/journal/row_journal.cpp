@@ -42,8 +42,8 @@ bool is_writer_name(const std::string& name) {
   return ::fnmatch("+([0-9])-of-+([0-9]).?*.+([0-9])", name.c_str(), FNM_EXTMATCH) == 0;
 }
 
-RowJournal::RowJournal(std::filesystem::path path, std::string tabulation_hash)
-    : path_(std::move(path)), hash_(std::move(tabulation_hash)) {
+RowJournal::RowJournal(std::filesystem::path path, std::string hash)
+    : path_(std::move(path)), hash_(std::move(hash)) {
   if (path_.has_parent_path()) make_folder(path_.parent_path());
   file_ = open_and_lock(
       path_, "is locked by another tabulation of the same table; wait for it, or write elsewhere");
@@ -52,7 +52,7 @@ RowJournal::RowJournal(std::filesystem::path path, std::string tabulation_hash)
 }
 
 void RowJournal::append(const JournalEntry& entry) {
-  const std::string line = (at_line_start_ ? "" : "\n") + write_journal_line({hash_, entry});
+  const std::string line = (at_line_start_ ? "" : "\n") + write_journal_line(hash_, entry);
   at_line_start_ = false;
   append_to(file_, line, path_);
   sync_file(file_, path_);

@@ -29,9 +29,9 @@ bool is_writer_name(const std::string& name);
 /// A journal that is open for appending. One process at a time has it.
 class RowJournal {
  public:
-  /// Opens the file, or makes it. Throws Error(kBadInput) if it cannot be written or if another
+  /// Opens the file, or makes it, for rows of the TablePlan with this hash. Throws Error(kBadInput) if it cannot be written or if another
   /// process has locked it.
-  RowJournal(std::filesystem::path path, std::string tabulation_hash);
+  RowJournal(std::filesystem::path path, std::string hash);
 
   /// Appends a finished or failed row, which is on disk when the function returns. Throws
   /// Error(kBadInput) if it cannot be written.

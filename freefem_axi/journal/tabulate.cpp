@@ -18,7 +18,7 @@ namespace {
 /// The version of FreeFEM. FreeFEM is asked for it before the first row, so that a missing FreeFEM
 /// is reported once and not for each row. A worker with a name is a job on a cluster, whose
 /// messages nobody may read. It therefore also writes the reason to its journal.
-std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& points,
+std::string version_for(const RowWorker& worker, const std::vector<RowPoint>& points,
                         const std::filesystem::path& journal_file, const std::string& hash) {
   try {
     return freefem_version(worker.freefem);
@@ -32,11 +32,10 @@ std::string version_for(const RowWorker& worker, const std::vector<GridPoint>& p
 }
 
 /// Solves one row. Returns the row, or the reason why FreeFEM failed.
-JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tabulation& tabulation,
-                   const GridPoint& point) {
+JournalEntry solve(const FreeFem& freefem, const std::string& version, const TablePlan& plan,
+                   const RowPoint& point) {
   try {
-    return FinishedRow{solve_row(freefem, tabulation, point.gap, point.reference_velocity),
-                       version};
+    return FinishedRow{point, plan.solve(freefem, point), version};
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kExternalProgram) throw;
     return FailedRow{point, error.what()};
@@ -45,15 +44,14 @@ JournalEntry solve(const FreeFem& freefem, const std::string& version, const Tab
 
 }  // namespace
 
-void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
-                  const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
+void compute_rows(const RowWorker& worker, const TablePlan& plan,
+                  const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report) {
-  const std::string hash = tabulation_hash(tabulation);
-  const auto missing = missing_points(read_row_record(table_path, hash), points);
+  const auto missing = missing_points(read_row_record(table_path, plan), points);
   if (missing.empty()) return;
   const auto journal_file = journal_path(table_path, worker.name);
-  const std::string version = version_for(worker, missing, journal_file, hash);
-  RowJournal journal(journal_file, hash);
+  const std::string version = version_for(worker, missing, journal_file, plan.hash);
+  RowJournal journal(journal_file, plan.hash);
 
   std::mutex mutex;  // protects the journal, the failures and the report
   std::vector<std::string> failures;
@@ -65,8 +63,8 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
     for (std::size_t i = 0;
          !worker.freefem.stop.stop_requested() && (i = next++) < missing.size();) {
       try {
-        if (!read_row_record(table_path, hash).finished.contains(missing[i])) {
-          const auto entry = solve(worker.freefem, version, tabulation, missing[i]);
+        if (!read_row_record(table_path, plan).finished.contains(missing[i])) {
+          const auto entry = solve(worker.freefem, version, plan, missing[i]);
           const std::scoped_lock lock(mutex);
           journal.append(entry);
           if (const auto* failed = std::get_if<FailedRow>(&entry))
@@ -99,13 +97,6 @@ void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
                             points.size(), fmt::join(failures, "; ")));
-}
-
-lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
-                                 const std::filesystem::path& table_path,
-                                 const TabulateReport& report) {
-  compute_rows({freefem, jobs, ""}, tabulation, grid_of(tabulation), table_path, report);
-  return assemble_table(tabulation, read_row_record(table_path, tabulation_hash(tabulation)));
 }
 
 }  // namespace viscontact::freefem_axi

@@ -30,15 +30,10 @@ struct RowWorker {
 /// checked again before each row. Each finished row, and the reason of each failed one, is written
 /// at once to the worker's journal beside `table_path`. `report` is called after each row, never
 /// twice at once. A row that fails does not stop the others. At the end Error(kExternalProgram)
-/// names all failed rows. Throws Error(kInterrupted) if worker.freefem.stop requests a stop.
-void compute_rows(const RowWorker& worker, const Tabulation& tabulation,
-                  const std::vector<GridPoint>& points, const std::filesystem::path& table_path,
+/// names all failed rows. Throws Error(kInterrupted) if worker.freefem.stop requests a stop. The
+/// caller removes the journals after it has written the table.
+void compute_rows(const RowWorker& worker, const TablePlan& plan,
+                  const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);
-
-/// Computes all rows as compute_rows() does and returns the table. The caller removes the journals
-/// after the table has been written.
-lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation, int jobs,
-                                 const std::filesystem::path& table_path,
-                                 const TabulateReport& report);
 
 }  // namespace viscontact::freefem_axi

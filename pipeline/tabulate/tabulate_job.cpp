@@ -3,6 +3,7 @@
 
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact::pipeline {
 namespace {
@@ -12,7 +13,7 @@ std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, s
   std::vector<freefem_axi::RowRecord> records;
   records.reserve(tables.size());
   for (const auto& one : tables)
-    records.push_back(freefem_axi::read_row_record(one.table, one.hash()));
+    records.push_back(freefem_axi::read_row_record(one.table, one.plan));
   std::vector<std::size_t> tasks;
   for (std::size_t task = 0; task < count; ++task) {
     const auto points = points_of(tables, {task, count});
@@ -35,9 +36,9 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& r
   job.results = "the tables";
   for (const auto& one : tables) {
     check_output_file(one.table);
-    rows += freefem_axi::grid_of(one.tabulation()).size();
-    job.cases.push_back(one.c.path.string());
-    job.copies.emplace_back(one.c.path.filename().string(), one.c.text);
+    rows += one.plan.points.size();
+    job.cases.push_back(one.case_path.string());
+    job.copies.emplace_back(one.case_path.filename().string(), one.case_text);
   }
   job.count = task_count(request, rows);
   (void)split_words(request.options);  // throws if they are wrong, before Slurm is asked

@@ -9,9 +9,10 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/number.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -21,33 +22,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void warn_of_unmet_accuracy(const lubrication::ForceTable& table, double asked) {
-  for (const auto& row : table.rows)
-    if (row.relative_error_estimate > asked)
+void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
+                            const freefem_axi::RowRecord& record) {
+  for (const auto& point : plan.points)
+    if (const double estimate = plan.estimate_of(record.finished.at(point));
+        estimate > plan.relative_accuracy)
       terminal::warn(
-          fmt::format("viscontact: warning: gap {:.6g}, velocity {:.6g}: relative error estimate "
-                      "{:.2g}, {:.2g} was asked",
-                      row.gap, row.reference_velocity, row.relative_error_estimate, asked));
+          fmt::format("viscontact: warning: {}: relative error estimate {:.2g}, {:.2g} was asked",
+                      plan.name_of(point), estimate, plan.relative_accuracy));
 }
 
 /// True if the table of this case exists; then a message says so, and journals that a process wrote
 /// after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
-  const auto table = freefem_axi::find_table(one.table, one.hash());
-  if (!table) return false;
+  if (!one.plan.read(one.table)) return false;
   terminal::say(fmt::format("tabulate: {} is up to date", one.table.string()));
-  freefem_axi::remove_journals(one.table, one.hash());
-  warn_of_unmet_accuracy(*table, one.tabulation().relative_accuracy);
+  freefem_axi::remove_journals(one.table, one.plan.hash);
+  warn_of_unmet_accuracy(one.plan, freefem_axi::read_row_record(one.table, one.plan));
   return true;
 }
 
-void write_table(const CaseTable& one, lubrication::ForceTable table,
+/// Writes the table of a record in which no row is missing.
+void write_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                  const results::Provenance& provenance) {
-  table.versions["Viscontact"] = VISCONTACT_VERSION;
-  results::write_output(one.table, TextKind::kHashComment, lubrication::write_force_table(table),
-                        provenance);
-  freefem_axi::remove_journals(one.table, one.hash());
-  warn_of_unmet_accuracy(table, one.tabulation().relative_accuracy);
+  results::write_output(one.table, TextKind::kHashComment,
+                        one.plan.write(record, {{"Viscontact", VISCONTACT_VERSION}}), provenance);
+  freefem_axi::remove_journals(one.table, one.plan.hash);
+  warn_of_unmet_accuracy(one.plan, record);
 }
 
 void show_rows(const freefem_axi::TabulateProgress& progress) {
@@ -56,9 +57,9 @@ void show_rows(const freefem_axi::TabulateProgress& progress) {
 }
 
 /// Says in words how many rows there are and how many of them an earlier call has finished.
-std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::GridPoint>& points) {
+std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::RowPoint>& points) {
   const auto missing =
-      freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.hash()), points);
+      freefem_axi::missing_points(freefem_axi::read_row_record(one.table, one.plan), points);
   const auto kept = points.size() - missing.size();
   return fmt::format("{} rows{}", points.size(),
                      kept > 0 ? fmt::format(" ({} of them already computed)", kept) : "");
@@ -67,34 +68,32 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::G
 void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   if (is_up_to_date(one)) return;
   check_output_file(one.table);
-  terminal::say(fmt::format("tabulate: {} on {} processes",
-                            rows_in_words(one, freefem_axi::grid_of(one.tabulation())), jobs));
-  const auto provenance = results::provenance_of({{one.c.path}, {}});
-  auto table = freefem_axi::tabulate(freefem_axi::default_freefem(stop), one.tabulation(), jobs,
-                                     one.table, show_rows);
+  terminal::say(
+      fmt::format("tabulate: {} on {} processes", rows_in_words(one, one.plan.points), jobs));
+  const auto provenance = results::provenance_of({{one.case_path}, {}});
+  freefem_axi::compute_rows({freefem_axi::default_freefem(stop), jobs, ""}, one.plan,
+                            one.plan.points, one.table, show_rows);
   terminal::clear_progress();
-  write_table(one, std::move(table), provenance);
+  write_table(one, freefem_axi::read_row_record(one.table, one.plan), provenance);
 }
 
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
-                                const std::vector<freefem_axi::GridPoint>& missing,
+                                const std::vector<freefem_axi::RowPoint>& missing,
                                 const fs::path& slurm_folder) {
   constexpr std::size_t kNamed = 3;  // rows that the message names
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
-    named.push_back(fmt::format("gap {}, velocity {}", format_number(missing[i].gap),
-                                format_number(missing[i].reference_velocity)));
+    named.push_back(one.plan.name_of(missing[i]));
   if (missing.size() > kNamed) named.emplace_back("...");
   std::vector<std::string> reasons;
   for (const auto& point : missing)
     if (const auto failed = record.failed.find(point); failed != record.failed.end())
       reasons.push_back(failed->second);
-  std::string text =
-      fmt::format("{} of {} rows are missing ({}); the finished ones are kept", missing.size(),
-                  freefem_axi::grid_of(one.tabulation()).size(), fmt::join(named, "; "));
+  std::string text = fmt::format("{} of {} rows are missing ({}); the finished ones are kept",
+                                 missing.size(), one.plan.points.size(), fmt::join(named, "; "));
   if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
-  if (const auto submitted = slurm_folder / one.c.path.filename();
-      fs::exists(submitted) && read_file(submitted) != one.c.text)
+  if (const auto submitted = slurm_folder / one.case_path.filename();
+      fs::exists(submitted) && read_file(submitted) != one.case_text)
     text += fmt::format("; the case was edited since {} was submitted", submitted.string());
   if (reasons.empty()) throw Error(ErrorKind::kNotConverged, text);
   throw Error(ErrorKind::kExternalProgram,
@@ -103,11 +102,10 @@ void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
 
 void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
   if (is_up_to_date(one)) return;
-  const auto record = freefem_axi::read_row_record(one.table, one.hash());
-  const auto missing = freefem_axi::missing_points(record, freefem_axi::grid_of(one.tabulation()));
+  const auto record = freefem_axi::read_row_record(one.table, one.plan);
+  const auto missing = freefem_axi::missing_points(record, one.plan.points);
   if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
-  write_table(one, freefem_axi::assemble_table(one.tabulation(), record),
-              results::provenance_of({{one.c.path}, {}}));
+  write_table(one, record, results::provenance_of({{one.case_path}, {}}));
   terminal::say(fmt::format("tabulate: {} is gathered", one.table.string()));
 }
 
@@ -140,6 +138,11 @@ void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
 
 }  // namespace
 
+CaseTable case_table(const case_file::Case& c, const fs::path& table) {
+  const auto& tabulation = case_file::required_tabulation(c);
+  return {c.path, c.text, table, freefem_axi::force_table_plan(tabulation), tabulation};
+}
+
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const fs::path& output) {
   std::map<fs::path, std::string> case_of;
@@ -154,20 +157,18 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
                               other->second, file, names.back().string()));
   }
   std::vector<CaseTable> tables;
-  for (std::size_t i = 0; i < case_files.size(); ++i) {
-    tables.push_back({case_file::read_case(case_files[i]), names[i]});
-    (void)tables.back().tabulation();  // throws if a case has no tabulation, before any work begins
-  }
+  for (std::size_t i = 0; i < case_files.size(); ++i)
+    tables.push_back(case_table(case_file::read_case(case_files[i]), names[i]));
   return tables;
 }
 
-std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
-                                                           const Share& share) {
-  std::vector<std::vector<freefem_axi::GridPoint>> points;
+std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
+                                                          const Share& share) {
+  std::vector<std::vector<freefem_axi::RowPoint>> points;
   std::size_t row = 0;
   for (const auto& one : tables) {
     points.emplace_back();
-    for (const auto& point : freefem_axi::grid_of(one.tabulation()))
+    for (const auto& point : one.plan.points)
       if (row++ % share.count == share.number) points.back().push_back(point);
   }
   return points;
@@ -186,8 +187,7 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
     if (points[i].empty()) return;
     terminal::say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
                               tables[i].table.string()));
-    freefem_axi::compute_rows(worker, tables[i].tabulation(), points[i], tables[i].table,
-                              show_rows);
+    freefem_axi::compute_rows(worker, tables[i].plan, points[i], tables[i].table, show_rows);
   });
 }
 

@@ -3,35 +3,41 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/journal/table_plan.hpp"
 #include "viscontact/pipeline/array_job.hpp"
 
 namespace viscontact::pipeline {
 
-/// A case and the file for its table.
+/// A case, the file for its table, and how the table is computed.
 struct CaseTable {
-  case_file::Case c;
+  std::filesystem::path case_path;
+  std::string case_text;  ///< content of the case file
   std::filesystem::path table;
-
-  const freefem_axi::Tabulation& tabulation() const { return case_file::required_tabulation(c); }
-  std::string hash() const { return freefem_axi::tabulation_hash(tabulation()); }
+  freefem_axi::TablePlan plan;
+  /// What the table of forces on one sphere is made from; nothing for a swimmer.
+  std::optional<freefem_axi::Tabulation> tabulation;
 };
+
+/// The table of the section [tabulation] of a case. Throws Error(kBadInput) if it has none.
+CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
 
 /// Reads the cases. For one case, `output` is the file of the table. For several cases, `output` is
 /// a folder and the tables are named after the case files. Throws Error(kWrongUsage) if two tables
-/// would have the same name, and Error(kBadInput) as read_case does or if a case has no tabulation.
+/// would have the same name, and Error(kBadInput) as read_case and read_swimmer_case do or if a case
+/// has neither [tabulation] nor [swimmer].
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const std::filesystem::path& output);
 
 /// The points of each table's grid that belong to the share. The rows of all tables are numbered in
 /// one sequence from 0.
-std::vector<std::vector<freefem_axi::GridPoint>> points_of(const std::vector<CaseTable>& tables,
-                                                           const Share& share);
+std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
+                                                          const Share& share);
 
 /// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
 /// tables. A table that was already made from the same inputs is left as it is. A row that fails

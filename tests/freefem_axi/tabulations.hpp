@@ -1,8 +1,11 @@
-// Tabulations that several tests ask for.
+// Tabulations that several tests ask for, and their tables.
 #pragma once
 
 #include <vector>
 
+#include "viscontact/freefem_axi/force_table_plan.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
+#include "viscontact/freefem_axi/journal/tabulate.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {
@@ -19,6 +22,15 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
   tabulation.container = Container{container_radius, 2 * container_radius};
   tabulation.relative_accuracy = relative_accuracy;
   return tabulation;
+}
+
+/// Computes all rows and puts the table together.
+inline lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
+                                        int jobs, const std::filesystem::path& table_path,
+                                        const TabulateReport& report) {
+  const auto plan = force_table_plan(tabulation);
+  compute_rows({freefem, jobs, ""}, plan, plan.points, table_path, report);
+  return assemble_table(tabulation, read_row_record(table_path, plan));
 }
 
 }  // namespace viscontact::freefem_axi

@@ -8,7 +8,9 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
+#include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact::freefem_axi {
@@ -21,24 +23,23 @@ using ::testing::StartsWith;
 constexpr const char* kHash = "hash-of-this-tabulation";
 
 // Numbers with no short decimal form: they must come back bit by bit.
-const FinishedRow kFirst = {{1.0 / 3, -1, 56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1, 35.0 / 9},
-                            "4.9"};
-const FinishedRow kSecond = {{2.0 / 3, -1, 28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2, -0.1},
-                             "4.9 (of 2021)"};
+const FinishedRow kFirst = {
+    {1.0 / 3, -1}, {56.0 / 9, 1.0 / 7, 1e-7 / 3, 12345, 0.1, 35.0 / 9}, "4.9"};
+const FinishedRow kSecond = {
+    {2.0 / 3, -1}, {28.0 / 9, 1.0 / 11, 1e-300, 54321, 0.2, -0.1}, "4.9 (of 2021)"};
 
-GridPoint point_of(const FinishedRow& finished) {
-  return {finished.row.gap, finished.row.reference_velocity};
+RowPoint point_of(const FinishedRow& finished) { return finished.point; }
+
+/// A plan with this hash, whose rows have two numbers for the point and six more.
+TablePlan plan_of(const std::string& hash) {
+  auto plan = force_table_plan(unit_tabulation({0.5}, 5, 1e-3));
+  plan.hash = hash;
+  return plan;
 }
 
 void expect_equal(const FinishedRow& a, const FinishedRow& b) {
-  EXPECT_EQ(a.row.gap, b.row.gap);
-  EXPECT_EQ(a.row.reference_velocity, b.row.reference_velocity);
-  EXPECT_EQ(a.row.force, b.row.force);
-  EXPECT_EQ(a.row.drag_factor, b.row.drag_factor);
-  EXPECT_EQ(a.row.relative_error_estimate, b.row.relative_error_estimate);
-  EXPECT_EQ(a.row.degrees_of_freedom, b.row.degrees_of_freedom);
-  EXPECT_EQ(a.row.seconds, b.row.seconds);
-  EXPECT_EQ(a.row.observed_order, b.row.observed_order);
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.numbers, b.numbers);
   EXPECT_EQ(a.freefem_version, b.freefem_version);
 }
 
@@ -48,7 +49,9 @@ class RowJournalFile : public ::testing::Test {
     RowJournal journal(journal_path(table(), writer), kHash);
     for (const auto& entry : entries) journal.append(entry);
   }
-  RowRecord record(const std::string& hash = kHash) const { return read_row_record(table(), hash); }
+  RowRecord record(const std::string& hash = kHash) const {
+    return read_row_record(table(), plan_of(hash));
+  }
   std::filesystem::path table() const { return scratch_.path() / "sub" / "table.csv"; }
   std::filesystem::path path() const { return journal_path(table()); }
 
@@ -77,7 +80,7 @@ TEST_F(RowJournalFile, AppendedRowsAreFoundAtOnceAndLater) {
 
 TEST_F(RowJournalFile, RowOfAnotherVelocityGapOrTabulationIsNotFound) {
   write({kFirst});
-  EXPECT_FALSE(record().finished.contains({kFirst.row.gap, 1}));
+  EXPECT_FALSE(record().finished.contains({kFirst.point[0], 1}));
   EXPECT_FALSE(record().finished.contains({0.33333, -1}));
   EXPECT_TRUE(record("another-hash").finished.empty());
 }
@@ -196,17 +199,18 @@ TEST_F(RowJournalFile, JournalThatIsHeldIsLeftAsItIs) {
 }
 
 TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
+  const auto tabulation = unit_tabulation({0.5}, 5, 1e-3);
   lubrication::ForceTable table_of_first;
   table_of_first.viscosity = table_of_first.radius = 1;
-  table_of_first.case_hash = kHash;
+  table_of_first.case_hash = tabulation_hash(tabulation);
   table_of_first.versions["FreeFEM"] = "4.9";
-  table_of_first.rows = {kFirst.row};
+  table_of_first.rows = {force_row(kFirst)};
   write_file(table(), lubrication::write_force_table(table_of_first));
-  EXPECT_TRUE(find_table(table(), kHash));
-  EXPECT_FALSE(find_table(table(), "another-hash"));
-  ASSERT_TRUE(record().finished.contains(point_of(kFirst)));
-  expect_equal(record().finished.at(point_of(kFirst)), kFirst);
-  EXPECT_TRUE(record("another-hash").finished.empty());
+  const auto of_table = read_row_record(table(), force_table_plan(tabulation));
+  ASSERT_TRUE(of_table.finished.contains(point_of(kFirst)));
+  expect_equal(of_table.finished.at(point_of(kFirst)), kFirst);
+  const auto other = read_row_record(table(), force_table_plan(unit_tabulation({0.5}, 6, 1e-3)));
+  EXPECT_TRUE(other.finished.empty());
 }
 
 TEST_F(RowJournalFile, PlaceThatCannotBeWrittenIsBadInputThatNamesIt) {

@@ -12,7 +12,9 @@
 #include "tests/freefem_axi/tabulations.hpp"
 #include "tests/oracles/brenner.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -124,7 +126,7 @@ TEST_F(Tabulate, RowThatAnotherProcessFinishesMeanwhileIsNotComputed) {
   // While the first row is computed, a process of a cluster finishes the third.
   const FakeFreeFem fake(scratch_.path(),
                          "[ $gap = 0.125 ] && { touch \"$folder/first\"; sleep 0.5; }\n");
-  const FinishedRow elsewhere = {{0.5, -1, 42, 1, 1e-6, 1000, 1, 4}, "0-fake"};
+  const FinishedRow elsewhere = {{0.5, -1}, {42, 1, 1e-6, 1000, 1, 4}, "0-fake"};
   std::jthread other([&] {
     while (!std::filesystem::exists(scratch_.path() / "first"))
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -146,10 +148,10 @@ TEST_F(Tabulate, WithAllRowsFinishedNeedsNoFreeFem) {
 
 TEST_F(Tabulate, WorkerOfAClusterLeavesInItsJournalThatFreeFemIsMissing) {
   const RowWorker worker = {{"no-such-freefem", "."}, 1, "0-of-1.node.1"};
-  expect_error(
-      [&] { compute_rows(worker, tabulation_, grid_of(tabulation_), table_path(), no_report); },
-      ErrorKind::kExternalProgram, HasSubstr("no-such-freefem"));
-  const auto record = read_row_record(table_path(), tabulation_hash(tabulation_));
+  const auto plan = force_table_plan(tabulation_);
+  expect_error([&] { compute_rows(worker, plan, plan.points, table_path(), no_report); },
+               ErrorKind::kExternalProgram, HasSubstr("no-such-freefem"));
+  const auto record = read_row_record(table_path(), plan);
   EXPECT_EQ(record.failed.size(), 4U);
   EXPECT_THAT(record.failed.at({0.5, -1}), HasSubstr("no-such-freefem"));
 }

@@ -11,6 +11,7 @@
 #include "tests/docs/document.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/system/process.hpp"
+#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
@@ -40,14 +41,13 @@ void interrupt_tabulation() {
   const fs::path out = fs::path(VISCONTACT_SOURCE_FOLDER) / "out";
   const auto lecture =
       case_file::read_case(fs::path(VISCONTACT_SOURCE_FOLDER) / "data/cases/lecture.toml");
-  const auto hash = freefem_axi::tabulation_hash(*lecture.tabulation);
-  const auto table = freefem_axi::find_table(out / "lecture/table.csv", hash);
-  ASSERT_TRUE(table) << "scripts/run has made no table of its case";
+  const auto plan = freefem_axi::force_table_plan(*lecture.tabulation);
+  const auto rows = plan.read(out / "lecture/table.csv");
+  ASSERT_TRUE(rows) << "scripts/run has made no table of its case";
   fs::remove(out / "table.csv");
   fs::remove(freefem_axi::journal_path(out / "table.csv"));
-  freefem_axi::RowJournal journal(freefem_axi::journal_path(out / "table.csv"), hash);
-  for (std::size_t i = 0; i + 2 < table->rows.size(); ++i)
-    journal.append(freefem_axi::FinishedRow{table->rows[i], table->versions.at("FreeFEM")});
+  freefem_axi::RowJournal journal(freefem_axi::journal_path(out / "table.csv"), plan.hash);
+  for (std::size_t i = 0; i + 2 < rows->size(); ++i) journal.append(rows->at(i));
 }
 
 TEST(Readme, EveryCommandThatItShowsSucceedsInItsOrder) {

@@ -12,6 +12,7 @@
 #include "tests/program/sample_files.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact {
@@ -35,10 +36,10 @@ class DisturbedTabulation : public ::testing::Test {
   /// "GAP VELOCITY" of the rows that are finished: on disk.
   std::set<std::string> finished(const std::string& table) const {
     std::set<std::string> rows;
-    const auto hash =
-        freefem_axi::tabulation_hash(*case_file::read_case(path("case.toml")).tabulation);
-    for (const auto& [point, row] : freefem_axi::read_row_record(table, hash).finished)
-      rows.insert(format_number(point.gap) + " " + format_number(point.reference_velocity));
+    const auto plan =
+        freefem_axi::force_table_plan(*case_file::read_case(path("case.toml")).tabulation);
+    for (const auto& [point, row] : freefem_axi::read_row_record(table, plan).finished)
+      rows.insert(format_number(point.at(0)) + " " + format_number(point.at(1)));
     return rows;
   }
 

@@ -1,0 +1,24 @@
+// The table of the lubrication force on one sphere as a TablePlan. A row's point is { gap [L],
+// velocity [L/T] }. Numbers are in the units of the case.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "viscontact/freefem_axi/journal/table_plan.hpp"
+#include "viscontact/freefem_axi/tabulation.hpp"
+
+namespace viscontact::freefem_axi {
+
+/// The rows are in the order of the table: for each velocity, the gaps in the given order.
+TablePlan force_table_plan(const Tabulation& tabulation);
+
+/// A row of the table as the journal stores it, and back.
+FinishedRow finished_row(const lubrication::ForceTableRow& row, const std::string& freefem_version);
+lubrication::ForceTableRow force_row(const FinishedRow& finished);
+
+/// The table of all rows. No row may be missing in the record.
+lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
+
+}  // namespace viscontact::freefem_axi

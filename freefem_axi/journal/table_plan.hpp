@@ -1,0 +1,75 @@
+// What the journal and the commands need to know of a table whose rows FreeFEM computes one by one,
+// whatever its rows contain: forces on a sphere (force_table_plan.hpp) or resistance matrices of
+// spheres on a line (resistance_table_plan.hpp).
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/freefem_axi/freefem.hpp"
+
+namespace viscontact::freefem_axi {
+
+/// The numbers by which the rows of a table are told apart: gap [L] and velocity [L/T], or the gaps
+/// between the spheres [L].
+using RowPoint = std::vector<double>;
+
+struct FinishedRow {
+  RowPoint point;
+  /// What was computed, in an order that the plan defines.
+  std::vector<double> numbers;
+  std::string freefem_version;  ///< version of the FreeFEM that computed the row
+};
+
+struct FailedRow {
+  RowPoint point;
+  std::string reason;  ///< one line, for the user
+};
+
+/// The finished and failed rows of a table, by their points.
+struct RowRecord {
+  std::map<RowPoint, FinishedRow> finished;
+  /// The reasons of failed rows. A row that was finished later is not among them.
+  std::map<RowPoint, std::string> failed;
+};
+
+/// How many numbers a row has.
+struct RowShape {
+  std::size_t point = 0;    ///< size of RowPoint
+  std::size_t numbers = 0;  ///< size of FinishedRow::numbers
+};
+
+/// Names and versions of the programs that made a table.
+using Versions = std::map<std::string, std::string>;
+
+/// A table and the functions that compute, read and write it.
+struct TablePlan {
+  /// SHA-256 of everything that the numbers depend on. Equal inputs have equal hashes.
+  std::string hash;
+  /// All rows, in the order of the table.
+  std::vector<RowPoint> points;
+  RowShape shape;
+  double relative_accuracy = 0;  ///< asked of every row [1]
+  double typical_seconds = 0;    ///< time of a row on one core [s], for estimates
+  /// Computes the numbers of one row. Throws Error(kExternalProgram) if FreeFEM fails, and other
+  /// errors if no row could be computed.
+  std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
+  /// The rows of the table in a file, or nothing if there is none or if it has other inputs.
+  std::function<std::optional<std::vector<FinishedRow>>(const std::filesystem::path&)> read;
+  /// The text of the file with all rows. None may be missing in the record.
+  std::function<std::string(const RowRecord&, const Versions&)> write;
+  /// The row in words for messages: "gap 0.1, velocity -1".
+  std::function<std::string(const RowPoint&)> name_of;
+  std::function<double(const FinishedRow&)> estimate_of;  ///< relative error of the row [1]
+  std::function<double(const FinishedRow&)> seconds_of;   ///< time of the row [s]
+};
+
+/// The versions of FreeFEM that computed the rows of `record`, joined by commas.
+std::string freefem_versions(const RowRecord& record);
+
+}  // namespace viscontact::freefem_axi

@@ -1,0 +1,16 @@
+// Gauss-Legendre quadrature with any number of points.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace viscontact::reduced_model {
+
+/// Points and weights on [0, 1].
+struct GaussRule {
+  Eigen::VectorXd points, weights;
+};
+
+/// The rule with `count` > 0 points, exact for polynomials of degree 2 count - 1.
+GaussRule gauss_rule(int count);
+
+}  // namespace viscontact::reduced_model

@@ -1,0 +1,34 @@
+// Tables of exact resistance matrices, in place of those of FreeFEM.
+#pragma once
+
+#include <vector>
+
+#include "tests/oracles/collinear_spheres.hpp"
+#include "viscontact/lubrication/resistance/chebyshev_arms.hpp"
+#include "viscontact/lubrication/resistance/resistance_table.hpp"
+
+namespace viscontact {
+
+/// The table of three spheres in unbounded fluid, viscosity 1, with `count` arms each between `from`
+/// and `to`. Each entry has the same error estimate.
+inline lubrication::ResistanceTable exact_table(const std::vector<double>& radii, double from,
+                                                double to, int count, double estimate = 1e-6) {
+  lubrication::ResistanceTable table;
+  table.viscosity = 1;
+  table.radii = radii;
+  const auto arms = lubrication::chebyshev_arms(from, to, count);
+  for (const double x1 : arms)
+    for (const double x2 : arms) {
+      lubrication::ResistanceRow row;
+      row.gaps = {x1 - radii[0] - radii[1], x2 - radii[1] - radii[2]};
+      const auto matrix = exact_resistance(radii, row.gaps);
+      for (Eigen::Index i = 0; i < 3; ++i)
+        for (Eigen::Index j = i; j < 3; ++j)
+          row.entries.push_back((matrix(i, j) + matrix(j, i)) / 2);
+      row.relative_error_estimates.assign(row.entries.size(), estimate);
+      table.rows.push_back(row);
+    }
+  return table;
+}
+
+}  // namespace viscontact
