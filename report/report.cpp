@@ -9,15 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <future>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/report/html/figures.hpp"
 #include "viscontact/report/html/html.hpp"
 #include "viscontact/report/html/report_tables.hpp"
-#include "viscontact/report/page_texts.hpp"
-#include "viscontact/report/pictures/gnuplot.hpp"
 #include "viscontact/report/report_plots.hpp"
 #include "viscontact/report/report_warnings.hpp"
 #include "viscontact/results/foreign_files.hpp"
@@ -31,11 +28,6 @@ namespace {
 constexpr auto kPlotNames =
     std::to_array<std::string_view>({"thinnest_film", "gap", "gap_logarithmic", "external_force",
                                      "gamma", "solid_force", "fit", "uncertainty"});
-
-struct Picture {
-  Plot plot;
-  std::string svg;  ///< empty if it could not be drawn
-};
 
 constexpr std::string_view kStillPicture = "<div class=still><svg";
 
@@ -59,49 +51,13 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   return plots;
 }
 
-/// Draws all plots at the same time, each in a process of gnuplot, because most of the time of such
-/// a process is its start. If one plot cannot be drawn, all pictures are returned without an SVG,
-/// and `failure` is the reason.
-std::vector<Picture> draw(std::vector<Plot> plots, std::exception_ptr& failure,
-                          const StopToken& stop) {
-  std::vector<std::future<std::string>> drawings;
-  for (const auto& plot : plots)
-    drawings.push_back(
-        std::async(std::launch::async, [&plot, &stop] { return svg_of(plot, stop); }));
-  std::vector<std::string> drawn;
-  try {
-    for (auto& drawing : drawings) drawn.push_back(drawing.get());
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kExternalProgram) throw;
-    failure = std::current_exception();
-    drawn.assign(plots.size(), "");
-  }
-  for (auto& drawing : drawings)
-    if (drawing.valid()) drawing.wait();  // the drawing refers to its plot, which is moved below
-  std::vector<Picture> pictures;
-  for (std::size_t i = 0; i < plots.size(); ++i)
-    pictures.push_back({std::move(plots[i]), std::move(drawn[i])});
-  return pictures;
-}
-
-/// The pictures with these names as HTML. Each has the data from which panels.js draws a plot that
-/// can be zoomed, and a still picture for browsers without scripts and for printing.
+/// The pictures with these names as HTML.
 std::string figures(const std::vector<Picture>& pictures,
                     std::initializer_list<std::string_view> names) {
   std::string text;
   for (const auto name : names)
     for (const auto& picture : pictures)
-      if (picture.plot.name == name)
-        text += fmt::format(
-            "<figure data-plot=\"{0}\">\n<div class=still>{1}</div>\n"
-            "<script type=\"application/json\">{2}</script>\n"
-            "{3}</figure>\n",
-            name, picture.svg, json_of(picture.plot),
-            picture.svg.empty()
-                ? ""
-                : fmt::format(
-                      "<figcaption><a href=\"plots/{0}.svg\">plots/{0}.svg</a></figcaption>",
-                      name));
+      if (picture.plot.name == name) text += figure(picture);
   return text;
 }
 
@@ -140,24 +96,9 @@ std::string summary(const results::RunResults& run) {
 }
 
 std::string page_of(const results::RunResults& run, const std::vector<Picture>& pictures) {
-  // The Content-Security-Policy forbids the browser to load anything from elsewhere.
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
-      "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
-      "<meta http-equiv=Content-Security-Policy content=\"default-src 'none'; style-src "
-      "'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">\n"
-      "<title>{0}</title>\n<style>\n{1}{2}</style></head>\n<body>\n<h1>{0}</h1>\n",
-      escaped(run.c.title), uplot_style(), report_style());
+  std::string page = page_head(run.c.title);
   page += summary(run) + warnings_box(run);
-  page +=
-      "<p class=hint>Drag in a plot to zoom; double-click or tap twice to see the whole plot "
-      "again. "
-      "The values at the pointer are shown beside the legend.</p>\n";
-  if (std::ranges::any_of(pictures, [](const Picture& picture) { return picture.svg.empty(); }))
-    page +=
-        "<p class=fine>gnuplot was missing or failed when this page was made. The page therefore "
-        "has no still pictures, and prints and browsers without JavaScript show no plots. Install "
-        "gnuplot (<code>apt-get install gnuplot-nox</code>) and make the report again.</p>\n";
+  page += hints_about(pictures);
   page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
   page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
   page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
@@ -167,25 +108,7 @@ std::string page_of(const results::RunResults& run, const std::vector<Picture>& 
                   uncertainty_words(run) + figures(pictures, {"uncertainty"}));
   page += section("Parameters", parameters_table(run));
   page += section("How it was made", origin_section(run));
-  page += fmt::format(
-      "<footer>Made by Viscontact {}. Plots on this page by uPlot.</footer>\n"
-      "<!-- uPlot:\n{} -->\n<script>\n{}</script>\n<script>\n{}</script>\n</body></html>\n",
-      VISCONTACT_VERSION, uplot_licence(), uplot_script(), report_script());
-  return page;
-}
-
-/// Warns if gnuplot is missing; throws Error(kExternalProgram) if gnuplot failed. Called after a
-/// report without still pictures is written.
-void warn_or_throw(const std::exception_ptr& failure) {
-  constexpr const char* kWritten =
-      "the report is written, without still pictures and without the files in plots/";
-  try {
-    std::rethrow_exception(failure);
-  } catch (const GnuplotMissing& missing) {
-    terminal::warn(fmt::format("report: warning: {}; {}", on_one_line(missing.what()), kWritten));
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}; {}", on_one_line(error.what()), kWritten));
-  }
+  return page + page_foot();
 }
 
 }  // namespace
@@ -226,7 +149,7 @@ void write_report(const std::filesystem::path& folder,
   const auto provenance = results::provenance_of(given.empty() ? results::Inputs{files, {}}
                                                                : results::Inputs{given, files});
   std::exception_ptr failure;
-  auto pictures = draw(plots_of(run), failure, stop);
+  auto pictures = draw_pictures(plots_of(run), failure, stop);
   const auto page = page_of(run, pictures);
   std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
   for (const auto& [plot, svg] : pictures)
@@ -238,7 +161,7 @@ void write_report(const std::filesystem::path& folder,
         pictures.end())
       remove_file(run.folder.plot(std::string(name)));
   terminal::say(fmt::format("report: {}", run.folder.report().string()));
-  if (failure) warn_or_throw(failure);
+  if (failure) warn_of_missing_pictures(failure);
 }
 
 }  // namespace viscontact::report

@@ -10,6 +10,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/on_one_line.hpp"
+#include "viscontact/freefem_axi/collinear_spheres.hpp"
 #include "viscontact/freefem_axi/force_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
@@ -143,6 +144,10 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   return {c.path, c.text, table, freefem_axi::force_table_plan(tabulation), tabulation};
 }
 
+CaseTable case_table(const case_file::SwimmerCase& c, const fs::path& table) {
+  return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}};
+}
+
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const fs::path& output) {
   std::map<fs::path, std::string> case_of;
@@ -158,7 +163,9 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
   }
   std::vector<CaseTable> tables;
   for (std::size_t i = 0; i < case_files.size(); ++i)
-    tables.push_back(case_table(case_file::read_case(case_files[i]), names[i]));
+    tables.push_back(case_file::is_swimmer_case(case_files[i])
+                         ? case_table(case_file::read_swimmer_case(case_files[i]), names[i])
+                         : case_table(case_file::read_case(case_files[i]), names[i]));
   return tables;
 }
 

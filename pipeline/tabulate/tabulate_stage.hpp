@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
 #include "viscontact/pipeline/array_job.hpp"
@@ -26,6 +27,9 @@ struct CaseTable {
 
 /// The table of the section [tabulation] of a case. Throws Error(kBadInput) if it has none.
 CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
+
+/// The table of resistance matrices of a swimmer's case.
+CaseTable case_table(const case_file::SwimmerCase& c, const std::filesystem::path& table);
 
 /// Reads the cases. For one case, `output` is the file of the table. For several cases, `output` is
 /// a folder and the tables are named after the case files. Throws Error(kWrongUsage) if two tables

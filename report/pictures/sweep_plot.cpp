@@ -22,7 +22,7 @@
 namespace viscontact::report {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
@@ -62,8 +62,8 @@ class SweepRows {
   }
 
   double value(const Place& place) const {
-    const double value = parse_number(fields_.at(place.column)).value_or(kNothing);
-    return place.divisor ? value / parse_number(fields_.at(*place.divisor)).value_or(kNothing)
+    const double value = parse_number(fields_.at(place.column)).value_or(kNoValue);
+    return place.divisor ? value / parse_number(fields_.at(*place.divisor)).value_or(kNoValue)
                          : value;
   }
 
@@ -224,8 +224,8 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
   for (const double line : lines)
     for (const double at : columns) {
       const auto cell = cells.find({line, at});
-      const double value = cell == cells.end() ? kNothing : cell->second;
-      const double shown = logarithmic && !(value > 0) ? kNothing : scaled(value, logarithmic);
+      const double value = cell == cells.end() ? kNoValue : cell->second;
+      const double shown = logarithmic && !(value > 0) ? kNoValue : scaled(value, logarithmic);
       field.values.push_back(shown);
       if (std::isfinite(shown)) low = std::min(low, shown), high = std::max(high, shown);
     }

@@ -1,0 +1,61 @@
+// The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
+// matrices, and the strokes that are computed with it. Lengths, masses and times are in any one
+// consistent system of units. A new key needs an entry in docs/case-file.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/freefem_axi/collinear_spheres.hpp"
+#include "viscontact/reduced_model/swimmer/optimal_stroke.hpp"
+#include "viscontact/reduced_model/swimmer/stroke.hpp"
+
+namespace viscontact::case_file {
+
+struct SwimmerCase {
+  std::string title;
+  freefem_axi::CollinearSpheres spheres;
+  /// The gaps of the table between each two neighbours [L], rising.
+  std::vector<std::vector<double>> gaps;
+  // Each of these exists only if the file has its section.
+  std::optional<reduced_model::Stroke> stroke;
+  std::optional<reduced_model::OptimalStrokeRequest> optimal;
+  double optimal_period = 1;  ///< of the optimal stroke [T], > 0
+  std::string text;           ///< content of the file
+  std::filesystem::path path;
+  std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
+};
+
+/// True if the file is a case of a swimmer: it has the section [swimmer]. Throws Error(kBadInput) if
+/// it cannot be read or is not valid TOML.
+bool is_swimmer_case(const std::filesystem::path& path);
+
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its value
+/// and what is allowed.
+SwimmerCase read_swimmer_case(const std::filesystem::path& path);
+
+/// A case that is read once, and from which many cases with other numbers are made, for a sweep.
+class SwimmerCaseTemplate {
+ public:
+  /// Reads and parses the file. Throws the errors of read_swimmer_case.
+  explicit SwimmerCaseTemplate(const std::filesystem::path& path);
+
+  const std::string& text() const { return text_; }  ///< content of the file
+
+  /// The case with these numbers at these keys, such as "stroke.ellipse.semi_axes[0]". Throws the
+  /// errors of read_swimmer_case, and Error(kBadInput) for a key that the case cannot have.
+  SwimmerCase with(std::span<const std::pair<std::string, double>> numbers) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string text_;
+  TomlSection root_;
+};
+
+}  // namespace viscontact::case_file

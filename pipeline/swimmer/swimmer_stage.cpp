@@ -1,0 +1,190 @@
+// Strings the stages of a swimmer together (swimmer_stage.hpp). The keys of swimmer.json and the
+// columns of stroke.csv are in docs/file-formats.md.
+#include "viscontact/pipeline/swimmer/swimmer_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/fitting/fit_resistance.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+#include "viscontact/report/swimmer/swimmer_page.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using report::StrokeResult;
+using report::SwimmerResults;
+
+struct SwimmerFolder {
+  fs::path path;
+  fs::path table() const { return path / "table.csv"; }
+  fs::path fit() const { return path / "fit.json"; }
+  fs::path results() const { return path / "swimmer.json"; }
+  fs::path stroke() const { return path / "stroke.csv"; }
+  fs::path optimal() const { return path / "optimal_stroke.csv"; }
+};
+
+void check_files(const SwimmerFolder& folder) {
+  results::refuse_other_kind(folder.table(), "# viscontact: resistance table",
+                             "table of resistance matrices");
+  results::refuse_other_kind(folder.fit(), "\"resistance fit\"", "fit of resistance matrices");
+  results::refuse_other_kind(folder.results(), "\"swimmer\"", "swimmer.json");
+  for (const auto& stroke : {folder.stroke(), folder.optimal()})
+    results::refuse_other_kind(stroke, "# viscontact: stroke of a swimmer", "stroke");
+  report::check_swimmer_report(folder.path);
+}
+
+/// Fits the table and writes fit.json, unless it is there already.
+lubrication::ResistanceFit fit_table(const SwimmerFolder& folder,
+                                     const lubrication::ResistanceTable& table,
+                                     const results::Provenance& provenance) {
+  auto fit = with_place(folder.table().string(), [&] { return fitting::fit_resistance(table); });
+  fit.table_sha256 = results::content_sha256(read_file(folder.table()));
+  fit.versions = results::library_versions();
+  if (const auto text = lubrication::write_resistance_fit(fit);
+      results::has_content(folder.fit(), text))
+    terminal::say(fmt::format("fit: {} is up to date", folder.fit().string()));
+  else
+    results::write_output(folder.fit(), TextKind::kJson, text, provenance);
+  terminal::say(fmt::format(
+      "fit: a row predicted from the others is off by {:.2g} at most (relative), {:.2g} rms",
+      fit.largest_left_one_out_error, fit.rms_left_one_out_error));
+  return fit;
+}
+
+StrokeResult result_of(const SwimmerResults& results, const reduced_model::Stroke& stroke,
+                       double multiplier) {
+  constexpr int kIntervals = 400;  // rows of stroke.csv, for smooth curves
+  const reduced_model::Swimmer swimmer(results.fit);
+  const auto sums = swim_sums(swimmer, stroke);
+  const auto perturbed = fitting::perturbed_fits(results.table, results.fit);
+  return {stroke.period, sums,
+          swim_errors(sums, stroke, perturbed.lower_degrees, perturbed.table_errors, multiplier),
+          swim_rows(swimmer, stroke, kIntervals)};
+}
+
+std::string stroke_csv(const StrokeResult& stroke) {
+  const auto& first = stroke.rows.front();
+  std::string text = write_csv_comments(
+      {{"viscontact", "stroke of a swimmer"}, {"rows", std::to_string(stroke.rows.size())}});
+  text += "time";
+  for (Eigen::Index k = 0; k < first.arms.size(); ++k) text += fmt::format(",x{}", k + 1);
+  text += ",position";
+  for (Eigen::Index i = 0; i < first.forces.size(); ++i) text += fmt::format(",force{}", i + 1);
+  text += ",power\n";
+  for (const auto& row : stroke.rows) {
+    text += format_number(row.time);
+    for (const double arm : row.arms) text += "," + format_number(arm);
+    text += "," + format_number(row.position);
+    for (const double force : row.forces) text += "," + format_number(force);
+    text += "," + format_number(row.power) + "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json json_of(const StrokeResult& stroke) {
+  return {{"displacement", stroke.sums.displacement},
+          {"displacement_error_estimate", stroke.errors.displacement},
+          {"energy", stroke.sums.energy},
+          {"energy_error_estimate", stroke.errors.energy},
+          {"energy_at_constant_power", stroke.sums.energy_at_constant_power},
+          {"efficiency", stroke.sums.efficiency},
+          {"period", stroke.period}};
+}
+
+std::string results_json(const SwimmerResults& results) {
+  nlohmann::ordered_json json = {{"kind", "swimmer"}, {"title", results.c.title}};
+  if (results.stroke) json.update(json_of(*results.stroke));
+  if (results.optimal) {
+    auto& optimal = json["optimal"] = json_of(*results.optimal);
+    const auto& steps = results.search->convergence;
+    optimal["polynomials"] = steps.back().polynomials;
+    optimal["euler_lagrange_residual"] = steps.back().euler_lagrange_residual;
+    // The energies here and the multiplier are those of the case's period.
+    optimal["energy_per_displacement"] = results.search->multiplier / results.optimal->period;
+    for (const auto& step : steps)
+      optimal["convergence"].push_back({{"polynomials", step.polynomials},
+                                        {"energy", step.energy / results.optimal->period},
+                                        {"euler_lagrange_residual", step.euler_lagrange_residual}});
+  }
+  json["fit"] = {{"largest_left_one_out_error", results.fit.largest_left_one_out_error},
+                 {"rms_left_one_out_error", results.fit.rms_left_one_out_error}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Computes the strokes of the case.
+void compute_strokes(SwimmerResults& results, const StopToken& stop) {
+  const std::string place = results.c.path.string();
+  if (results.c.stroke)
+    results.stroke =
+        with_place(place + ": [stroke]", [&] { return result_of(results, *results.c.stroke, 0); });
+  if (!results.c.optimal) return;
+  terminal::show_progress("swimmer: searching for the optimal stroke");
+  results.optimal = with_place(place + ": [optimal]", [&] {
+    results.search = reduced_model::find_optimal_stroke(reduced_model::Swimmer(results.fit),
+                                                        *results.c.optimal, stop);
+    return result_of(results,
+                     reduced_model::stroke_of(results.search->loop, results.c.optimal_period),
+                     results.search->multiplier / results.c.optimal_period);
+  });
+  terminal::clear_progress();
+}
+
+/// Writes the file of a stroke, or removes that of an earlier run.
+void write_stroke(const fs::path& path, const std::optional<StrokeResult>& stroke,
+                  const results::Provenance& provenance) {
+  if (stroke)
+    results::write_output(path, TextKind::kHashComment, stroke_csv(*stroke), provenance);
+  else
+    remove_file(path);
+}
+
+void tell(const std::string& name, const StrokeResult& stroke) {
+  terminal::say(fmt::format(
+      "{}: displacement {:.9g} (error estimate {:.1g}), energy {:.9g} ({:.1g}), efficiency {:.4g}",
+      name, stroke.sums.displacement, stroke.errors.displacement, stroke.sums.energy,
+      stroke.errors.energy, stroke.sums.efficiency));
+}
+
+}  // namespace
+
+void run_swimmer(const SwimmerRequest& request) {
+  SwimmerResults results;
+  results.c = case_file::read_swimmer_case(request.case_file);
+  const SwimmerFolder folder{request.folder};
+  check_files(folder);
+  const LockedFolder lock(folder.path, results::kFolderIsLocked);
+  std::vector<fs::path> given = {results.c.path};
+  given.insert(given.end(), results.c.stroke_files.begin(), results.c.stroke_files.end());
+  const auto of_fit = results::provenance_of({given, {}});
+
+  tabulate_stage({case_table(results.c, folder.table())}, request.jobs, request.stop);
+  request.stop.throw_if_stop_requested();
+  results.table = lubrication::read_resistance_table(folder.table());
+  results.fit = fit_table(folder, results.table, of_fit);
+  compute_strokes(results, request.stop);
+
+  const auto provenance = results::provenance_of({given, {folder.table(), folder.fit()}});
+  write_stroke(folder.stroke(), results.stroke, provenance);
+  write_stroke(folder.optimal(), results.optimal, provenance);
+  const auto json = results_json(results);
+  results::write_output(folder.results(), TextKind::kJson, json, provenance);
+  if (results.stroke) tell("stroke", *results.stroke);
+  if (results.optimal) tell("optimal stroke", *results.optimal);
+  report::write_swimmer_report(results, folder.path, provenance, request.stop);
+  if (request.json) fmt::print("{}", json);
+}
+
+}  // namespace viscontact::pipeline

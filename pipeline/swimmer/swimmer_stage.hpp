@@ -1,0 +1,24 @@
+// The command `swimmer`: table, fit, strokes and report of a swimmer.
+#pragma once
+
+#include <string>
+
+#include "viscontact/common/stop_token.hpp"
+
+namespace viscontact::pipeline {
+
+struct SwimmerRequest {
+  std::string case_file, folder;  ///< paths
+  int jobs = 1;                   ///< FreeFEM processes at once
+  bool json = false;              ///< true: print swimmer.json to standard output
+  StopToken stop{};
+};
+
+/// Writes table.csv, fit.json, stroke.csv, optimal_stroke.csv, swimmer.json and the report into the
+/// folder (docs/file-formats.md). A table or fit that was made from the same inputs is kept, and rows
+/// that an interrupted call has finished are not computed again. Throws Error(kBadInput) before
+/// anything is written if the case is wrong or a file must not be replaced, and the errors of
+/// tabulate_stage, fit_resistance, swim_sums and find_optimal_stroke.
+void run_swimmer(const SwimmerRequest& request);
+
+}  // namespace viscontact::pipeline
