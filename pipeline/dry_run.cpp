@@ -46,14 +46,13 @@ DryRun dry_run(const CaseTable& one) {
   return run;
 }
 
-DryRun dry_run(const sweep::Sweep& sweep, const std::string& output, const StopToken& stop) {
-  const std::uint64_t size = sweep::sweep_size(sweep.plan());
-  std::vector<std::uint64_t> sample = {0, size / 2, size - 1};
+DryRun dry_run(const sweep::Rows& rows, const std::string& output, const StopToken& stop) {
+  std::vector<std::uint64_t> sample = {0, rows.size / 2, rows.size - 1};
   sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
   const auto start = std::chrono::steady_clock::now();
-  for (const auto index : sample) (void)sweep.row(index, stop);
+  for (const auto index : sample) (void)rows.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  return {output, size, sweep::finished_rows(sweep::rows_of(sweep, VISCONTACT_VERSION), output),
+  return {output, rows.size, sweep::finished_rows(rows, output),
           spent.count() / static_cast<double>(sample.size()),
           fmt::format("{} of its rows, just computed", sample.size())};
 }

@@ -16,8 +16,7 @@ StrokeLeg straight_leg(double start, double end, const Eigen::VectorXd& from,
                        const Eigen::VectorXd& to) {
   return {start, end, [=](double time) {
             const double share = (time - start) / (end - start);
-            // Both ends are met exactly, so that a stroke may touch the border of the table.
-            return ArmState{(1 - share) * from + share * to, (to - from) / (end - start)};
+            return ArmState{from + share * (to - from), (to - from) / (end - start)};
           }};
 }
 

@@ -17,7 +17,7 @@ struct Integrals {
   double displacement = 0, energy = 0;
   double length = 0;  ///< integral of the square root of the power
   double towing = 0;  ///< integral of the towing resistance over time
-  double path = 0;    ///< sum of |A dx|, to which errors are compared
+  double path = 0;    ///< length of the path of the arms, to which errors are compared
 
   Integrals& operator+=(const Integrals& other) {
     displacement += other.displacement;
@@ -40,7 +40,7 @@ Integrals integrate(const Swimmer& swimmer, const StrokeLeg& leg, double from, d
     const double velocity = mechanics.displacement_form * state.rates;
     const double power = state.rates.dot(mechanics.metric * state.rates);
     sum += {weight * velocity, weight * power, weight * std::sqrt(std::max(0.0, power)),
-            weight * mechanics.towing_resistance, weight * std::abs(velocity)};
+            weight * mechanics.towing_resistance, weight * state.rates.norm()};
   }
   return sum;
 }
@@ -54,7 +54,7 @@ Integrals integrate_leg(const Swimmer& swimmer, const StrokeLeg& leg) {
   auto before = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(kFewest));
   for (int count = 2 * kFewest; count <= kMost; count *= 2) {
     const auto sum = integrate(swimmer, leg, leg.start, leg.end, gauss_rule(count));
-    if (std::abs(sum.displacement - before.displacement) <= kTolerance * sum.path &&
+    if (std::abs(sum.displacement - before.displacement) <= kTolerance / 10 * sum.path &&
         std::abs(sum.energy - before.energy) <= kTolerance * sum.energy &&
         std::abs(sum.length - before.length) <= kTolerance * sum.length)
       return sum;

@@ -31,7 +31,7 @@ struct SwimSums {
 };
 
 /// Integrates one period of a stroke by Gauss-Legendre quadrature on each leg; the number of points
-/// is doubled until the sums change by less than 1e-12 of the path. Throws Error(kBadInput) if the
+/// is doubled until the sums change by less than 1e-12 of themselves, or of the path of the arms. Throws Error(kBadInput) if the
 /// stroke leaves the table, and Error(kNotConverged) if the sums do not converge.
 SwimSums swim_sums(const Swimmer& swimmer, const Stroke& stroke);
 

@@ -122,18 +122,22 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
               {"set size ratio -1",
                "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78',"
                " 0.75 '#bcae6c', 1 '#fee838')",
-               "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", "set key below"},
+               "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", "set key below spacing 1.3",
+               "set xlabel offset 0,0.6"},
               {}};
   panel.field = curl_field(swimmer);
   panel.settings.push_back(
       fmt::format("set xrange [{}:{}]", panel.field->left, panel.field->right));
   panel.settings.push_back(
       fmt::format("set yrange [{}:{}]", panel.field->bottom, panel.field->top));
-  const std::array<const char*, 2> colours = {"#ffffff", kVermilion};
+  const std::array<const char*, 2> colours = {kSkyBlue, kVermilion};
   std::size_t number = 0;
   for (const auto& [name, stroke] : strokes_of(results)) {
     const auto style = fmt::format("lines linewidth 2.5 linecolor rgb '{}'", colours[number++]);
     panel.curves.push_back({name, style, loop_of(*stroke)});
+    const auto start =
+        fmt::format("points pointtype 7 pointsize 1 linecolor rgb '{}'", colours[number - 1]);
+    panel.curves.push_back({"", start, {loop_of(*stroke).front()}});
   }
   return draw_svg({panel}, 760, 700, stop);
 }

@@ -8,6 +8,7 @@
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/case_file/particles/particles_template.hpp"
+#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -47,7 +48,8 @@ void add_sweep(CLI::App& app) {
             fmt::format("model that the others are compared with; default: {}, or the first",
                         reduced_model::usual_reference()));
   add_value(*command, "--fit", o->fit, kFile,
-            "fit of the lubrication force (JSON); default: the case's [fit] file or exact");
+            "fit of the lubrication force (JSON); default: the case's [fit] file or exact; for a "
+            "swimmer, its fit.json");
   add_value(*command, "--plot", o->plot, kFile,
             "picture to write (SVG): lines over one key, or a map over two");
   add_value(*command, "--x", o->x, "KEY",
@@ -77,6 +79,8 @@ void add_sweep(CLI::App& app) {
     check_outputs(o->plot.empty() ? std::vector{o->output} : std::vector{o->output, o->plot});
     if (case_file::is_particles_case(o->case_file))
       sweep_many_particles(*o);
+    else if (case_file::is_swimmer_case(o->case_file))
+      sweep_swimmer(*o);
     else
       sweep_sphere(*o);
   });

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +17,7 @@
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
 #include "viscontact/results/provenance.hpp"
-#include "viscontact/sweep/sweep_file.hpp"
-#include "viscontact/terminal/progress.hpp"
+#include "viscontact/sweep/sweep.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -113,37 +110,6 @@ void check_columns(const report::SweepPlot& picture, const sweep::SweepPlan& pla
   }
 }
 
-/// The remaining time in words, "about 3 min left", estimated from the rows of this call.
-class Remaining {
- public:
-  std::string after(std::uint64_t done, std::uint64_t size) {
-    if (!first_) first_ = done;
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-    if (done <= *first_) return "";
-    const double left =
-        spent.count() / static_cast<double>(done - *first_) * static_cast<double>(size - done);
-    return left > 90 ? fmt::format(", about {:.0f} min left", left / 60)
-                     : fmt::format(", about {:.0f} s left", left);
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::optional<std::uint64_t> first_;
-};
-
-/// Says at how many points models failed, "; ... failed at 3 points"; empty if no model failed.
-std::string failures_in_words(const sweep::SweepOutcome& outcome) {
-  const auto points = [](std::uint64_t n) {
-    return fmt::format("{} point{}", n, n == 1 ? "" : "s");
-  };
-  std::string text;
-  if (outcome.without_result > 0)
-    text += fmt::format("; every model failed at {}", points(outcome.without_result));
-  if (outcome.with_some_results > 0)
-    text += fmt::format("; some models failed at {}", points(outcome.with_some_results));
-  return text.empty() ? text : text + " (the column 'failure' says why)";
-}
-
 }  // namespace
 
 void sweep_sphere(const SweepOptions& o) {
@@ -167,8 +133,10 @@ void sweep_sphere(const SweepOptions& o) {
   if (!o.plot.empty()) check_columns(picture, sweep.plan());
 
   if (o.dry_run) {
-    fmt::print("{}", pipeline::dry_run_text({pipeline::dry_run(sweep, o.output, interrupt_token())},
-                                            o.jobs, o.json));
+    fmt::print("{}",
+               pipeline::dry_run_text({pipeline::dry_run(sweep::rows_of(sweep, VISCONTACT_VERSION),
+                                                         o.output, interrupt_token())},
+                                      o.jobs, o.json));
     return;
   }
   auto files = pipeline::files_of_motion(c);
@@ -176,35 +144,7 @@ void sweep_sphere(const SweepOptions& o) {
     files.emplace_back(o.fit);
   else if (c.fit && c.fit->file)
     files.emplace_back(*c.fit->file);
-  const auto provenance = results::provenance_of({files, {}});
-
-  Remaining remaining;
-  terminal::ProgressTimer progress;
-  const auto rows = sweep::rows_of(sweep, VISCONTACT_VERSION);
-  const auto computed = sweep::write_sweep(
-      rows, o.output, o.jobs,
-      results::output_text(o.output, TextKind::kHashComment, "", provenance),
-      [&](std::uint64_t done, std::uint64_t size) {
-        if (!progress.is_due()) return;
-        terminal::show_progress(
-            fmt::format("sweep: {} of {}{}", done, size, remaining.after(done, size)));
-      },
-      interrupt_token());
-  terminal::clear_progress();
-  const auto size = sweep::sweep_size(sweep.plan());
-  const auto outcome = sweep::read_outcome(rows, o.output);
-  terminal::say((computed == 0
-                     ? fmt::format("sweep: {} is up to date", o.output)
-                     : fmt::format("sweep: {} rows in {}{}", size, o.output,
-                                   computed < size ? fmt::format(", {} of them already computed",
-                                                                 size - computed)
-                                                   : "")) +
-                failures_in_words(outcome));
-  if (outcome.without_result == outcome.points)
-    throw Error(ErrorKind::kNotConverged,
-                fmt::format("{}: every model failed at every point; the column 'failure' says why, "
-                            "at the first point: {}",
-                            o.output, outcome.first_failure));
+  write_rows(o, sweep::rows_of(sweep, VISCONTACT_VERSION), files, "model");
   if (!o.plot.empty())
     results::write_output(o.plot, TextKind::kSvg,
                           report::plot_sweep(o.output, picture, interrupt_token()),
