@@ -13,8 +13,18 @@ FakeFreeFem::FakeFreeFem(std::filesystem::path folder, const std::string& before
   put_text(executable(), "#!/bin/sh\nfolder='" + folder_.string() + "'\n" + R"(
 case $4 in
   *version.edp) echo "viscontact-version 0-fake"; exit 0 ;;
+  *collinear_spheres.edp) is_matrix=yes ;;
 esac
 )" + kReadRow + before + R"(
+if [ "$is_matrix" ]; then
+  awk "BEGIN { a = 1 / $gap1; b = 1 / $gap2
+    printf \"viscontact-entry 1 1 %.17g 1e-6\nviscontact-entry 1 2 %.17g 1e-6\n\", 19 + a, -a
+    printf \"viscontact-entry 1 3 -0.5 1e-6\nviscontact-entry 2 2 %.17g 1e-6\n\", 19 + a + b
+    printf \"viscontact-entry 2 3 %.17g 1e-6\nviscontact-entry 3 3 %.17g 1e-6\n\", -b, 19 + b
+    print \"viscontact-result 1e-6 1000 4\" }"
+  echo "$gap1 $gap2" >> "$folder/answered"
+  exit 0
+fi
 awk "BEGIN { printf \"viscontact-result %.17g 1e-6 1000 4\n\", \
      -6 * 3.14159265358979323846 * $viscosity * $radius * ($velocity) * ($radius / $gap + 1) }"
 echo "$gap $velocity" >> "$folder/answered"

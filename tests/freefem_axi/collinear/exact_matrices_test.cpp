@@ -1,0 +1,84 @@
+// Resistance matrices by FreeFEM beside exact ones.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/freefem_axi/tabulations.hpp"
+#include "tests/oracles/collinear_spheres.hpp"
+#include "viscontact/freefem_axi/collinear_spheres.hpp"
+#include "viscontact/lubrication/resistance/resistance_matrix.hpp"
+
+namespace viscontact::freefem_axi {
+namespace {
+
+struct Row {
+  std::vector<double> radii, gaps;
+};
+
+std::ostream& operator<<(std::ostream& out, const Row& row) {
+  for (const double radius : row.radii) out << radius << " ";
+  for (const double gap : row.gaps) out << gap << " ";
+  return out;
+}
+
+class ExactMatrix : public ::testing::TestWithParam<Row> {};
+
+TEST_P(ExactMatrix, IsMetWithinTheAccuracyThatWasAskedAndWithinTheEstimates) {
+  constexpr double kAccuracy = 1e-5;
+  const auto& [radii, gaps] = GetParam();
+  const auto row = solve_resistance(default_freefem(), {1, radii, {}, kAccuracy}, gaps);
+  const auto exact = exact_resistance(radii, gaps);
+  const auto computed = lubrication::matrix_of(row, radii.size());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    for (std::size_t j = i; j < radii.size(); ++j) {
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      const double scale =
+          std::max(std::abs(exact(a, b)), 1e-3 * std::sqrt(exact(a, a) * exact(b, b)));
+      const double error = std::abs(computed(a, b) - exact(a, b)) / scale;
+      const double estimate =
+          row.relative_error_estimates[lubrication::entry_position(i, j, radii.size())];
+      EXPECT_LE(error, estimate) << "R" << i + 1 << j + 1;
+      EXPECT_LE(estimate, kAccuracy) << "R" << i + 1 << j + 1;
+    }
+}
+
+// The exact matrices have eight digits or more at these gaps (exact_resistance). A gap below 0.15 of
+// the smaller radius has a structured film.
+INSTANTIATE_TEST_SUITE_P(Rows, ExactMatrix,
+                         ::testing::Values(Row{{1, 1, 1}, {0.1, 0.1}}, Row{{1, 1, 1}, {8, 0.3}},
+                                           Row{{1, 2, 0.5}, {1, 1}},
+                                           Row{{0.7, 1, 0.5, 1.2}, {0.5, 2, 0.14}}));
+
+TEST(CollinearSpheres, TwoAgreeWithTheGeometryOfASphereAndItsNeighbour) {
+  Tabulation tabulation = unit_tabulation({0.05}, 1, 1e-5);
+  tabulation.container.reset();
+  tabulation.geometry = "sphere";
+  tabulation.geometry_parameters = {2, 0};
+  // The force on the sphere at rest of the neighbour: it is the upper one.
+  const auto sphere = solve_row(default_freefem(), tabulation, 0.05, -1);
+  const auto row = solve_resistance(default_freefem(), {1, {2, 1}, {}, 1e-5}, {0.05});
+  EXPECT_NEAR(row.entries[2] / sphere.force, 1, 2e-5);
+}
+
+TEST(CollinearSpheres, InALongTubeHaveTheDragOfOneIfTheyAreFarApart) {
+  // A sphere of half the radius of a long tube: K = 5.9474 (Leichtberg, Weinbaum, Pfeffer & Gluckman
+  // 1976 (Biorheology 13, 165), and Paine & Scherr 1975, five digits).
+  const auto row = solve_resistance(default_freefem(), {1, {1, 1}, Tube{2, {}}, 1e-5}, {14});
+  EXPECT_NEAR(row.entries[0] / (6 * std::numbers::pi), 5.9474, 1e-4);
+  EXPECT_NEAR(row.entries[1], 0, 1e-9);
+  // A closed cylinder of 8 radii beyond both ends is as good as a long one.
+  const auto closed = solve_resistance(default_freefem(), {1, {1, 1}, Tube{2, 50}, 1e-5}, {14});
+  EXPECT_NEAR(closed.entries[0] / row.entries[0], 1, 1e-6);
+}
+
+TEST(CollinearSpheres, UnitOfLengthScalesTheMatrix) {
+  const auto large = solve_resistance(default_freefem(), {1, {1, 1}, {}, 1e-3}, {1});
+  const auto small = solve_resistance(default_freefem(), {1e-3, {5e-5, 5e-5}, {}, 1e-3}, {5e-5});
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(small.entries[i] / large.entries[i] / 5e-8, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace viscontact::freefem_axi
