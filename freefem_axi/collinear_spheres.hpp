@@ -1,5 +1,5 @@
 // Rigid spheres on a line in a viscous fluid: the inputs of a table of their resistance matrices,
-// and the solution of one row by FreeFEM (physics.md, section 11). Lengths, masses and times are in
+// and the solution of one row by FreeFEM (physics.md, section 7). Lengths, masses and times are in
 // any one consistent system of units. If a change alters collinear_spheres_hash(), finished tables
 // are computed again.
 #pragma once

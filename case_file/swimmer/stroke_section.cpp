@@ -44,15 +44,16 @@ std::string fault_of_arm(double arm, std::size_t k, const SwimmerCase& c) {
       k + 1, arm, from, to);
 }
 
-/// One number for each arm.
+/// One number for each arm, or one number for all of them.
 Eigen::VectorXd read_arms(const TomlSection& section, std::string_view key, const SwimmerCase& c,
                           const Allowed& allowed) {
+  const auto arms = static_cast<Eigen::Index>(c.gaps.size());
+  if (!section.is_array(key)) return Eigen::VectorXd::Constant(arms, section.number(key, allowed));
   const auto numbers = section.numbers(key, allowed);
   if (numbers.size() != c.gaps.size())
     section.fail(key, fmt::format("has {} numbers; it must have {}, one for each arm",
                                   numbers.size(), c.gaps.size()));
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
-                                           static_cast<Eigen::Index>(numbers.size()));
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), arms);
 }
 
 void check_arms(const TomlSection& section, std::string_view key, const Eigen::VectorXd& arms,

@@ -1,5 +1,5 @@
 // A fit of the resistance matrix of spheres on a line as a function of the gaps between them
-// (physics.md, section 11). Lengths, masses and times are in the units of the table. A change must
+// (physics.md, section 7). Lengths, masses and times are in the units of the table. A change must
 // keep the keys of the file, which other programs may read.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 11). Lengths, masses and times are in any one consistent system of units. A
+// (physics.md, section 7). Lengths, masses and times are in any one consistent system of units. A
 // change must keep the names of the columns and header keys, because published tables use them.
 #pragma once
 

@@ -43,9 +43,12 @@ class LoopOptimizer {
  private:
   /// The multiple of the loop that has this displacement. Nothing if none was found in the table.
   std::optional<PolynomialLoop> scaled_to(PolynomialLoop loop, double displacement) const;
-  MatrixXd lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
-  /// Newton's step along which the displacement stays, and below it the new multiplier.
-  VectorXd newton_step(const PolynomialLoop& loop, const LoopSums& sums, double multiplier) const;
+  /// Nothing if a loop beside this one leaves the table.
+  std::optional<MatrixXd> lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const;
+  /// Newton's step along which the displacement stays, and below it the new multiplier. Nothing if
+  /// there is no Hessian.
+  std::optional<VectorXd> newton_step(const PolynomialLoop& loop, const LoopSums& sums,
+                                      double multiplier) const;
 
   LoopFunctional functional_;
   MatrixXd scale_;
@@ -73,35 +76,40 @@ std::optional<PolynomialLoop> LoopOptimizer::scaled_to(PolynomialLoop loop,
 }
 
 /// Central differences of the exact gradient.
-MatrixXd LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop, double multiplier) const {
+std::optional<MatrixXd> LoopOptimizer::lagrangian_hessian(const PolynomialLoop& loop,
+                                                          double multiplier) const {
   // The best step balances the rounding of the gradients (1e-14) with the third derivatives.
   constexpr double kRelativeStep = 1e-5;
   const double step = kRelativeStep * loop.coefficients.norm();
   MatrixXd hessian(loop.coefficients.size(), loop.coefficients.size());
   for (Index i = 0; i < hessian.cols(); ++i) {
     const VectorXd direction = VectorXd::Unit(hessian.cols(), i);
+    if (!functional_.contains(moved(loop, direction, step)) ||
+        !functional_.contains(moved(loop, direction, -step)))
+      return {};
     const auto gradient = [&](double share) -> VectorXd {
       const auto sums = functional_(moved(loop, direction, share));
       return sums.energy_gradient - multiplier * sums.displacement_gradient;
     };
     hessian.col(i) = (gradient(step) - gradient(-step)) / (2 * step);
   }
-  return (hessian + hessian.transpose()) / 2;
+  return MatrixXd((hessian + hessian.transpose()) / 2);
 }
 
-VectorXd LoopOptimizer::newton_step(const PolynomialLoop& loop, const LoopSums& sums,
-                                    double multiplier) const {
+std::optional<VectorXd> LoopOptimizer::newton_step(const PolynomialLoop& loop, const LoopSums& sums,
+                                                   double multiplier) const {
   const VectorXd& normal = sums.displacement_gradient;
-  const MatrixXd exact = lagrangian_hessian(loop, multiplier);
+  const auto exact = lagrangian_hessian(loop, multiplier);
+  if (!exact) return {};
   // On the plane of constant displacement the Hessian must be positive definite, or Newton's method
   // would go to a saddle. A multiple of the constant metric's Hessian makes it so.
   const Eigen::HouseholderQR<MatrixXd> qr(normal);
   const MatrixXd basis = MatrixXd(qr.householderQ()).rightCols(normal.size() - 1);
-  MatrixXd hessian = exact;
+  MatrixXd hessian = *exact;
   for (double shift = 1e-4;
        Eigen::LLT<MatrixXd>(basis.transpose() * hessian * basis).info() != Eigen::Success;
        shift *= 4)
-    hessian = exact + shift * scale_;
+    hessian = *exact + shift * scale_;
   MatrixXd conditions = MatrixXd::Zero(normal.size() + 1, normal.size() + 1);
   conditions.topLeftCorner(normal.size(), normal.size()) = hessian;
   conditions.topRightCorner(normal.size(), 1) = -normal;
@@ -109,7 +117,7 @@ VectorXd LoopOptimizer::newton_step(const PolynomialLoop& loop, const LoopSums& 
   VectorXd rest(normal.size() + 1);
   rest.head(normal.size()) = -sums.energy_gradient;
   rest[normal.size()] = 0;
-  return conditions.partialPivLu().solve(rest);
+  return VectorXd(conditions.partialPivLu().solve(rest));
 }
 
 std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displacement,
@@ -126,20 +134,32 @@ std::optional<Extremal> LoopOptimizer::solve(const Extremal& start, double displ
     const VectorXd gradient = sums.energy_gradient - multiplier * sums.displacement_gradient;
     if (std::sqrt(gradient.dot(factor_.solve(gradient)) / sums.energy) < kTolerance)
       return Extremal{*loop, multiplier, sums.energy};
-    const VectorXd step = newton_step(*loop, sums, multiplier);
-    multiplier = step[step.size() - 1];
+    const auto step = newton_step(*loop, sums, multiplier);
+    if (!step) return {};
+    const VectorXd direction = step->head(step->size() - 1);
+    multiplier = (*step)[step->size() - 1];
     // A step is straight, but loops of equal displacement are not; each trial is therefore scaled
     // back to the displacement, so that the energy alone must fall.
     std::optional<PolynomialLoop> next;
     double share = 1;
     for (int halvings = 0; !next && halvings < kMostHalvings; ++halvings, share /= 2) {
-      next = scaled_to(moved(*loop, step.head(step.size() - 1), share), displacement);
+      next = scaled_to(moved(*loop, direction, share), displacement);
       // The allowance is for rounding near the end.
       if (next && functional_(*next).energy > sums.energy * (1 + 1e-13)) next.reset();
     }
     loop = next;
   }
   return {};
+}
+
+/// True if the table contains the loop at all points, not only those of the quadrature.
+bool is_contained(const Swimmer& swimmer, const PolynomialLoop& loop) {
+  constexpr int kPoints = 2000;
+  for (int i = 0; i <= kPoints; ++i) {
+    const auto basis = loop_basis(static_cast<double>(i) / kPoints, loop.coefficients.cols());
+    if (!swimmer.contains(loop.through + loop.coefficients * basis.values)) return false;
+  }
+  return true;
 }
 
 /// The plane of arm velocities in which small loops displace most at given energy: two columns, of
@@ -219,7 +239,8 @@ OptimalStroke find_optimal_stroke(const Swimmer& swimmer, const OptimalStrokeReq
   std::optional<Extremal> best;
   for (const double quarter : {0, 1, 2, 3}) {
     const auto found = follow(swimmer, request, quarter * std::numbers::pi / 2, stop);
-    if (found && (!best || found->energy < best->energy)) best = found;
+    if (found && is_contained(swimmer, found->loop) && (!best || found->energy < best->energy))
+      best = found;
   }
   if (!best)
     throw Error(ErrorKind::kBadInput,

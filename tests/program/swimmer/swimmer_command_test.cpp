@@ -1,0 +1,190 @@
+// `viscontact swimmer`: all stages with the shipped table, once with FreeFEM, and what it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/freefem_axi/fake_freefem.hpp"
+#include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/results/exit_code.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A file that is shipped with the program.
+std::string shipped(const std::string& name) {
+  return std::string(VISCONTACT_SOURCE_FOLDER) + "/data/" + name;
+}
+
+const std::string kThreeSpheres = shipped("cases/swimmer/three_spheres.toml");
+
+class SwimmerCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  /// Runs a case in a folder that has the shipped table, so that FreeFEM is not needed.
+  ProgramResult swim(const std::string& case_file, const std::string& folder,
+                     const std::vector<std::string>& more = {}) const {
+    fs::create_directories(folder);
+    if (!fs::exists(folder + "/table.csv"))
+      fs::copy_file(shipped("tables/three_spheres.csv"), folder + "/table.csv");
+    std::vector<std::string> arguments = {"swimmer", case_file, "-o", folder};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_viscontact(arguments, {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
+  }
+  /// The shipped case with a change.
+  std::string changed(const std::string& from, const std::string& to) const {
+    return scratch_.file("case.toml", replaced(read_file(kThreeSpheres), from, to)).string();
+  }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(SwimmerCommand, SwimsWithTheShippedTableAsThePublishedSwimmerDoes) {
+  const auto result = swim(kThreeSpheres, path("out"), {"--json"});
+  expect_done(result);
+  EXPECT_THAT(result.errors,
+              AllOf(HasSubstr("table.csv is up to date"), HasSubstr("stroke: displacement 0.15980"),
+                    HasSubstr("report: ")));
+  const auto json = nlohmann::json::parse(read_file(path("out/swimmer.json")));
+  EXPECT_EQ(nlohmann::json::parse(result.output)["displacement"], json["displacement"]);
+  // data/reference/swimmer.csv
+  EXPECT_NEAR(json["displacement"].get<double>() / 0.1598053403882, 1, 1e-6);
+  EXPECT_NEAR(json["energy"].get<double>() / 3701.388296679, 1, 1e-6);
+  EXPECT_NEAR(json["energy_at_constant_power"].get<double>() / 3700.50439521, 1, 1e-6);
+  EXPECT_GT(json["displacement_error_estimate"].get<double>(),
+            std::abs(json["displacement"].get<double>() - 0.1598053403882));
+  EXPECT_LT(json["displacement_error_estimate"].get<double>(), 1e-4 * 0.16);
+  EXPECT_NEAR(json["optimal"]["displacement"].get<double>(), 0.2, 1e-9);
+  // With exact matrices, 1579.561004 (tests/reduced_model/swimmer).
+  EXPECT_NEAR(json["optimal"]["energy"].get<double>() / 1579.561004, 1, 1e-6);
+
+  const auto rows =
+      read_csv<8>(path("out/stroke.csv"),
+                  {"time", "x1", "x2", "position", "force1", "force2", "force3", "power"}, 8);
+  EXPECT_GE(rows.rows.size(), 400U);
+  EXPECT_NEAR(*rows.rows.back().fields[3], json["displacement"].get<double>(), 1e-12);
+  for (const auto& row : rows.rows)
+    EXPECT_NEAR(*row.fields[4] + *row.fields[5] + *row.fields[6], 0, 1e-9) << row.line;
+
+  const auto page = read_file(path("out/report.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("<title>Three spheres</title>"), HasSubstr("plots/loops.svg"),
+                          HasSubstr("0.159805"), HasSubstr("Lighthill")));
+  for (const char* name : {"loops", "position", "power", "arms", "forces", "convergence"})
+    EXPECT_THAT(read_file(path("out/plots/") + name + ".svg"), HasSubstr("</svg>")) << name;
+}
+
+TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {
+  expect_done(swim(kThreeSpheres, path("out")));
+  const auto fit_time = fs::last_write_time(path("out/fit.json"));
+  const auto stroke = rest_of(path("out/stroke.csv"));
+  const auto again = swim(kThreeSpheres, path("out"));
+  expect_done(again);
+  EXPECT_THAT(again.errors, HasSubstr("fit.json is up to date"));
+  EXPECT_EQ(fs::last_write_time(path("out/fit.json")), fit_time);
+  EXPECT_EQ(rest_of(path("out/stroke.csv")), stroke);
+}
+
+TEST_F(SwimmerCommand, CaseWithoutOptimalStrokeRemovesThatOfAnEarlierRun) {
+  expect_done(swim(kThreeSpheres, path("out")));
+  EXPECT_TRUE(fs::exists(path("out/optimal_stroke.csv")));
+  const auto text = read_file(kThreeSpheres);
+  expect_done(swim(scratch_.file("case.toml", text.substr(0, text.find("[optimal]"))).string(),
+                   path("out")));
+  EXPECT_FALSE(fs::exists(path("out/optimal_stroke.csv")));
+  EXPECT_FALSE(fs::exists(path("out/plots/convergence.svg")));
+  EXPECT_FALSE(nlohmann::json::parse(read_file(path("out/swimmer.json"))).contains("optimal"));
+}
+
+TEST_F(SwimmerCommand, TabulatesFitsAndSwimsWithFreeFem) {
+  const auto small = changed("arms = { from = 2.2, to = 12.0, count = 12 }",
+                             "arms = { from = 5.0, to = 11.0, count = 3 }");
+  put_text(small,
+           replaced(read_file(small), "relative_accuracy = 1e-5", "relative_accuracy = 1e-3"));
+  put_text(small, read_file(small).substr(0, read_file(small).find("[optimal]")));
+  const auto result = run_viscontact({"swimmer", small, "-o", path("out"), "--jobs", "2"});
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("tabulate: 6 rows on 2 processes"));
+  const auto json = nlohmann::json::parse(read_file(path("out/swimmer.json")));
+  // Three arms in so narrow a table: the estimate says what is left of the accuracy.
+  const double error = std::abs(json["displacement"].get<double>() - 0.1598053403882);
+  EXPECT_LT(error, json["displacement_error_estimate"].get<double>());
+  EXPECT_LT(error, 0.02 * 0.16);
+}
+
+TEST_F(SwimmerCommand, TabulateTakesTheCaseAndAnInterruptedTableIsContinued) {
+  const freefem_axi::FakeFreeFem fake(
+      scratch_.path(),
+      "[ $gap1 = 10 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
+  const auto tabulate = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"tabulate", kThreeSpheres, "-o", path("table.csv")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_viscontact(arguments, {"VISCONTACT_FREEFEM=" + fake.executable()});
+  };
+  const auto dry = tabulate({"--dry-run"});
+  expect_done(dry);
+  EXPECT_THAT(dry.output, HasSubstr("78 rows, 0 of them finished"));
+  const auto failed = tabulate({});
+  EXPECT_EQ(failed.exit_status, results::exit_code_of(ErrorKind::kExternalProgram));
+  EXPECT_THAT(failed.errors, HasSubstr("1 of 78 rows failed"));
+  EXPECT_FALSE(fs::exists(path("table.csv")));
+  put_text(scratch_.path() / "mended", "");
+  const auto continued = tabulate({});
+  expect_done(continued);
+  EXPECT_THAT(continued.errors, HasSubstr("77 of them already computed"));
+  EXPECT_EQ(fake.answered().size(), 78U);
+  EXPECT_THAT(read_file(path("table.csv")), HasSubstr("# rows: 144"));
+  expect_refusal(tabulate({"--plot"}), ErrorKind::kWrongUsage,
+                 HasSubstr("has no section [tabulation]"));
+}
+
+TEST_F(SwimmerCommand, SweepsOverStrokesWithOneFit) {
+  expect_done(swim(kThreeSpheres, path("out")));
+  const auto sweep = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"sweep", kThreeSpheres, "-o", path("rows.csv")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_viscontact(arguments);
+  };
+  expect_done(sweep({"--fit", path("out/fit.json"), "--vary", "fluid.viscosity=1,2", "--plot",
+                     path("rows.svg")}));
+  const auto rows = read_csv<4>(path("rows.csv"),
+                                {"fluid.viscosity", "displacement", "energy", "optimal.energy"}, 4);
+  ASSERT_EQ(rows.rows.size(), 2U);
+  EXPECT_NEAR(*rows.rows[1].fields[1] / *rows.rows[0].fields[1], 1, 1e-12);
+  EXPECT_NEAR(*rows.rows[1].fields[2] / *rows.rows[0].fields[2], 2, 1e-12);
+  EXPECT_NEAR(*rows.rows[1].fields[3] / *rows.rows[0].fields[3], 2, 1e-9);
+  EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
+  expect_refusal(sweep({"--vary", "stroke.period=1,2"}), ErrorKind::kWrongUsage,
+                 HasSubstr("--fit"));
+  expect_refusal(sweep({"--fit", path("out/fit.json"), "--vary", "swimmer.arms.to=11,12"}),
+                 ErrorKind::kWrongUsage, HasSubstr("changes the table"));
+}
+
+TEST_F(SwimmerCommand, OptimalStrokeThatLeavesTheTableIsRefusedAfterTableAndFitAreKept) {
+  const auto far = changed("displacement = 0.2", "displacement = 20");
+  expect_refusal(swim(far, path("out")), ErrorKind::kBadInput,
+                 AllOf(HasSubstr("case.toml: [optimal]: no loop through this shape"),
+                       HasSubstr("make a table of more arms")));
+  EXPECT_TRUE(fs::exists(path("out/fit.json")));
+}
+
+TEST_F(SwimmerCommand, FilesOfTheUserAreNotReplaced) {
+  fs::create_directories(path("out"));
+  put_text(path("out/stroke.csv"), "mine\n");
+  expect_refusal(swim(kThreeSpheres, path("out")), ErrorKind::kBadInput, HasSubstr("stroke.csv"));
+  EXPECT_EQ(read_file(path("out/stroke.csv")), "mine\n");
+  EXPECT_FALSE(fs::exists(path("out/fit.json")));
+}
+
+}  // namespace
+}  // namespace viscontact
