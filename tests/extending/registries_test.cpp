@@ -77,7 +77,9 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // a part of the boundary, which FreeFEM's scripts print
                   Found("freefem_axi/row_picture.cpp", "sphere"),
                   // the body in words
-                  Found("report/particles/particles_page.cpp", "sphere")));
+                  Found("report/particles/particles_page.cpp", "sphere"),
+                  // what a legend numbers
+                  Found("report/swimmer/swimmer_plots.cpp", "sphere")));
 }
 
 }  // namespace

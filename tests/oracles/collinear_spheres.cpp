@@ -47,7 +47,7 @@ Eigen::MatrixXd exact_resistance(const std::vector<double>& radii,
   }
   // Multipoles of order n decay across a gap like exp(-2 n sqrt(gap)).
   const Index modes =
-      std::clamp(static_cast<Index>(26 / std::sqrt(narrowest)), Index{28}, Index{100});
+      std::clamp(static_cast<Index>(26 / std::sqrt(narrowest)), Index{28}, Index{200});
   const Index points = 2 * modes;
   Eigen::MatrixXd matrix(2 * points * spheres, 2 * modes * spheres);
   Eigen::MatrixXd velocities = Eigen::MatrixXd::Zero(matrix.rows(), spheres);

@@ -10,7 +10,8 @@ namespace viscontact {
 /// collocation (Gluckman, Pfeffer & Weinbaum 1971, J. Fluid Mech. 50, 705): the stream function is a
 /// sum of r^(1-n) and r^(3-n) times Gegenbauer functions about each centre, and its coefficients are
 /// fitted to the velocities of the surfaces by least squares. Ten digits hold if each gap is at least
-/// a fifth of the larger radius beside it, eight at a tenth.
+/// a fifth of the larger radius beside it, eight at a tenth. Takes 10 ms for three spheres at gaps of
+/// 1, and seconds at 0.02.
 Eigen::MatrixXd exact_resistance(const std::vector<double>& radii, const std::vector<double>& gaps);
 
 }  // namespace viscontact

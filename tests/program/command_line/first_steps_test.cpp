@@ -140,7 +140,7 @@ TEST_F(FirstSteps, BashCompletesCommandsOptionsWordsAndFiles) {
                        {}, "", scratch_.path().string())
         .output;
   };
-  EXPECT_EQ(complete("viscontact sw"), "sweep;");
+  EXPECT_EQ(complete("viscontact sw"), "sweep;swimmer;");
   EXPECT_EQ(complete("viscontact fit --ba"), "--basis;");
   EXPECT_EQ(complete("viscontact fit --basis asymptotic_"), "asymptotic_extended;");
   EXPECT_EQ(complete("viscontact export fit.json --to f"), "fortran;");
@@ -173,7 +173,7 @@ TEST_F(FirstSteps, ManualHasEveryCommandAndOptionOfHelp) {
     for (const auto& option : matches_in(options, "--[\\w-]+", 0))
       EXPECT_THAT(part, HasSubstr(replaced_matches(option, "-", "\\-"))) << name;
   }
-  EXPECT_EQ(commands.size(), 15U);
+  EXPECT_EQ(commands.size(), 16U);
   EXPECT_THAT(manual, AllOf(HasSubstr(".SH EXIT STATUS"), HasSubstr("NO_COLOR")));
 }
 

@@ -93,6 +93,10 @@ TEST_F(SwimmerCommand, SecondCallKeepsTableAndFitAndGivesTheSameResults) {
   EXPECT_THAT(again.errors, HasSubstr("fit.json is up to date"));
   EXPECT_EQ(fs::last_write_time(path("out/fit.json")), fit_time);
   EXPECT_EQ(rest_of(path("out/stroke.csv")), stroke);
+  const auto rerun =
+      run_viscontact({"rerun", path("out/swimmer.json"), "-o", path("again"), "--dry-run"});
+  expect_done(rerun);
+  EXPECT_THAT(rerun.output, HasSubstr("swimmer " + kThreeSpheres));
 }
 
 TEST_F(SwimmerCommand, CaseWithoutOptimalStrokeRemovesThatOfAnEarlierRun) {
