@@ -110,6 +110,16 @@ Plot plot_convergence(const reduced_model::OptimalStroke& search) {
   return {"convergence", 400, {panel}};
 }
 
+/// The distance of tics, 1, 2 or 5 times a power of ten, so that at most seven are in the range.
+/// gnuplot's own tics are so close that their numbers overlap if they have many digits.
+double tic_step(double range) {
+  const double least = range / 6;
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= least) return factor * power;
+  return 10 * power;
+}
+
 }  // namespace
 
 std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
@@ -128,6 +138,8 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   panel.field = curl_field(swimmer);
   panel.settings.push_back(
       fmt::format("set xrange [{}:{}]", panel.field->left, panel.field->right));
+  const double step = tic_step(panel.field->right - panel.field->left);
+  panel.settings.push_back(fmt::format("set xtics {0}; set ytics {0}", step));
   panel.settings.push_back(
       fmt::format("set yrange [{}:{}]", panel.field->bottom, panel.field->top));
   const std::array<const char*, 2> colours = {kSkyBlue, kVermilion};
