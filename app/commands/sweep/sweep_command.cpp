@@ -13,6 +13,33 @@
 #include "viscontact/reduced_model/models/models.hpp"
 
 namespace viscontact::app {
+namespace {
+
+void add_picture_options(CLI::App& command, SweepOptions& o) {
+  add_value(command, "--plot", o.plot, kFile,
+            "picture to write (SVG): lines over one key, or a map over two");
+  add_value(command, "--x", o.x, "KEY",
+            "key of the horizontal axis; default: the first varied key");
+  add_value(command, "--y", o.y, "KEY", "key of the vertical axis, for a map");
+  add_value(
+      command, "--column", o.columns, "COLUMN,...",
+      "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
+      ->delimiter(',');
+}
+
+void run_sweep(const SweepOptions& o) {
+  check_array_options(o.array);
+  check_models("--models", o.models);
+  check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
+  if (case_file::is_particles_case(o.case_file))
+    sweep_many_particles(o);
+  else if (case_file::is_swimmer_case(o.case_file))
+    sweep_swimmer(o);
+  else
+    sweep_sphere(o);
+}
+
+}  // namespace
 
 std::vector<sweep::Variation> variations_of(const SweepOptions& o) {
   std::vector<sweep::Variation> variations;
@@ -50,15 +77,7 @@ void add_sweep(CLI::App& app) {
   add_value(*command, "--fit", o->fit, kFile,
             "fit of the lubrication force (JSON); default: the case's [fit] file or exact; for a "
             "swimmer, its fit.json");
-  add_value(*command, "--plot", o->plot, kFile,
-            "picture to write (SVG): lines over one key, or a map over two");
-  add_value(*command, "--x", o->x, "KEY",
-            "key of the horizontal axis; default: the first varied key");
-  add_value(*command, "--y", o->y, "KEY", "key of the vertical axis, for a map");
-  add_value(
-      *command, "--column", o->columns, "COLUMN,...",
-      "what to draw, comma-separated: MODEL.minimal_gap, MODEL.film_ratio, ..., or COLUMN/KEY")
-      ->delimiter(',');
+  add_picture_options(*command, *o);
   command
       ->add_option("--draws", o->draws,
                    "for a case of particles: number of random arrangements at each point")
@@ -73,17 +92,7 @@ void add_sweep(CLI::App& app) {
   add_json(*command, o->json)->needs(dry);
   for (auto* option : {o->array.launcher_option, o->array.gather_option, o->array.task_option})
     dry->excludes(option);
-  command->callback([o] {
-    check_array_options(o->array);
-    check_models("--models", o->models);
-    check_outputs(o->plot.empty() ? std::vector{o->output} : std::vector{o->output, o->plot});
-    if (case_file::is_particles_case(o->case_file))
-      sweep_many_particles(*o);
-    else if (case_file::is_swimmer_case(o->case_file))
-      sweep_swimmer(*o);
-    else
-      sweep_sphere(*o);
-  });
+  command->callback([o] { run_sweep(*o); });
 }
 
 }  // namespace viscontact::app
