@@ -117,7 +117,7 @@ ResistanceWithSlopes FittedResistance::operator()(std::span<const double> gaps) 
     matrix(i + 1, i + 1) += pair;
     matrix(i, i + 1) -= pair;
     matrix(i + 1, i) -= pair;
-    resistance.slopes.push_back(viscosity_ * matrix);
+    resistance.slopes.emplace_back(viscosity_ * matrix);
   }
   return resistance;
 }

@@ -64,10 +64,10 @@ ShapeMechanics Swimmer::at(const Eigen::VectorXd& arms, bool with_slopes) const 
   if (!with_slopes) return mechanics;
   for (const auto& slope : resistance.slopes) {
     const Eigen::RowVectorXd row_slope = slope.colwise().sum();
-    mechanics.displacement_form_slopes.push_back(-(row_slope * b + row_slope.sum() * a) /
-                                                 mechanics.towing_resistance);
+    mechanics.displacement_form_slopes.emplace_back(-(row_slope * b + row_slope.sum() * a) /
+                                                    mechanics.towing_resistance);
     // The derivative of `motion` is 1 dA/dx, and 1' R motion = 0 as the total force vanishes.
-    mechanics.metric_slopes.push_back(mechanics.motion.transpose() * slope * mechanics.motion);
+    mechanics.metric_slopes.emplace_back(mechanics.motion.transpose() * slope * mechanics.motion);
   }
   return mechanics;
 }
