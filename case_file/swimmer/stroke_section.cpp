@@ -98,7 +98,7 @@ reduced_model::Stroke read_ellipse(const TomlSection& section, const SwimmerCase
       phases[static_cast<Eigen::Index>(k) + 1] = numbers[k];
   } else if (c.gaps.size() == 2) {
     phases[1] = ellipse.number("phase", kFinite);
-  } else {
+  } else if (c.gaps.size() > 2 || ellipse.has("phase")) {
     ellipse.fail("phase", "must be an array with the phase of each arm but the first");
   }
   ellipse.finish();

@@ -54,6 +54,30 @@ TEST_F(SwimmerCaseFile, ShippedOneHasTheArmsAndStrokesThatItSays) {
   EXPECT_EQ(c.optimal_period, 1);
 }
 
+TEST_F(SwimmerCaseFile, ShippedOneOfTheLectureHasSpheresOfFiftyMicrometres) {
+  const auto c =
+      read_swimmer_case(std::string(VISCONTACT_SOURCE_FOLDER) + "/data/cases/swimmer/lecture.toml");
+  EXPECT_EQ(c.spheres.viscosity, 1e-3);
+  EXPECT_THAT(c.spheres.radii, ElementsAre(5e-5, 5e-5, 5e-5));
+  EXPECT_NEAR(c.gaps[0].front(), 1e-5, 1e-19);
+  EXPECT_NEAR(c.gaps[0].back(), 5e-4, 1e-18);
+  ASSERT_TRUE(c.stroke && c.optimal);
+  EXPECT_EQ(c.optimal->displacement, 1e-5);
+}
+
+TEST_F(SwimmerCaseFile, OneArmHasAnEllipseWithoutAPhase) {
+  const auto c = read_swimmer_case(folder_.file("two.toml", R"([fluid]
+viscosity = 1.0
+[swimmer]
+radii = [1.0, 2.0]
+arms = { from = 3.1, to = 6.0, count = 4 }
+relative_accuracy = 1e-4
+[stroke]
+ellipse = { centre = 4.0, semi_axes = 0.5 }
+)"));
+  EXPECT_NEAR(c.stroke->legs.front().state(0).arms[0], 4.5, 1e-15);
+}
+
 TEST_F(SwimmerCaseFile, MayHaveAnEllipseATubeAndAGridForEachArm) {
   const auto c = changed("corners = [[6.0, 6.0], [10.0, 6.0], [10.0, 10.0], [6.0, 10.0]]",
                          "ellipse = { centre = [6.0, 7.0], semi_axes = [1.0, 2.0], phase = 1.5 }");
