@@ -111,6 +111,16 @@ void read_container(const TomlSection& section, const freefem_axi::RequiredSpace
   tabulation.container = container;
 }
 
+/// Reads `motion`: a name, a list of names, or "all", every motion that the geometry has.
+std::vector<lubrication::MotionKind> read_motions(const TomlSection& section,
+                                                  const std::string& geometry) {
+  using lubrication::MotionKind;
+  if (!section.has("motion")) return {MotionKind::kApproach};
+  const auto names =
+      section.is_array("motion") ? section.texts("motion") : std::vector{section.text("motion")};
+  return at_key(section, "motion", [&] { return freefem_axi::parse_motions(names, geometry); });
+}
+
 }  // namespace
 
 freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
@@ -127,6 +137,7 @@ freefem_axi::Tabulation read_tabulation(const TomlSection& section, double visco
                  "contains the same velocity twice; each velocity must be given once");
   tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
   read_geometry(section, tabulation);
+  tabulation.motions = read_motions(section, tabulation.geometry);
   // At smaller gaps the matrices are too ill-conditioned for double precision.
   constexpr double kSmallestGap = 1e-8;
   if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)

@@ -205,7 +205,8 @@ void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDia
 }  // namespace
 
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
-                                     const FittedSystem& system, const lubrication::Fit& fit) {
+                                     const FittedSystem& system, const lubrication::Fit& fit,
+                                     bool is_drag) {
   lubrication::FitDiagnostics d;
   d.rows = table.rows.size();
   d.free_coefficients = static_cast<std::size_t>(system.weighted_matrix.cols());
@@ -219,7 +220,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
   if (fit.loss == lubrication::Loss::kSquared)
     d.information_criterion = information_criterion(system, d);
   if (fit.loss != lubrication::Loss::kSquared) d.outliers = outliers(table, system);
-  warn_of_shape(fit, d.warnings);
+  if (is_drag) warn_of_shape(fit, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
   // A formula that misses a row by more than a tenth does not describe lubrication theory. The
   // lecture's five terms on forty gaps miss a row by 0.05, for which there is no warning.

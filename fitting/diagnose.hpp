@@ -16,15 +16,17 @@ struct FittedSystem {
   Eigen::MatrixXd weighted_matrix;
   /// (Fit - table), times the same weights.
   Eigen::VectorXd weighted_residual;
-  /// Fit/table - 1.
+  /// Fit/table - 1, or the residual over another scale (FitSettings::row_scales).
   Eigen::VectorXd relative_residual;
   /// The argument of the loss: weight * (fit - table), without the loss's own weight, divided by
   /// the scale of all residuals.
   Eigen::VectorXd scaled_residual;
 };
 
-/// The diagnostics of a fit whose other members are complete.
+/// The diagnostics of a fit whose other members are complete. `is_drag`: the fitted function should be
+/// positive and fall with the gap.
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
-                                     const FittedSystem& system, const lubrication::Fit& fit);
+                                     const FittedSystem& system, const lubrication::Fit& fit,
+                                     bool is_drag);
 
 }  // namespace viscontact::fitting

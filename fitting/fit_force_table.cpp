@@ -72,7 +72,9 @@ struct Equations {
   Eigen::VectorXd left;
   // A column for each fitted term.
   Eigen::MatrixXd terms;
-  // The weight of each row: 1/force or 1.
+  // What the relative residual of each row refers to.
+  Eigen::VectorXd scale;
+  // The weight of each row: 1/|scale| or 1.
   Eigen::VectorXd weight;
 };
 
@@ -87,7 +89,8 @@ Equations assemble(const lubrication::ForceTable& table, const FitSettings& sett
       static_cast<Eigen::Index>(settings.basis.terms.size()) - (settings.fix_leading ? 1 : 0);
   const double u0 = table.rows.front().reference_velocity;
   Equations equations = {Eigen::VectorXd(rows), Eigen::VectorXd(rows),
-                         Eigen::MatrixXd(rows, columns), Eigen::VectorXd::Ones(rows)};
+                         Eigen::MatrixXd(rows, columns), Eigen::VectorXd(rows),
+                         Eigen::VectorXd::Ones(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto& row = table.rows[static_cast<std::size_t>(i)];
     const double log_gap = std::log(row.gap);
@@ -101,8 +104,11 @@ Equations assemble(const lubrication::ForceTable& table, const FitSettings& sett
         equations.terms(i, column++) = value;
     }
   }
+  equations.scale = settings.row_scales.empty()
+                        ? equations.force
+                        : Eigen::VectorXd::Map(settings.row_scales.data(), rows);
   if (settings.weights == lubrication::Weights::kRelative)
-    equations.weight = equations.force.cwiseAbs().cwiseInverse();
+    equations.weight = equations.scale.cwiseAbs().cwiseInverse();
   return equations;
 }
 
@@ -137,7 +143,7 @@ FittedSystem residuals_of(const Equations& equations, const RobustSolution& solu
   FittedSystem system;
   system.weighted_matrix = root.cwiseProduct(equations.weight).asDiagonal() * equations.terms;
   system.weighted_residual = root.cwiseProduct(weighted);
-  system.relative_residual = residual.cwiseQuotient(equations.force);
+  system.relative_residual = residual.cwiseQuotient(equations.scale);
   system.scaled_residual = weighted / solution.scale;
   return system;
 }
@@ -178,7 +184,7 @@ lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const Fit
     throw Error(
         ErrorKind::kBadInput,
         "the forces are too large, or differ too much in size, to be fitted in double precision");
-  fit.diagnostics = diagnose(table, system, fit);
+  fit.diagnostics = diagnose(table, system, fit, settings.is_drag);
   return fit;
 }
 

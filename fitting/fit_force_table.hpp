@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
@@ -23,6 +24,11 @@ struct FitSettings {
   /// Fixed coefficient of 1/q in the force at the table's first velocity, as in the fit file
   /// [M L^2/T^2].
   std::optional<double> leading_value{};
+  /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2]; empty:
+  /// the forces.
+  std::vector<double> row_scales{};
+  /// False: no warning if the fitted function is not positive or does not fall with the gap.
+  bool is_drag = true;
 };
 
 /// Fits a table. The force F in a row of another velocity u than the first row's u0 counts as

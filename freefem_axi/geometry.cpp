@@ -1,6 +1,8 @@
 // The registry of geometries. Lengths are in the units of the case.
 #include "viscontact/freefem_axi/geometry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -61,20 +63,37 @@ double leading_in_cavity(double radius, Parameters parameters) {
   return share * share;
 }
 
+double flat(Parameters) { return 0; }
+double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
+double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
+
 // The first row is the geometry of a case that names none.
 constexpr std::array kGeometries = {
-    Geometry{"plane", "plane.edp", {}, true, nullptr, leading_of_plane, space_above_floor, true},
+    Geometry{"plane",
+             "plane.edp",
+             {},
+             true,
+             nullptr,
+             leading_of_plane,
+             space_above_floor,
+             true,
+             1,
+             flat},
     Geometry{"free_surface",
              "free_surface.edp",
              {},
              true,
              nullptr,
              leading_of_free_surface,
-             space_above_floor},
+             space_above_floor,
+             false,
+             1,
+             flat,
+             true},
     Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
-             space_of_pair, false, 2.5},
+             space_of_pair, false, 2.5, curvature_of_sphere},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
-             space_in_cavity},
+             space_in_cavity, false, 1, curvature_of_cavity},
     // k is not known for this geometry, because the ripples under the middle of the film change R
     // as the gap goes to 0.
     Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
@@ -92,6 +111,43 @@ std::vector<Geometry> geometries_with_exact_drag() {
 }
 
 const Geometry& default_geometry() { return kGeometries.front(); }
+
+bool has_motion(const Geometry& geometry, lubrication::MotionKind motion) {
+  using lubrication::MotionKind;
+  const bool is_across = motion == MotionKind::kSlide || motion == MotionKind::kRoll;
+  return !is_across || geometry.curvature != nullptr;
+}
+
+std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
+                                                   std::string_view geometry_name) {
+  const auto& geometry = find_geometry(geometry_name);
+  std::vector<lubrication::MotionKind> motions;
+  std::string available;
+  for (const auto& [name, motion] : lubrication::all_motions())
+    if (has_motion(geometry, motion)) {
+      motions.push_back(motion);
+      available += (available.empty() ? "" : ", ") + std::string(name);
+    }
+  if (names == std::vector<std::string>{"all"}) return motions;
+  motions.clear();
+  for (const auto& name : names) {
+    const auto* known = find_named(lubrication::all_motions(), name);
+    if (known == nullptr)
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("is '{}'; it must be approach, slide, roll or spin, a list of these, "
+                              "or all",
+                              name));
+    if (!has_motion(geometry, known->kind))
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("is {}; beside a {} a sphere has the motions {}", name, geometry_name,
+                              available));
+    if (std::ranges::find(motions, known->kind) != motions.end())
+      throw Error(ErrorKind::kBadInput, fmt::format("names {} twice; name it once", name));
+    motions.push_back(known->kind);
+  }
+  std::ranges::sort(motions);
+  return motions;
+}
 
 const Geometry& find_geometry(std::string_view name) {
   return require_named(kGeometries, name, "geometry");

@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
+#include "viscontact/lubrication/motions/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -52,6 +54,11 @@ struct Geometry {
   bool has_exact_drag = false;
   /// Computing time of a row over that of a row above a plane [1], for estimates.
   double relative_cost = 1;
+  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: the neighbour is not
+  /// the same along x, so that a sphere can neither slide nor roll beside it (MotionKind).
+  double (*curvature)(std::span<const double> parameters) = nullptr;
+  /// True: no tangential stress on the neighbour.
+  bool is_shear_free = false;
 };
 
 /// All geometries.
@@ -62,6 +69,15 @@ std::vector<Geometry> geometries_with_exact_drag();
 
 /// The geometry of a case that names none.
 const Geometry& default_geometry();
+
+/// True if the resistance of this motion can be tabulated.
+bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
+
+/// The motions with these names, in the order of MotionKind; "all" stands for every motion that the
+/// geometry has. Throws Error(kBadInput) for an unknown name, a name that stands twice, and a motion
+/// that the geometry lacks.
+std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
+                                                   std::string_view geometry);
 
 /// The geometry with this name. Throws Error(kBadInput), which lists the names, if there is none.
 const Geometry& find_geometry(std::string_view name);

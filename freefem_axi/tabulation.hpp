@@ -10,6 +10,7 @@
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 #include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motions/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 
@@ -31,6 +32,9 @@ struct Tabulation {
   double relative_accuracy = 0;                   ///< asked of every row [1], in (0, 1)
   std::string geometry{default_geometry().name};  ///< name of a Geometry
   std::vector<double> geometry_parameters;        ///< in the order of Geometry::parameters
+  /// The motions that are tabulated, each once. Those other than the approach are tabulated by
+  /// motions/motion_table_plan.hpp.
+  std::vector<lubrication::MotionKind> motions = {lubrication::MotionKind::kApproach};
 };
 
 /// The container in words for the header of a table: "closed cylinder, radius 40, height 80",

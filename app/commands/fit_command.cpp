@@ -15,8 +15,10 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/export/export_fit.hpp"
+#include "viscontact/fitting/export/export_pair.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/pipeline/fit_stages.hpp"
+#include "viscontact/pipeline/pair_fit_stage.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::app {
@@ -41,13 +43,40 @@ void read_fix(const std::string& word, fitting::FitSettings& settings) {
 
 struct FitOptions {
   std::string basis{lubrication::default_basis().name};
+  std::vector<std::string> tables;
   std::string table, fit, terms, weights = "relative", loss = "none", fix, plot;
   bool compare_bases = false, json = false;
   /// CLI11's objects of --output, --terms and --fix, which tell whether an option was given.
-  const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr;
+  const CLI::Option *output_option = nullptr, *terms_option = nullptr, *fix_option = nullptr,
+                    *basis_option = nullptr, *weights_option = nullptr;
 };
 
-void fit_table(const FitOptions& o) {
+void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::path>& files) {
+  if (o.terms_option->count() + o.fix_option->count() + o.weights_option->count() > 0 ||
+      !o.plot.empty())
+    throw Error(ErrorKind::kWrongUsage,
+                "--terms, --fix, --weights and --plot are options of a single table of forces; the "
+                "tables of a pair take --basis, --loss and --compare-bases");
+  fitting::PairFitSettings settings;
+  if (o.basis_option->count() > 0) settings.basis = o.basis;
+  (void)from_option("--basis", [&] {
+    return lubrication::basis_of_entry(lubrication::pair_entries().front(), settings.basis);
+  });
+  settings.loss = from_option("--loss", [&] { return lubrication::parse_loss(o.loss); });
+  if (o.output_option->count() == 0 && !o.compare_bases)
+    throw Error(ErrorKind::kWrongUsage, "--output is required unless --compare-bases is given");
+  if (o.compare_bases)
+    pipeline::compare_pair_bases_stage(files, settings, o.json, interrupt_token());
+  if (o.output_option->count() == 0) return;
+  check_outputs({o.fit});
+  results::refuse_other_kind(o.fit, "\"pair fit\"", "fit of a pair");
+  pipeline::fit_pair_stage(files, o.fit, settings, interrupt_token());
+}
+
+void fit_table(FitOptions& o) {
+  const auto files = pipeline::pair_table_files(o.tables);
+  if (pipeline::are_of_pair(files)) return fit_tables_of_pair(o, files);
+  o.table = files.front().string();
   fitting::FitSettings settings;
   settings.basis = o.terms_option->count() == 0
                        ? from_option("--basis", [&] { return lubrication::find_basis(o.basis); })
@@ -85,23 +114,38 @@ void fit_table(const FitOptions& o) {
   if (without_picture) throw Error(*without_picture);
 }
 
+/// The text of a fit file for a target, whether it is the fit of one force or of a pair.
+std::string exported(const std::string& file, const std::string& target,
+                     const std::string& source) {
+  if (lubrication::is_pair_fit(file)) {
+    const auto pair = lubrication::read_pair_fit(file);
+    return with_place(file, [&] { return fitting::export_pair(pair, target, source); });
+  }
+  const auto fit = lubrication::read_fit(file);
+  return with_place(file, [&] { return fitting::export_fit(fit, target, source); });
+}
+
 }  // namespace
 
 void add_fit(CLI::App& app) {
   auto* command = app.add_subcommand("fit", "fit a formula to a table by least squares");
   auto o = std::make_shared<FitOptions>();
-  add_value(*command, "TABLE", o->table, kFile, "table of forces (CSV)")->required();
+  add_value(*command, "TABLE", o->tables, kFile,
+            "table of forces (CSV); or tables of several motions of one pair, or their folder")
+      ->required();
   o->output_option = add_value(*command, "-o,--output", o->fit, kFile, "fit to write (JSON)");
   auto* basis = add_value(*command, "--basis", o->basis, names_of(lubrication::all_bases(), "|"),
-                          "terms of the formula")
+                          "terms of the formula; of a pair: asymptotic, asymptotic_extended or "
+                          "asymptotic_cubic (default)")
                     ->capture_default_str();
+  o->basis_option = basis;
   o->terms_option = add_value(*command, "--terms", o->terms, "TERM,...",
                               "a basis of your own: terms, separated by commas, from: " +
                                   names_of(lubrication::all_terms()))
                         ->excludes(basis);
-  add_value(*command, "--weights", o->weights, "relative|absolute",
-            "residuals: relative to the force, or absolute")
-      ->capture_default_str();
+  o->weights_option = add_value(*command, "--weights", o->weights, "relative|absolute",
+                                "residuals: relative to the force, or absolute")
+                          ->capture_default_str();
   add_value(*command, "--loss", o->loss, "none|huber|cauchy",
             "weight of large residuals: none (least squares), or a robust loss, huber or cauchy, "
             "with which outliers are listed")
@@ -167,10 +211,8 @@ void add_export(CLI::App& app) {
     (void)from_option("--to", [&] {
       return &require_named(fitting::export_targets(), o->target, "export target");
     });
-    const lubrication::Fit fit = lubrication::read_fit(o->fit);
-    const auto text = with_place(o->fit, [&] {
-      return fitting::export_fit(fit, o->target, std::filesystem::path(o->fit).filename().string());
-    });
+    const auto source = std::filesystem::path(o->fit).filename().string();
+    const auto text = exported(o->fit, o->target, source);
     if (output->count() > 0)
       results::write_output(o->output, find_named(fitting::export_targets(), o->target)->kind, text,
                             results::without_folders(results::provenance_of({{o->fit}, {}})));

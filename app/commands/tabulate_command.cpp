@@ -24,7 +24,7 @@ namespace viscontact::app {
 namespace {
 
 struct TabulateOptions {
-  std::vector<std::string> case_files;
+  std::vector<std::string> case_files, motions;
   std::string output, plot;
   ArrayOptions array;
   int jobs = default_jobs();
@@ -53,9 +53,12 @@ void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
   check_outputs({o.output});
   const auto gaps = read_gaps(o.plot);
-  const auto tables = pipeline::read_case_tables(o.case_files, o.output);
-  for (const auto& one : tables)
+  const auto tables = pipeline::read_case_tables(o.case_files, o.output, o.motions);
+  for (const auto& one : tables) {
     results::refuse_other_kind(one.table.string(), "# case: ", "table");
+    for (const auto& other : one.plan.companions)
+      results::refuse_other_kind(other.path.string(), "# case: ", "table");
+  }
   // The gaps of the pictures of each table are checked before any work is done.
   std::vector<std::vector<double>> pictures;
   if (o.plot_option->count() > 0)
@@ -101,8 +104,12 @@ void add_tabulate(CLI::App& app) {
   auto o = std::make_shared<TabulateOptions>();
   add_value(*command, "CASE", o->case_files, kFile, "case files (TOML)")->required();
   add_value(*command, "-o,--output", o->output, kFile,
-            "table to write (CSV); for several cases, a folder in which each gets CASE.csv")
+            "table to write (CSV); for several motions, a folder in which each gets MOTION.csv; "
+            "for several cases, a folder in which each gets CASE.csv or CASE/MOTION.csv")
       ->required();
+  add_value(*command, "--motion", o->motions, "MOTION,...",
+            "approach, slide, roll, spin, or all: motions in place of the cases' own")
+      ->delimiter(',');
   o->jobs_option = add_jobs(*command, o->jobs,
                             "number of FreeFEM processes at once; default in each Slurm task: 1");
   add_array_options(*command, o->array, "the tables");

@@ -13,6 +13,7 @@
 #include "viscontact/common/named.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/fitting/export/code_text.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/lubrication/spread_gaps.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 
 /// R = sum of weight * value, Gamma = sum of weight * antiderivative - offset.
 struct Sum {
-  std::vector<std::pair<double, lubrication::Term>> terms;
+  std::vector<WeightedTerm> terms;
   double offset = 0;
 };
 
@@ -34,37 +35,6 @@ Sum sum_of(const lubrication::Fit& fit) {
   for (const auto& [weight, term] : sum.terms)
     sum.offset += weight * term.antiderivative(fit.radius);
   return sum;
-}
-
-/// Writes a number as a double of the language.
-using Literal = std::string (*)(double);
-
-std::string plain(double number) { return format_number(number); }
-
-/// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
-std::string fortran_literal(double number) {
-  std::string text = format_number(number);
-  const auto exponent = text.find('e');
-  if (exponent == std::string::npos) return text + "d0";
-  text[exponent] = 'd';
-  return text;
-}
-
-/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read it as an
-/// integer, which would overflow if it has many digits.
-std::string c_literal(double number) {
-  const std::string text = format_number(number);
-  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-/// The text "weight * (formula) + ..." with a line for each term.
-std::string terms_text(const Sum& sum, lubrication::Formula lubrication::Term::*formula,
-                       Literal literal, std::string_view between) {
-  std::string text;
-  for (const auto& [weight, term] : sum.terms)
-    text += fmt::format("{}({}) * ({})", text.empty() ? "" : between, literal(weight),
-                        (term.*formula).text);
-  return text;
 }
 
 /// What a reader must know to use the numbers, one line for each fact.
@@ -89,12 +59,7 @@ std::vector<std::string> facts(const lubrication::Fit& fit, std::string_view sou
   if (!source.empty()) lines.push_back(fmt::format("Exported from the fit in {}.", source));
   if (!fit.table_sha256.empty())
     lines.push_back(fmt::format("SHA-256 of the table: {}.", fit.table_sha256));
-  // The lines become comments of the code. A line end from a fit file must not start a line of
-  // code.
-  for (auto& line : lines)
-    std::ranges::replace_if(
-        line, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return lines;
+  return on_lines_of_comments(std::move(lines));
 }
 
 std::string commented(const lubrication::Fit& fit, std::string_view source, std::string_view mark) {
@@ -113,7 +78,7 @@ std::string write_c_header(const lubrication::Fit& fit, std::string_view source)
         "  (void)q;\n  (void)l;\n"
         "  if (!(gap >= VISCONTACT_SMALLEST_GAP && gap <= VISCONTACT_LARGEST_GAP)) return NAN;\n"
         "  return {}{};\n}}\n\n",
-        name, terms_text(sum, formula, c_literal, "\n      + "), tail);
+        name, terms_text(sum.terms, formula, c_literal, "\n      + "), tail);
   };
   return commented(fit, source, "//") +
          "// C99 or C++11. Outside the interval the answer is NaN.\n" +
@@ -146,7 +111,7 @@ std::string write_fortran(const lubrication::Fit& fit, std::string_view source) 
         "    l = log(gap)\n"
         "    answer = {1}{2}\n"
         "  end function\n\n",
-        name, terms_text(sum, formula, fortran_literal, " &\n      + "), tail);
+        name, terms_text(sum.terms, formula, fortran_literal, " &\n      + "), tail);
   };
   return commented(fit, source, "!") + "! Outside the interval the answer is NaN.\n" +
          fmt::format(
@@ -181,7 +146,7 @@ std::string write_python(const lubrication::Fit& fit, std::string_view source) {
         "    _check(gap)\n"
         "    q, l = gap, math.log(gap)\n"
         "    return ({2}{3})\n\n\n",
-        name, what, terms_text(sum, formula, plain, "\n            + "), tail);
+        name, what, terms_text(sum.terms, formula, plain, "\n            + "), tail);
   };
   return commented(fit, source, "#") +
          fmt::format("import math\n\nSMALLEST_GAP, LARGEST_GAP = {}, {}\n\n\n",

@@ -1,6 +1,7 @@
 // What the journal and the commands need to know of a table whose rows FreeFEM computes one by one,
-// whatever its rows contain: forces on a sphere (force_table_plan.hpp) or resistance matrices of
-// spheres on a line (resistance_table_plan.hpp).
+// whatever its rows contain: forces on a sphere (force_table_plan.hpp), forces and torques in other
+// motions (motions/motion_table_plan.hpp), or resistance matrices of spheres on a line
+// (collinear_spheres.hpp).
 #pragma once
 
 #include <cstddef>
@@ -47,6 +48,12 @@ struct RowShape {
 /// Names and versions of the programs that made a table.
 using Versions = std::map<std::string, std::string>;
 
+/// Another file with the same rows as the table, but other columns.
+struct CompanionTable {
+  std::filesystem::path path;
+  std::function<std::string(const RowRecord&, const Versions&)> write;
+};
+
 /// A table and the functions that compute, read and write it.
 struct TablePlan {
   /// SHA-256 of everything that the numbers depend on. Equal inputs have equal hashes.
@@ -63,6 +70,8 @@ struct TablePlan {
   std::function<std::optional<std::vector<FinishedRow>>(const std::filesystem::path&)> read;
   /// The text of the file with all rows. None may be missing in the record.
   std::function<std::string(const RowRecord&, const Versions&)> write;
+  /// Files that are written with the table.
+  std::vector<CompanionTable> companions;
   /// The row in words for messages: "gap 0.1, velocity -1".
   std::function<std::string(const RowPoint&)> name_of;
   std::function<double(const FinishedRow&)> estimate_of;  ///< relative error of the row [1]

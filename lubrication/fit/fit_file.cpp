@@ -70,11 +70,15 @@ Fit read_fit(const std::filesystem::path& path) {
 
 Fit parse_fit(const std::string& text, const std::string& file) {
   const auto document = JsonDocument::parse(text, file);
-  const JsonObject root(document);
+  return read_fit_object(JsonObject(document));
+}
+
+Fit read_fit_object(const JsonObject& root, const std::string& further_keys) {
   root.allow_only(
       "basis reference_velocity viscosity radius gap_interval weights terms "
       "largest_relative_residual rms_relative_residual condition_number covariance table_sha256 "
-      "versions loss geometry leading_coefficient diagnostics provenance");
+      "versions loss geometry leading_coefficient diagnostics provenance " +
+      further_keys);
   Fit fit;
   fit.basis = root.text("basis");
   fit.reference_velocity = root.number("reference_velocity");

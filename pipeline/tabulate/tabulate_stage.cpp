@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "viscontact/common/error.hpp"
@@ -15,6 +16,7 @@
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
+#include "viscontact/freefem_axi/motions/motion_table_plan.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -46,8 +48,12 @@ bool is_up_to_date(const CaseTable& one) {
 /// Writes the table of a record in which no row is missing.
 void write_table(const CaseTable& one, const freefem_axi::RowRecord& record,
                  const results::Provenance& provenance) {
-  results::write_output(one.table, TextKind::kHashComment,
-                        one.plan.write(record, {{"Viscontact", VISCONTACT_VERSION}}), provenance);
+  const freefem_axi::Versions versions = {{"Viscontact", VISCONTACT_VERSION}};
+  results::write_output(one.table, TextKind::kHashComment, one.plan.write(record, versions),
+                        provenance);
+  for (const auto& other : one.plan.companions)
+    results::write_output(other.path, TextKind::kHashComment, other.write(record, versions),
+                          provenance);
   freefem_axi::remove_journals(one.table, one.plan.hash);
   warn_of_unmet_accuracy(one.plan, record);
 }
@@ -141,6 +147,12 @@ void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
 
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
   const auto& tabulation = case_file::required_tabulation(c);
+  if (tabulation.motions != std::vector{lubrication::MotionKind::kApproach})
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: tabulation.motion must be \"approach\" or be left out here, "
+                            "because the sphere moves along the axis; `viscontact tabulate` makes "
+                            "tables of the other motions",
+                            c.path.string()));
   return {c.path, c.text, table, freefem_axi::force_table_plan(tabulation), tabulation};
 }
 
@@ -148,24 +160,54 @@ CaseTable case_table(const case_file::SwimmerCase& c, const fs::path& table) {
   return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}};
 }
 
+std::vector<CaseTable> case_tables(const case_file::Case& c, const MotionTablePath& path_of) {
+  using lubrication::MotionKind;
+  const auto& tabulation = case_file::required_tabulation(c);
+  std::vector<CaseTable> tables;
+  if (std::ranges::find(tabulation.motions, MotionKind::kApproach) != tabulation.motions.end())
+    tables.push_back({c.path, c.text, path_of(MotionKind::kApproach),
+                      freefem_axi::force_table_plan(tabulation), tabulation});
+  for (const auto group : freefem_axi::motion_groups(tabulation))
+    tables.push_back({c.path, c.text,
+                      path_of(freefem_axi::asked_motions(tabulation, group).front()),
+                      freefem_axi::motion_table_plan(tabulation, group, path_of), tabulation});
+  return tables;
+}
+
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
-                                        const fs::path& output) {
+                                        const fs::path& output,
+                                        const std::vector<std::string>& motions) {
   std::map<fs::path, std::string> case_of;
-  std::vector<fs::path> names;
+  std::vector<CaseTable> tables;
   for (const auto& file : case_files) {
-    names.push_back(case_files.size() == 1 ? output
-                                           : output / (fs::path(file).stem().string() + ".csv"));
-    const auto [other, is_new] = case_of.insert({names.back(), file});
+    const fs::path name = case_files.size() == 1 ? output : output / fs::path(file).stem();
+    const auto csv = case_files.size() == 1 ? name : fs::path(name.string() + ".csv");
+    const auto [other, is_new] = case_of.insert({name, file});
     if (!is_new)
       throw Error(ErrorKind::kWrongUsage,
                   fmt::format("{} and {} would both be tabulated to {}; rename one of them",
-                              other->second, file, names.back().string()));
+                              other->second, file, csv.string()));
+    if (case_file::is_swimmer_case(file)) {
+      if (!motions.empty())
+        throw Error(ErrorKind::kWrongUsage,
+                    fmt::format("--motion: {} is a case of a swimmer, whose spheres move along "
+                                "the axis",
+                                file));
+      tables.push_back(case_table(case_file::read_swimmer_case(file), csv));
+      continue;
+    }
+    auto c = case_file::read_case(file);
+    if (c.tabulation && !motions.empty())
+      c.tabulation->motions = with_place(
+          "--motion", [&] { return freefem_axi::parse_motions(motions, c.tabulation->geometry); });
+    const bool several = case_file::required_tabulation(c).motions.size() > 1;
+    std::ranges::move(
+        case_tables(c,
+                    [=](lubrication::MotionKind motion) {
+                      return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
+                    }),
+        std::back_inserter(tables));
   }
-  std::vector<CaseTable> tables;
-  for (std::size_t i = 0; i < case_files.size(); ++i)
-    tables.push_back(case_file::is_swimmer_case(case_files[i])
-                         ? case_table(case_file::read_swimmer_case(case_files[i]), names[i])
-                         : case_table(case_file::read_case(case_files[i]), names[i]));
   return tables;
 }
 

@@ -1,0 +1,60 @@
+// Numbers and sums of terms as code of C, Fortran and Python.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/terms.hpp"
+
+namespace viscontact::fitting {
+
+/// A term of a sum with its coefficient.
+using WeightedTerm = std::pair<double, lubrication::Term>;
+
+/// Writes a number as a double of the language.
+using Literal = std::string (*)(double);
+
+inline std::string plain(double number) { return format_number(number); }
+
+/// A Fortran literal in double precision, such as 56.5d0 or 1d-05.
+inline std::string fortran_literal(double number) {
+  std::string text = format_number(number);
+  const auto exponent = text.find('e');
+  if (exponent == std::string::npos) return text + "d0";
+  text[exponent] = 'd';
+  return text;
+}
+
+/// A C literal such as 56.5, 5.0 or 1e-05. Without a point or an exponent C would read it as an
+/// integer, which would overflow if it has many digits.
+inline std::string c_literal(double number) {
+  const std::string text = format_number(number);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+/// The text "weight * (formula) + ..." with a line for each term.
+inline std::string terms_text(const std::vector<WeightedTerm>& terms,
+                              lubrication::Formula lubrication::Term::*formula, Literal literal,
+                              std::string_view between) {
+  std::string text;
+  for (const auto& [weight, term] : terms)
+    text += fmt::format("{}({}) * ({})", text.empty() ? "" : between, literal(weight),
+                        (term.*formula).text);
+  return text;
+}
+
+/// Lines that become comments of the code. A line end from a fit file must not start a line of code.
+inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> lines) {
+  for (auto& line : lines)
+    std::ranges::replace_if(
+        line, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return lines;
+}
+
+}  // namespace viscontact::fitting

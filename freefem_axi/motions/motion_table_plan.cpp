@@ -1,0 +1,228 @@
+// The rows of motion tables, their numbers in the journal, and their tables.
+#include "viscontact/freefem_axi/motions/motion_table_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/lubrication/motions/near_contact.hpp"
+
+namespace viscontact::freefem_axi {
+namespace {
+
+using lubrication::ActionFactors;
+using lubrication::MotionKind;
+using lubrication::MotionTable;
+
+// Revision of the scripts for these motions. Raise it when a change of the scripts changes their
+// results: tables of another revision are then computed again.
+constexpr int kMotionMethod = 1;
+
+// Numbers of a body in a journal, and numbers of a row after those of its results.
+constexpr std::size_t kOfBody = 4, kOfRow = 2;
+
+std::string hash_of(const Tabulation& tabulation, MotionGroup group) {
+  std::string text = fmt::format(
+      "motion {}; {}; {}; {} {} {} {};", static_cast<int>(group), geometry_in_words(tabulation),
+      container_in_words(tabulation), format_number(tabulation.viscosity),
+      format_number(tabulation.radius), format_number(tabulation.relative_accuracy), kMotionMethod);
+  for (const double gap : tabulation.gaps) text += " " + format_number(gap);
+  text += ";";
+  for (const double velocity : tabulation.reference_velocities)
+    text += " " + format_number(velocity);
+  return sha256(text);
+}
+
+std::size_t numbers_of_result(const Tabulation& tabulation) {
+  return kOfBody * (neighbour_is_sphere(tabulation) ? 2 : 1) + 1;
+}
+
+void append(std::vector<double>& numbers, const ActionFactors& body) {
+  numbers.insert(numbers.end(),
+                 {body.force, body.torque, body.force_error_estimate, body.torque_error_estimate});
+}
+
+std::vector<double> numbers_of(const MotionRow& row) {
+  std::vector<double> numbers;
+  for (const auto& result : row.results) {
+    append(numbers, result.sphere);
+    if (result.neighbour) append(numbers, *result.neighbour);
+    numbers.push_back(result.observed_order);
+  }
+  numbers.insert(numbers.end(), {row.degrees_of_freedom, row.seconds});
+  return numbers;
+}
+
+ActionFactors factors_at(const std::vector<double>& numbers, std::size_t at) {
+  return {numbers.at(at), numbers.at(at + 1), numbers.at(at + 2), numbers.at(at + 3)};
+}
+
+/// The table of one motion, without rows.
+MotionTable head_of(const Tabulation& tabulation, MotionGroup group, MotionKind motion) {
+  const auto& geometry = find_geometry(tabulation.geometry);
+  MotionTable table;
+  table.motion = motion;
+  table.viscosity = tabulation.viscosity;
+  table.radius = tabulation.radius;
+  table.geometry = geometry_in_words(tabulation);
+  table.container = container_in_words(tabulation);
+  table.neighbour_moves = neighbour_moves(tabulation);
+  table.case_hash = hash_of(tabulation, group);
+  if (geometry.curvature == nullptr) return table;
+  const double ratio = table.neighbour_moves ? tabulation.geometry_parameters.at(1) : 0;
+  const auto leading = lubrication::leading_factors(
+      motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
+               geometry.is_shear_free, ratio});
+  // Theory's q is in sphere radii, so that q ln q has the coefficient per radius.
+  const double unit = motion == MotionKind::kSpin ? tabulation.radius : 1;
+  table.leading_force_factor = leading.force / unit;
+  table.leading_torque_factor = leading.torque / unit;
+  return table;
+}
+
+MotionTable table_of(const Tabulation& tabulation, MotionGroup group, MotionKind motion,
+                     const RowRecord& record) {
+  auto table = head_of(tabulation, group, motion);
+  const auto motions = motions_of(group);
+  const auto place = static_cast<std::size_t>(std::ranges::find(motions, motion) - motions.begin());
+  const std::size_t size = numbers_of_result(tabulation), first = place * size;
+  for (const double velocity : tabulation.reference_velocities)
+    for (const double gap : tabulation.gaps) {
+      const auto& numbers = record.finished.at({gap}).numbers;
+      lubrication::MotionTableRow row;
+      row.gap = gap;
+      row.reference_velocity = velocity;
+      row.sphere = factors_at(numbers, first);
+      if (size > kOfBody + 1) row.neighbour = factors_at(numbers, first + kOfBody);
+      row.observed_order = numbers.at(first + size - 1);
+      row.degrees_of_freedom = numbers.at(motions.size() * size);
+      row.seconds = numbers.at(motions.size() * size + 1);
+      table.rows.push_back(row);
+    }
+  table.versions["FreeFEM"] = freefem_versions(record);
+  return table;
+}
+
+/// The table in the file, or nothing if there is none or if it has other inputs.
+std::optional<MotionTable> finished_table(const std::filesystem::path& path, MotionKind motion,
+                                          const std::string& hash) {
+  if (!std::filesystem::is_regular_file(path)) return {};
+  try {
+    auto table = lubrication::read_motion_table(path);
+    if (table.case_hash != hash || table.motion != motion) return {};
+    return table;
+  } catch (const Error&) {  // the file is not a table
+    return {};
+  }
+}
+
+/// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks for
+/// them.
+std::optional<std::vector<FinishedRow>> finished_rows(const Tabulation& tabulation,
+                                                      MotionGroup group, const TablePath& path_of) {
+  const auto motions = motions_of(group);
+  const std::string hash = hash_of(tabulation, group);
+  const std::size_t size = numbers_of_result(tabulation);
+  std::map<RowPoint, FinishedRow> rows;
+  for (const auto motion : asked_motions(tabulation, group)) {
+    const auto table = finished_table(path_of(motion), motion, hash);
+    if (!table) return {};
+    const auto version = table->versions.find("FreeFEM");
+    const auto place = std::ranges::find(motions, motion) - motions.begin();
+    for (const auto& row : table->rows) {
+      auto& finished = rows[{row.gap}];
+      finished.point = {row.gap};
+      finished.freefem_version = version == table->versions.end() ? "" : version->second;
+      finished.numbers.resize(motions.size() * size + kOfRow);
+      std::vector<double> numbers;
+      append(numbers, row.sphere);
+      if (row.neighbour) append(numbers, *row.neighbour);
+      numbers.push_back(row.observed_order);
+      if (numbers.size() != size) return {};
+      std::ranges::copy(numbers, finished.numbers.begin() + place * static_cast<long>(size));
+      finished.numbers[motions.size() * size] = row.degrees_of_freedom;
+      finished.numbers[motions.size() * size + 1] = row.seconds;
+    }
+  }
+  std::vector<FinishedRow> all;
+  for (auto& [point, row] : rows) all.push_back(std::move(row));
+  return all;
+}
+
+/// The time of one row on one core [s], measured as that of force_table_plan.cpp.
+double typical_seconds_of(const Tabulation& tabulation, MotionGroup group) {
+  constexpr double kKnee = 1e-5, kPower = 0.45;
+  const double coarse = group == MotionGroup::kAcross ? 2.5 : 0.6;
+  return coarse * std::pow(std::max(1.0, kKnee / tabulation.relative_accuracy), kPower) *
+         find_geometry(tabulation.geometry).relative_cost;
+}
+
+/// The largest error estimate of the motions that are asked for.
+double estimate_of(const Tabulation& tabulation, MotionGroup group, const FinishedRow& row) {
+  const auto motions = motions_of(group);
+  const std::size_t size = numbers_of_result(tabulation);
+  double largest = 0;
+  for (const auto motion : asked_motions(tabulation, group)) {
+    const auto place =
+        static_cast<std::size_t>(std::ranges::find(motions, motion) - motions.begin());
+    for (std::size_t at = place * size; at + kOfBody < (place + 1) * size; at += kOfBody)
+      largest = std::max({largest, row.numbers.at(at + 2), row.numbers.at(at + 3)});
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<MotionKind> asked_motions(const Tabulation& tabulation, MotionGroup group) {
+  std::vector<MotionKind> asked;
+  for (const auto motion : motions_of(group))
+    if (std::ranges::find(tabulation.motions, motion) != tabulation.motions.end())
+      asked.push_back(motion);
+  return asked;
+}
+
+std::vector<MotionGroup> motion_groups(const Tabulation& tabulation) {
+  std::vector<MotionGroup> groups;
+  for (const auto group : {MotionGroup::kAcross, MotionGroup::kAround})
+    if (!asked_motions(tabulation, group).empty()) groups.push_back(group);
+  return groups;
+}
+
+TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
+                            const TablePath& path_of) {
+  TablePlan plan;
+  plan.hash = hash_of(tabulation, group);
+  for (const double gap : tabulation.gaps) plan.points.push_back({gap});
+  plan.shape = {1, motions_of(group).size() * numbers_of_result(tabulation) + kOfRow};
+  plan.relative_accuracy = tabulation.relative_accuracy;
+  plan.typical_seconds = typical_seconds_of(tabulation, group);
+  plan.solve = [tabulation, group](const FreeFem& freefem, const RowPoint& point) {
+    return numbers_of(solve_motions(freefem, tabulation, group, point.at(0)));
+  };
+  plan.read = [tabulation, group, path_of](const std::filesystem::path&) {
+    return finished_rows(tabulation, group, path_of);
+  };
+  const auto write = [tabulation, group](MotionKind motion) {
+    return [tabulation, group, motion](const RowRecord& record, const Versions& versions) {
+      auto table = table_of(tabulation, group, motion, record);
+      table.versions.insert(versions.begin(), versions.end());
+      return lubrication::write_motion_table(table);
+    };
+  };
+  const auto asked = asked_motions(tabulation, group);
+  plan.write = write(asked.front());
+  for (std::size_t i = 1; i < asked.size(); ++i)
+    plan.companions.push_back({path_of(asked[i]), write(asked[i])});
+  plan.name_of = [](const RowPoint& point) { return fmt::format("gap {:.6g}", point.at(0)); };
+  plan.estimate_of = [tabulation, group](const FinishedRow& row) {
+    return estimate_of(tabulation, group, row);
+  };
+  plan.seconds_of = [](const FinishedRow& row) { return row.numbers.back(); };
+  return plan;
+}
+
+}  // namespace viscontact::freefem_axi

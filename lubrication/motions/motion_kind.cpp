@@ -1,0 +1,27 @@
+// The names of the motions.
+#include "viscontact/lubrication/motions/motion_kind.hpp"
+
+#include <array>
+
+#include "viscontact/common/named.hpp"
+
+namespace viscontact::lubrication {
+namespace {
+
+constexpr std::array kMotions = {
+    NamedMotion{"approach", MotionKind::kApproach}, NamedMotion{"slide", MotionKind::kSlide},
+    NamedMotion{"roll", MotionKind::kRoll}, NamedMotion{"spin", MotionKind::kSpin}};
+
+}  // namespace
+
+std::span<const NamedMotion> all_motions() { return kMotions; }
+
+std::string_view to_string(MotionKind motion) {
+  return kMotions.at(static_cast<std::size_t>(motion)).name;
+}
+
+MotionKind parse_motion(std::string_view name) {
+  return require_named(kMotions, name, "motion").kind;
+}
+
+}  // namespace viscontact::lubrication

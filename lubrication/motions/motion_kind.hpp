@@ -1,0 +1,28 @@
+// The motions of a sphere beside its neighbour whose resistances are tabulated. A change must keep
+// the names, which case files, tables and fits contain.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace viscontact::lubrication {
+
+/// The z axis goes from the neighbour through the centre of the sphere. A sphere approaches or
+/// leaves along z, slides along x, rolls (turns about its centre and the y axis), or spins (turns
+/// about z).
+enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
+
+struct NamedMotion {
+  std::string_view name;  ///< in case files, and of the table's file
+  MotionKind kind;
+};
+
+/// All motions, in the order of MotionKind.
+std::span<const NamedMotion> all_motions();
+
+std::string_view to_string(MotionKind motion);
+
+/// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
+MotionKind parse_motion(std::string_view name);
+
+}  // namespace viscontact::lubrication

@@ -1,0 +1,136 @@
+// Reads the tables of a pair, fits them, and says how well.
+#include "viscontact/pipeline/pair_fit_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/versions.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using lubrication::MotionKind;
+
+template <class Table>
+void take(std::optional<Table>& place, Table table, const fs::path& file) {
+  if (place)
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: is the second table of its motion; give one of each", file.string()));
+  place = std::move(table);
+}
+
+std::string words_of(const lubrication::NamedEntry& entry, const lubrication::EntryFit& one) {
+  std::string text = fmt::format("  {:<10}  residual {:.1e} at most (relative)", entry.name,
+                                 one.fit.largest_relative_residual);
+  const auto& d = one.fit.diagnostics;
+  if (d && d->left_out_inner)
+    text +=
+        fmt::format(", {:.1e} of a row that was left out", d->left_out_inner->relative_residual);
+  for (const auto& term : one.fit.terms)
+    if (one.theory && term.name == entry.leading_term)
+      text += fmt::format("; {}: {:.7g}, theory {:.7g}", term.name, term.coefficient, *one.theory);
+  return text;
+}
+
+}  // namespace
+
+std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
+  std::vector<fs::path> files;
+  for (const auto& path : paths) {
+    if (!fs::is_directory(path)) {
+      files.emplace_back(path);
+      continue;
+    }
+    const auto before = files.size();
+    for (const auto& motion : lubrication::all_motions())
+      if (const auto file = fs::path(path) / fmt::format("{}.csv", motion.name); fs::exists(file))
+        files.push_back(file);
+    if (files.size() == before)
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: has none of the tables approach.csv, slide.csv, roll.csv and "
+                              "spin.csv",
+                              path));
+  }
+  return files;
+}
+
+bool are_of_pair(const std::vector<fs::path>& files) {
+  return files.size() > 1 || (files.size() == 1 && lubrication::is_motion_table(files.front()));
+}
+
+fitting::PairTables read_pair_tables(const std::vector<fs::path>& files) {
+  fitting::PairTables tables;
+  for (const auto& file : files) {
+    if (!lubrication::is_motion_table(file)) {
+      take(tables.approach, lubrication::read_force_table(file), file);
+      continue;
+    }
+    auto table = lubrication::read_motion_table(file);
+    auto& place = table.motion == MotionKind::kSlide  ? tables.slide
+                  : table.motion == MotionKind::kRoll ? tables.roll
+                                                      : tables.spin;
+    take(place, std::move(table), file);
+  }
+  return tables;
+}
+
+void fit_pair_stage(const std::vector<fs::path>& files, const fs::path& fit_path,
+                    const fitting::PairFitSettings& settings, const StopToken& stop) {
+  const auto provenance = results::provenance_of({files, {}});
+  const std::string place = files.front().string();
+  auto fit = with_place(files.size() == 1 ? place : place + " ...",
+                        [&] { return fitting::fit_pair(read_pair_tables(files), settings, stop); });
+  fit.versions = results::library_versions();
+  for (const auto& [which, one] : fit.entries)
+    for (const auto& warning : one.fit.diagnostics->warnings)
+      terminal::warn(fmt::format("fit: warning: {}: {}",
+                                 lubrication::pair_entries()[static_cast<std::size_t>(which)].name,
+                                 warning));
+  const std::string text = lubrication::write_pair_fit(fit);
+  if (results::has_content(fit_path, text)) {
+    terminal::say(fmt::format("fit: {} is up to date", fit_path.string()));
+    return;
+  }
+  results::write_output(fit_path, TextKind::kJson, text, provenance);
+  terminal::say(fmt::format("fit: {} entries at gaps from {:.6g} to {:.6g}", fit.entries.size(),
+                            fit.gap_interval[0], fit.gap_interval[1]));
+  for (const auto& [which, one] : fit.entries)
+    terminal::say(words_of(lubrication::pair_entries()[static_cast<std::size_t>(which)], one));
+}
+
+void compare_pair_bases_stage(const std::vector<fs::path>& files, fitting::PairFitSettings settings,
+                              bool json, const StopToken& stop) {
+  const auto tables = read_pair_tables(files);
+  nlohmann::ordered_json all;
+  std::string text = fmt::format("{:<20}", "basis");
+  std::vector<std::string> lines;
+  for (const auto basis : lubrication::pair_bases()) {
+    settings.basis = basis;
+    const auto fit = with_place(files.front().string() + " ...",
+                                [&] { return fitting::fit_pair(tables, settings, stop); });
+    auto& line = lines.emplace_back(fmt::format("{:<20}", basis));
+    for (const auto& [which, one] : fit.entries) {
+      const auto& name = lubrication::pair_entries()[static_cast<std::size_t>(which)].name;
+      if (lines.size() == 1) text += fmt::format("{:>12}", name);
+      line += fmt::format("{:>12.1e}", one.fit.largest_relative_residual);
+      auto& object = all[std::string(basis)][std::string(name)];
+      object["largest_relative_residual"] = one.fit.largest_relative_residual;
+      object["condition_number"] = one.fit.condition_number;
+      if (one.fit.diagnostics && one.fit.diagnostics->left_out_inner)
+        object["left_one_out"] = one.fit.diagnostics->left_out_inner->relative_residual;
+    }
+  }
+  fmt::print("{}", json ? all.dump(2) + "\n"
+                        : "largest relative residual\n" + text + "\n" +
+                              fmt::format("{}\n", fmt::join(lines, "\n")));
+}
+
+}  // namespace viscontact::pipeline
