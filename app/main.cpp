@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_simulate(app);
   add_sweep(app);
   add_particles(app);
+  add_rolling(app);
   add_swimmer(app);
   add_compare(app);
   add_report(app);

@@ -19,6 +19,7 @@ void add_run(CLI::App& app);
 void add_shift(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_sweep(CLI::App& app);
+void add_rolling(CLI::App& app);
 void add_swimmer(CLI::App& app);
 void add_tabulate(CLI::App& app);
 

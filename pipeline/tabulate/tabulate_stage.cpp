@@ -143,6 +143,22 @@ void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
                                   tables.size(), fmt::join(failures, "; ")));
 }
 
+/// The tables of all motions of a tabulation.
+std::vector<CaseTable> tables_of(const fs::path& case_path, const std::string& text,
+                                 const freefem_axi::Tabulation& tabulation,
+                                 const MotionTablePath& path_of) {
+  using lubrication::MotionKind;
+  std::vector<CaseTable> tables;
+  if (std::ranges::find(tabulation.motions, MotionKind::kApproach) != tabulation.motions.end())
+    tables.push_back({case_path, text, path_of(MotionKind::kApproach),
+                      freefem_axi::force_table_plan(tabulation), tabulation});
+  for (const auto group : freefem_axi::motion_groups(tabulation))
+    tables.push_back({case_path, text,
+                      path_of(freefem_axi::asked_motions(tabulation, group).front()),
+                      freefem_axi::motion_table_plan(tabulation, group, path_of), tabulation});
+  return tables;
+}
+
 }  // namespace
 
 CaseTable case_table(const case_file::Case& c, const fs::path& table) {
@@ -160,18 +176,9 @@ CaseTable case_table(const case_file::SwimmerCase& c, const fs::path& table) {
   return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}};
 }
 
-std::vector<CaseTable> case_tables(const case_file::Case& c, const MotionTablePath& path_of) {
-  using lubrication::MotionKind;
-  const auto& tabulation = case_file::required_tabulation(c);
-  std::vector<CaseTable> tables;
-  if (std::ranges::find(tabulation.motions, MotionKind::kApproach) != tabulation.motions.end())
-    tables.push_back({c.path, c.text, path_of(MotionKind::kApproach),
-                      freefem_axi::force_table_plan(tabulation), tabulation});
-  for (const auto group : freefem_axi::motion_groups(tabulation))
-    tables.push_back({c.path, c.text,
-                      path_of(freefem_axi::asked_motions(tabulation, group).front()),
-                      freefem_axi::motion_table_plan(tabulation, group, path_of), tabulation});
-  return tables;
+std::vector<CaseTable> case_tables(const case_file::RollingCase& c,
+                                   const MotionTablePath& path_of) {
+  return tables_of(c.path, c.text, c.tabulation.value(), path_of);
 }
 
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
@@ -196,17 +203,23 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
       tables.push_back(case_table(case_file::read_swimmer_case(file), csv));
       continue;
     }
-    auto c = case_file::read_case(file);
-    if (c.tabulation && !motions.empty())
-      c.tabulation->motions = with_place(
-          "--motion", [&] { return freefem_axi::parse_motions(motions, c.tabulation->geometry); });
-    const bool several = case_file::required_tabulation(c).motions.size() > 1;
-    std::ranges::move(
-        case_tables(c,
-                    [=](lubrication::MotionKind motion) {
-                      return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
-                    }),
-        std::back_inserter(tables));
+    auto tabulation =
+        case_file::is_rolling_case(file)
+            ? case_file::read_rolling_case(file).tabulation
+            : std::optional(case_file::required_tabulation(case_file::read_case(file)));
+    if (!tabulation)
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("{}: the section [tabulation] is missing", file));
+    if (!motions.empty())
+      tabulation->motions = with_place(
+          "--motion", [&] { return freefem_axi::parse_motions(motions, tabulation->geometry); });
+    const bool several = tabulation->motions.size() > 1;
+    // The plans keep this function, so it must not refer to variables of this one.
+    const auto path_of = [=](lubrication::MotionKind motion) {
+      return several ? name / (std::string(to_string(motion)) + ".csv") : csv;
+    };
+    std::ranges::move(tables_of(file, read_file(file), *tabulation, path_of),
+                      std::back_inserter(tables));
   }
   return tables;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
+#include "viscontact/case_file/rolling/rolling_case.hpp"
 #include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
@@ -36,8 +37,9 @@ CaseTable case_table(const case_file::SwimmerCase& c, const std::filesystem::pat
 /// The file for the table of a motion.
 using MotionTablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 
-/// The tables of all motions of a case. A table of sliding has that of rolling as its companion.
-std::vector<CaseTable> case_tables(const case_file::Case& c, const MotionTablePath& path_of);
+/// The tables of all motions of a case, which must have the section [tabulation]. A table of sliding
+/// has that of rolling as its companion.
+std::vector<CaseTable> case_tables(const case_file::RollingCase& c, const MotionTablePath& path_of);
 
 /// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
 /// several motions it is a folder with a table MOTION.csv for each. For several cases it is a folder

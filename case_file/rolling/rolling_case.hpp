@@ -1,0 +1,35 @@
+// The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths, masses
+// and times are in any one consistent system of units. A new key needs an entry in docs/case-file.md.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/reduced_model/rolling/rolling_motion.hpp"
+
+namespace viscontact::case_file {
+
+struct RollingCase {
+  std::string title;
+  double viscosity = 0, radius = 0;  ///< of fluid and sphere, > 0
+  reduced_model::RollingMotion motion;
+  std::vector<std::string> models;  ///< names of rolling_models()
+  /// Exactly one of these: the tables that are made, or the fit of a pair that is there.
+  std::optional<freefem_axi::Tabulation> tabulation;
+  std::optional<std::filesystem::path> fit;
+  std::string text;  ///< content of the file
+  std::filesystem::path path;
+};
+
+/// True if the file has the section [rolling]. Throws Error(kBadInput) if it cannot be read or is not
+/// valid TOML.
+bool is_rolling_case(const std::filesystem::path& path);
+
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its value
+/// and what is allowed.
+RollingCase read_rolling_case(const std::filesystem::path& path);
+
+}  // namespace viscontact::case_file

@@ -1,0 +1,159 @@
+// Strings the stages of a rolling sphere together (rolling_stage.hpp). The keys of rolling.json and
+// the columns of the trajectories are in docs/file-formats.md.
+#include "viscontact/pipeline/rolling/rolling_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/pipeline/pair_fit_stage.hpp"
+#include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
+#include "viscontact/report/rolling/rolling_page.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using reduced_model::RollingRow;
+using report::RollingResults;
+
+struct RollingFolder {
+  fs::path path;
+  fs::path table(lubrication::MotionKind motion) const {
+    return path / "tables" / fmt::format("{}.csv", to_string(motion));
+  }
+  fs::path fit() const { return path / "fit.json"; }
+  fs::path results() const { return path / "rolling.json"; }
+  fs::path trajectory(std::string_view model) const { return path / fmt::format("{}.csv", model); }
+};
+
+void check_rolling_files(const RollingFolder& folder) {
+  for (const auto& motion : lubrication::all_motions())
+    results::refuse_other_kind(folder.table(motion.kind), "# case: ", "table");
+  results::refuse_other_kind(folder.fit(), "\"pair fit\"", "fit of a pair");
+  results::refuse_other_kind(folder.results(), "\"rolling\"", "rolling.json");
+  for (const auto& model : reduced_model::rolling_models())
+    results::refuse_other_kind(folder.trajectory(model.name), "# viscontact: rolling sphere",
+                               "trajectory of a rolling sphere");
+  report::check_rolling_report(folder.path);
+}
+
+/// The fit of the case's tables, or the one that it names, for the viscosity of the case.
+lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder& folder,
+                            const RollingRequest& request) {
+  fs::path file = folder.fit();
+  if (c.fit) {
+    file = *c.fit;
+  } else {
+    const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
+    tabulate_stage(case_tables(c, path_of), request.jobs, request.stop);
+    fit_pair_stage(pair_table_files({(folder.path / "tables").string()}), file, {}, request.stop);
+  }
+  auto fit = lubrication::read_pair_fit(file);
+  if (fit.radius != c.radius)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: the sphere of the fit has the radius {}, that of the case {}",
+                            file.string(), fit.radius, c.radius));
+  if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is the fit of a sphere beside: {}; it must be a plane",
+                            file.string(), fit.geometry));
+  for (auto& [entry, one] : fit.entries)
+    one.fit = lubrication::with_viscosity(std::move(one.fit), c.viscosity);
+  fit.viscosity = c.viscosity;
+  return fit;
+}
+
+std::string trajectory_csv(const std::string& model,
+                           const reduced_model::RollingTrajectory& trajectory) {
+  std::string text = write_csv_comments({{"viscontact", "rolling sphere"},
+                                         {"model", model},
+                                         {"rows", std::to_string(trajectory.size())}});
+  text +=
+      "time,gap,position,angle,normal_velocity,velocity,angular_velocity,contact_force,"
+      "friction_force,contact\n";
+  for (const auto& row : trajectory) {
+    for (const double value :
+         {row.time, row.gap, row.position, row.angle, row.normal_velocity, row.velocity,
+          row.angular_velocity, row.contact_force, row.friction_force})
+      text += format_number(value) + ",";
+    text += fmt::format("{}\n", static_cast<int>(row.contact));
+  }
+  return text;
+}
+
+std::string rolling_json(const RollingResults& results) {
+  nlohmann::ordered_json json = {{"kind", "rolling"}, {"title", results.c.title}};
+  for (const auto& [model, rows] : results.trajectories) {
+    const auto& last = rows.back();
+    const auto first_contact = std::ranges::find_if(rows, [](const RollingRow& row) {
+      return row.contact != reduced_model::SolidContact::kNone;
+    });
+    auto& object = json["models"][model];
+    object = {{"gap", last.gap},
+              {"position", last.position},
+              {"angle", last.angle},
+              {"velocity", last.velocity},
+              {"angular_velocity", last.angular_velocity},
+              {"slip", last.velocity - results.c.motion.plane_velocity -
+                           results.c.radius * last.angular_velocity},
+              {"contact", static_cast<int>(last.contact)}};
+    object["contact_time"] = first_contact == rows.end()
+                                 ? nlohmann::ordered_json(nullptr)
+                                 : nlohmann::ordered_json(first_contact->time);
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void say_end(const std::string& model, const RollingRow& last) {
+  terminal::say(fmt::format("{}: at the end gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
+                            model, last.gap, last.velocity, last.angular_velocity));
+}
+
+}  // namespace
+
+void run_rolling(const RollingRequest& request) {
+  RollingResults results;
+  results.c = case_file::read_rolling_case(request.case_file);
+  const RollingFolder folder{request.folder};
+  check_rolling_files(folder);
+  const LockedFolder lock(folder.path, results::kFolderIsLocked);
+  results.fit = fit_of(results.c, folder, request);
+  std::vector<fs::path> given = {results.c.path};
+  if (results.c.fit) given.push_back(*results.c.fit);
+  const auto provenance = results::provenance_of(
+      {given, results.c.fit ? std::vector<fs::path>{} : std::vector{folder.fit()}});
+  results.c.motion.stop = request.stop;
+  for (const auto& model : reduced_model::rolling_models()) {
+    const std::string name(model.name);
+    if (std::ranges::find(results.c.models, name) == results.c.models.end()) {
+      remove_file(folder.trajectory(name));
+      continue;
+    }
+    terminal::show_progress(fmt::format("rolling: {}", name));
+    results.trajectories.emplace_back(name, with_place(results.c.path.string() + ": " + name, [&] {
+                                        return model.run(results.c.motion, results.fit);
+                                      }));
+    terminal::clear_progress();
+    const auto& rows = results.trajectories.back().second;
+    results::write_output(folder.trajectory(name), TextKind::kHashComment,
+                          trajectory_csv(name, rows), provenance);
+    say_end(name, rows.back());
+  }
+  const auto json = rolling_json(results);
+  results::write_output(folder.results(), TextKind::kJson, json, provenance);
+  report::write_rolling_report(results, folder.path, provenance, request.stop);
+  if (request.json) fmt::print("{}", json);
+}
+
+}  // namespace viscontact::pipeline

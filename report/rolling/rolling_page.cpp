@@ -1,0 +1,149 @@
+// The pictures and the page of a rolling sphere. kRollingPictures must contain the name of every
+// picture, because it decides which files in plots/ may be replaced or removed.
+#include "viscontact/report/rolling/rolling_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/report/html/figures.hpp"
+#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/pictures/colours.hpp"
+#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::report {
+namespace {
+
+using reduced_model::RollingRow;
+using reduced_model::SolidContact;
+
+constexpr auto kRollingPictures =
+    std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
+
+template <class Value>
+Plot plot_of(const RollingResults& results, const std::string& name, const std::string& title,
+             const std::string& label, bool logarithmic, const Value& value) {
+  constexpr std::array<const char*, 3> kColours = {kBlue, kVermilion, kBluishGreen};
+  PlotPanel panel{title, {"time"}, {label, logarithmic}, {}};
+  for (std::size_t i = 0; i < results.trajectories.size(); ++i) {
+    const auto& [model, rows] = results.trajectories[i];
+    PlotCurve curve{model, {kColours.at(i)}, {}};
+    for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
+    panel.curves.push_back(curve);
+  }
+  return {name, 400, {panel}};
+}
+
+const char* contact_in_words(SolidContact contact) {
+  switch (contact) {
+    case SolidContact::kRolling:
+      return "rolls";
+    case SolidContact::kSliding:
+      return "slides";
+    case SolidContact::kNone:
+      break;
+  }
+  return "none";
+}
+
+/// The state of each model at the end.
+std::string end_table(const RollingResults& results) {
+  std::string rows =
+      "<tr><th>model</th><th>gap [L]</th><th>velocity [L/T]</th><th>angular velocity [1/T]</th>"
+      "<th>slip over velocity</th><th>solid contact</th></tr>\n";
+  for (const auto& [model, trajectory] : results.trajectories) {
+    const auto& last = trajectory.back();
+    const double move = last.velocity - results.c.motion.plane_velocity;
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{:.6g}</td><td>{:.8g}</td><td>{:.8g}</td><td>{:.5g}</td><td>{}</td>"
+        "</tr>\n",
+        model, last.gap, last.velocity, last.angular_velocity,
+        1 - results.c.radius * last.angular_velocity / move, contact_in_words(last.contact));
+  }
+  return "<div class=scroll><table>\n" + rows + "</table></div>\n";
+}
+
+std::string parameters_of_rolling(const RollingResults& results) {
+  const auto& m = results.c.motion;
+  const auto row = [](const char* name, double value) {
+    return table_row(name, fmt::format("{:g}", value));
+  };
+  return "<div class=scroll><table>\n" + row("viscosity [M/(L T)]", results.c.viscosity) +
+         row("radius [L]", results.c.radius) + row("mass [M]", m.mass) +
+         row("moment of inertia [M L<sup>2</sup>]", m.moment_of_inertia) +
+         row("force along the plane [M L/T<sup>2</sup>]", m.force) +
+         row("force away from the plane [M L/T<sup>2</sup>]", m.normal_force) +
+         row("torque [M L<sup>2</sup>/T<sup>2</sup>]", m.torque) +
+         row("velocity of the plane [L/T]", m.plane_velocity) + row("roughness [L]", m.roughness) +
+         row("coefficient of friction", m.friction) + "</table></div>\n";
+}
+
+std::string page_of_rolling(const RollingResults& results, const std::vector<Picture>& pictures) {
+  std::string page =
+      page_head(results.c.title.empty() ? std::string("Rolling sphere") : results.c.title);
+  page += "<p class=summary>A sphere that moves along a plane in a viscous fluid and turns</p>\n";
+  page += hints_about(pictures);
+  std::string models;
+  for (const auto& model : reduced_model::rolling_models())
+    models += fmt::format("<li>{}: {}</li>\n", model.name, model.description);
+  page += section("At the end", end_table(results) + "<ul>\n" + models + "</ul>\n");
+  std::string figures;
+  for (const auto& picture : pictures) figures += figure(picture);
+  page += section("Motion", figures);
+  page += section("Parameters", parameters_of_rolling(results));
+  return page + page_foot();
+}
+
+}  // namespace
+
+std::vector<Plot> rolling_plots(const RollingResults& results) {
+  const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
+  std::vector<Plot> plots = {
+      plot_of(results, "gap", "Gap", "gap", true, [](const RollingRow& row) { return row.gap; }),
+      plot_of(results, "velocity", "Velocity along the plane", "velocity", false,
+              [](const RollingRow& row) { return row.velocity; }),
+      plot_of(results, "rotation", "Angular velocity times radius", "velocity", false,
+              [=](const RollingRow& row) { return radius * row.angular_velocity; }),
+      plot_of(results, "slip", "Slip of the lowest point", "velocity", false,
+              [=](const RollingRow& row) {
+                return row.velocity - plane - radius * row.angular_velocity;
+              })};
+  if (results.c.motion.friction > 0)
+    plots.push_back(plot_of(results, "friction", "Friction of the solids", "force", false,
+                            [](const RollingRow& row) { return row.friction_force; }));
+  return plots;
+}
+
+void check_rolling_report(const std::filesystem::path& folder) {
+  const results::RunFolder run{folder};
+  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
+  for (const auto name : kRollingPictures)
+    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
+}
+
+void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
+                          const results::Provenance& provenance, const StopToken& stop) {
+  const results::RunFolder run{folder};
+  std::exception_ptr failure;
+  auto pictures = draw_pictures(rolling_plots(results), failure, stop);
+  const auto page = page_of_rolling(results, pictures);
+  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
+  for (const auto& [plot, svg] : pictures)
+    results::write_output(run.plot(plot.name), TextKind::kSvg, svg, provenance);
+  results::write_output(run.report(), TextKind::kHtml, page, provenance);
+  // Pictures of an earlier report that this report does not have are removed.
+  for (const auto name : kRollingPictures)
+    if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
+        pictures.end())
+      remove_file(run.plot(std::string(name)));
+  terminal::say(fmt::format("report: {}", run.report().string()));
+  if (failure) warn_of_missing_pictures(failure);
+}
+
+}  // namespace viscontact::report

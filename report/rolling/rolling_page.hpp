@@ -1,0 +1,37 @@
+// The report of a sphere that moves along a plane and turns: a page with pictures and tables.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "viscontact/case_file/rolling/rolling_case.hpp"
+#include "viscontact/common/stop_token.hpp"
+#include "viscontact/lubrication/motions/pair_fit.hpp"
+#include "viscontact/report/report_plot.hpp"
+#include "viscontact/results/provenance.hpp"
+
+namespace viscontact::report {
+
+/// What a run has computed. Units are those of the case.
+struct RollingResults {
+  case_file::RollingCase c;
+  lubrication::PairFit fit;
+  /// Name of the model, and its trajectory.
+  std::vector<std::pair<std::string, reduced_model::RollingTrajectory>> trajectories;
+};
+
+/// Gap, velocities and slip over time, with a curve for each model.
+std::vector<Plot> rolling_plots(const RollingResults& results);
+
+/// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
+/// write.
+void check_rolling_report(const std::filesystem::path& folder);
+
+/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no still
+/// pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
+                          const results::Provenance& provenance, const StopToken& stop);
+
+}  // namespace viscontact::report
