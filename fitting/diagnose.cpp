@@ -149,9 +149,12 @@ std::vector<lubrication::Outlier> outliers(const lubrication::ForceTable& table,
   return found;
 }
 
-/// Warns if the fitted resistance is not positive or does not decrease with the gap.
-void warn_of_shape(const lubrication::Fit& fit, std::vector<std::string>& warnings) {
-  bool positive = true, decreasing = true;
+/// Warns if the fitted resistance is not positive or does not decrease with the gap, as far as its
+/// shape demands it.
+void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
+                   std::vector<std::string>& warnings) {
+  bool positive = shape != lubrication::FittedShape::kAny,
+       decreasing = shape == lubrication::FittedShape::kDrag;
   for (const double gap : lubrication::spread_gaps(fit.gap_interval)) {
     double resistance = 0, slope = 0;
     for (const auto& term : fit.terms) {
@@ -206,7 +209,7 @@ void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDia
 
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
-                                     bool is_drag) {
+                                     lubrication::FittedShape shape) {
   lubrication::FitDiagnostics d;
   d.rows = table.rows.size();
   d.free_coefficients = static_cast<std::size_t>(system.weighted_matrix.cols());
@@ -220,7 +223,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
   if (fit.loss == lubrication::Loss::kSquared)
     d.information_criterion = information_criterion(system, d);
   if (fit.loss != lubrication::Loss::kSquared) d.outliers = outliers(table, system);
-  if (is_drag) warn_of_shape(fit, d.warnings);
+  warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
   // A formula that misses a row by more than a tenth does not describe lubrication theory. The
   // lecture's five terms on forty gaps miss a row by 0.05, for which there is no warning.

@@ -23,10 +23,10 @@ struct FittedSystem {
   Eigen::VectorXd scaled_residual;
 };
 
-/// The diagnostics of a fit whose other members are complete. `is_drag`: the fitted function should be
-/// positive and fall with the gap.
+/// The diagnostics of a fit whose other members are complete. There is a warning if the fitted function
+/// has another shape.
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
-                                     bool is_drag);
+                                     lubrication::FittedShape shape);
 
 }  // namespace viscontact::fitting

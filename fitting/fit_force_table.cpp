@@ -184,7 +184,7 @@ lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const Fit
     throw Error(
         ErrorKind::kBadInput,
         "the forces are too large, or differ too much in size, to be fitted in double precision");
-  fit.diagnostics = diagnose(table, system, fit, settings.is_drag);
+  fit.diagnostics = diagnose(table, system, fit, settings.shape);
   return fit;
 }
 

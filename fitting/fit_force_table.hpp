@@ -27,8 +27,7 @@ struct FitSettings {
   /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2]; empty:
   /// the forces.
   std::vector<double> row_scales{};
-  /// False: no warning if the fitted function is not positive or does not fall with the gap.
-  bool is_drag = true;
+  lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
 /// Fits a table. The force F in a row of another velocity u than the first row's u0 counts as

@@ -165,10 +165,10 @@ lubrication::EntryFit fit_entry(PairEntry which, const EntryTable& entry,
                                 const PairFitSettings& settings, const StopToken& stop) {
   const auto& named = lubrication::pair_entries()[static_cast<std::size_t>(which)];
   FitSettings one;
-  one.basis = lubrication::basis_of_entry(named, settings.basis);
+  one.basis = lubrication::basis_of_entry(named, settings.basis, entry.theory);
   one.loss = settings.loss;
   one.row_scales = entry.scales;
-  one.is_drag = named.is_drag;
+  one.shape = named.shape;
   try {
     return {fit_force_table(entry.table, one, stop), entry.theory};
   } catch (const Error& error) {

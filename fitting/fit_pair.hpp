@@ -19,7 +19,7 @@ struct PairTables {
 };
 
 struct PairFitSettings {
-  std::string basis{lubrication::pair_bases().back()};  ///< one of pair_bases()
+  std::string basis{lubrication::kDefaultPairBasis};  ///< one of pair_bases()
   lubrication::Loss loss = lubrication::Loss::kSquared;
 };
 

@@ -35,6 +35,8 @@ constexpr std::array kTerms = {
     Term{"q^2",        FORMULA(q*q),     FORMULA(2.0*q*q),         FORMULA(q*q*q/3.0)},
     Term{"q^3 ln q",   FORMULA(q*q*q*l), FORMULA(q*q*q*(3.0*l + 1.0)), FORMULA(q*q*q*q*(4.0*l - 1.0)/16.0)},
     Term{"q^3",        FORMULA(q*q*q),   FORMULA(3.0*q*q*q),       FORMULA(q*q*q*q/4.0)},
+    Term{"q^4 ln q",   FORMULA(q*q*q*q*l), FORMULA(q*q*q*q*(4.0*l + 1.0)), FORMULA(q*q*q*q*q*(5.0*l - 1.0)/25.0)},
+    Term{"q^4",        FORMULA(q*q*q*q), FORMULA(4.0*q*q*q*q),     FORMULA(q*q*q*q*q/5.0)},
 };
 // clang-format on
 

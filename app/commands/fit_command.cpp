@@ -135,8 +135,8 @@ void add_fit(CLI::App& app) {
       ->required();
   o->output_option = add_value(*command, "-o,--output", o->fit, kFile, "fit to write (JSON)");
   auto* basis = add_value(*command, "--basis", o->basis, names_of(lubrication::all_bases(), "|"),
-                          "terms of the formula; of a pair: asymptotic, asymptotic_extended or "
-                          "asymptotic_cubic (default)")
+                          "terms of the formula; of a pair: asymptotic, asymptotic_extended, "
+                          "asymptotic_cubic (default) or asymptotic_quartic")
                     ->capture_default_str();
   o->basis_option = basis;
   o->terms_option = add_value(*command, "--terms", o->terms, "TERM,...",

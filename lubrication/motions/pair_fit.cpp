@@ -11,33 +11,60 @@
 namespace viscontact::lubrication {
 namespace {
 
-constexpr std::string_view kCubic = "asymptotic_cubic";
-constexpr std::array<std::string_view, 3> kPairBases = {"asymptotic", "asymptotic_extended",
-                                                        kCubic};
+/// A basis of a pair: a named basis, and further terms.
+struct PairBasis {
+  std::string_view name;
+  std::string_view base;
+  std::vector<std::string_view> further;
+};
+
+const std::vector<PairBasis>& bases_of_pairs() {
+  static const std::vector<PairBasis> bases = {
+      {"asymptotic", "asymptotic", {}},
+      {"asymptotic_extended", "asymptotic_extended", {}},
+      {kDefaultPairBasis, "asymptotic_extended", {"q^3 ln q"}},
+      {"asymptotic_quartic", "asymptotic_extended", {"q^3 ln q", "q^4 ln q", "q^4"}}};
+  return bases;
+}
 
 }  // namespace
 
 std::span<const NamedEntry> pair_entries() {
   static const std::vector<NamedEntry> entries = {
-      {"squeeze", "F_z = -squeeze u_z: the sphere approaches", {}, kLeadingTerm, true},
-      {"slide", "F_x = -slide u: it moves along x", {"1/q"}, "ln q", true},
-      {"roll", "T_y = -roll w: it turns about y", {"1/q"}, "ln q", true},
-      {"slide_roll", "T_y = slide_roll u and F_x = slide_roll w", {"1/q"}, "ln q", false},
-      {"spin", "T_z = -spin w_z: it turns about z", {"1/q", "ln q"}, "q ln q", true}};
+      {"squeeze",
+       "F_z = -squeeze u_z: the sphere approaches",
+       {},
+       kLeadingTerm,
+       FittedShape::kDrag},
+      {"slide", "F_x = -slide u: it moves along x", {"1/q"}, "ln q", FittedShape::kPositive},
+      {"roll", "T_y = -roll w: it turns about y", {"1/q"}, "ln q", FittedShape::kPositive},
+      {"slide_roll",
+       "T_y = slide_roll u and F_x = slide_roll w",
+       {"1/q"},
+       "ln q",
+       FittedShape::kAny},
+      {"spin",
+       "T_z = -spin w_z: it turns about z",
+       {"1/q", "ln q"},
+       "q ln q",
+       FittedShape::kPositive}};
   return entries;
 }
 
-std::span<const std::string_view> pair_bases() { return kPairBases; }
+std::vector<std::string_view> pair_bases() {
+  std::vector<std::string_view> names;
+  for (const auto& basis : bases_of_pairs()) names.push_back(basis.name);
+  return names;
+}
 
-Basis basis_of_entry(const NamedEntry& entry, std::string_view name) {
-  if (std::ranges::find(kPairBases, name) == kPairBases.end())
-    throw Error(ErrorKind::kBadInput, fmt::format("no basis of a pair is named '{}'; there are: {}",
-                                                  name, fmt::join(kPairBases, ", ")));
-  Basis basis = find_basis(name == kCubic ? "asymptotic_extended" : name);
+Basis basis_of_entry(const NamedEntry& entry, std::string_view name, std::optional<double> theory) {
+  const auto& pair_basis = require_named(bases_of_pairs(), name, "basis of a pair");
+  Basis basis = find_basis(pair_basis.base);
   basis.name = name;
-  if (name == kCubic) basis.terms.push_back(*find_term("q^3 ln q"));
+  for (const auto term : pair_basis.further) basis.terms.push_back(*find_term(term));
   std::erase_if(basis.terms, [&](const Term& term) {
-    return std::ranges::find(entry.absent_terms, term.name) != entry.absent_terms.end();
+    return std::ranges::find(entry.absent_terms, term.name) != entry.absent_terms.end() ||
+           (theory && *theory == 0 && term.name == entry.leading_term);
   });
   return basis;
 }

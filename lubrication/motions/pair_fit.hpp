@@ -28,19 +28,24 @@ struct NamedEntry {
   /// Terms of bases that theory does not have in this entry near contact.
   std::vector<std::string_view> absent_terms;
   std::string_view leading_term;  ///< the most singular term that theory has
-  bool is_drag;                   ///< positive, and falling with the gap
+  FittedShape shape;
 };
 
 /// All entries, in the order of PairEntry.
 std::span<const NamedEntry> pair_entries();
 
-/// The bases for the entries of a pair: asymptotic and asymptotic_extended as in all_bases(), and
-/// asymptotic_cubic, which has q^3 ln q, too.
-std::span<const std::string_view> pair_bases();
+inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
-/// The basis for an entry: that with the name, without the terms that the entry lacks. Throws
+/// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended as in
+/// all_bases(), asymptotic_cubic, which has q^3 ln q, too, and asymptotic_quartic, which has also
+/// q^4 ln q and q^4.
+std::vector<std::string_view> pair_bases();
+
+/// The basis for an entry: that with the name, without the terms that the entry lacks, and without its
+/// leading term if theory's coefficient of that is 0. Throws
 /// Error(kBadInput), which lists the names, if there is none.
-Basis basis_of_entry(const NamedEntry& entry, std::string_view basis);
+Basis basis_of_entry(const NamedEntry& entry, std::string_view basis,
+                     std::optional<double> theory = {});
 
 /// The fit of one entry.
 struct EntryFit {

@@ -73,6 +73,8 @@ TEST(Terms, AreWhatTheirNamesSay) {
   EXPECT_DOUBLE_EQ(find_term("q^3")->value(q), q * q * q);
   EXPECT_DOUBLE_EQ(find_term("q^2 ln q")->value(q), q * q * std::log(q));
   EXPECT_DOUBLE_EQ(find_term("q^3 ln q")->value(q), q * q * q * std::log(q));
+  EXPECT_DOUBLE_EQ(find_term("q^4 ln q")->value(q), q * q * q * q * std::log(q));
+  EXPECT_DOUBLE_EQ(find_term("q^4")->value(q), q * q * q * q);
 }
 
 TEST(Terms, HaveDifferentNames) {
@@ -80,7 +82,7 @@ TEST(Terms, HaveDifferentNames) {
   for (const auto& term : all_terms()) EXPECT_TRUE(names.insert(term.name).second) << term.name;
 }
 
-TEST(Terms, OfAnUnknownNameAreNone) { EXPECT_FALSE(find_term("q^4").has_value()); }
+TEST(Terms, OfAnUnknownNameAreNone) { EXPECT_FALSE(find_term("q^5").has_value()); }
 
 std::vector<std::string> term_names(std::string_view basis) {
   std::vector<std::string> names;
