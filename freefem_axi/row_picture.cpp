@@ -12,6 +12,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/motions/motion_row.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -90,26 +91,57 @@ std::string data_array(std::string_view attributes, std::size_t count, const Wri
   return text + "</DataArray>\n";
 }
 
+/// What velocities, pressure and the last column of FreeFEM are multiplied by.
+std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
+  const auto scale = solve_scale(tabulation, velocity);
+  return {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
+}
+std::array<double, 4> factors_of_motion(const Tabulation& tabulation,
+                                        lubrication::MotionKind motion, double velocity) {
+  const double length = motion == lubrication::MotionKind::kSlide ? 1 : tabulation.radius;
+  const double speed = velocity * length;
+  return {speed, speed, tabulation.viscosity * speed / tabulation.radius, speed};
+}
+
+/// The output of FreeFEM for a motion across the axis or around it.
+std::string picture_of_motion(const FreeFem& freefem, const Tabulation& tabulation,
+                              lubrication::MotionKind motion, double gap) {
+  const bool spins = motion == lubrication::MotionKind::kSpin;
+  const char* solution = motion == lubrication::MotionKind::kRoll ? "2" : "1";
+  std::string output;
+  (void)solve_motions(freefem, tabulation, spins ? MotionGroup::kAround : MotionGroup::kAcross, gap,
+                      {"-picture", solution}, &output);
+  return output;
+}
+
 }  // namespace
 
 RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                                 double reference_velocity) {
+                                 double reference_velocity, lubrication::MotionKind motion) {
   RowPicture picture;
+  picture.motion = motion;
+  picture.gap = gap;
+  picture.reference_velocity = reference_velocity;
+  const bool approaches = motion == lubrication::MotionKind::kApproach;
   std::string output;
-  picture.row = solve_row(freefem, tabulation, gap, reference_velocity, {"-picture", "1"}, &output);
+  if (approaches)
+    (void)solve_row(freefem, tabulation, gap, reference_velocity, {"-picture", "1"}, &output);
+  else
+    output = picture_of_motion(freefem, tabulation, motion, gap);
   PictureReader reader(output);
   constexpr std::size_t kColumns = 6;
   std::vector<std::vector<double>> fields;
   picture.flow.mesh = reader.read_mesh(kColumns, fields);
-  const auto scale = solve_scale(tabulation, reference_velocity);
-  const std::array factors = {scale.speed, scale.speed, scale.viscosity * scale.speed, scale.speed};
+  const auto factors = approaches ? factors_of_approach(tabulation, reference_velocity)
+                                  : factors_of_motion(tabulation, motion, reference_velocity);
   for (std::size_t k = 0; k < fields.size(); ++k)
     for (double& value : fields[k]) value *= factors.at(k);
   picture.flow.velocity.resize(fields[0].size());
   for (std::size_t i = 0; i < fields[0].size(); ++i)
     picture.flow.velocity[i] = {fields[0][i], fields[1][i]};
   picture.flow.pressure = std::move(fields[2]);
-  picture.flow.stream_function = std::move(fields[3]);
+  (approaches ? picture.flow.stream_function : picture.flow.azimuthal_velocity) =
+      std::move(fields[3]);
   picture.coarsest = reader.read_mesh(2, fields);
   return picture;
 }
@@ -136,8 +168,11 @@ std::string write_vtu(const Flow& flow) {
   text += data_array(R"(type="Float64" Name="velocity" NumberOfComponents="3")", points,
                      vector(flow.velocity));
   text += data_array(R"(type="Float64" Name="pressure")", points, at_point(flow.pressure));
-  text += data_array(R"(type="Float64" Name="stream_function")", points,
-                     at_point(flow.stream_function));
+  const bool is_axisymmetric = flow.azimuthal_velocity.empty();
+  text += data_array(fmt::format(R"(type="Float64" Name="{}")",
+                                 is_axisymmetric ? "stream_function" : "azimuthal_velocity"),
+                     points,
+                     at_point(is_axisymmetric ? flow.stream_function : flow.azimuthal_velocity));
   text += "</PointData>\n<Points>\n";
   text += data_array(R"(type="Float64" NumberOfComponents="3")", points, vector(mesh.nodes));
   text += "</Points>\n<Cells>\n";

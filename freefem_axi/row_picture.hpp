@@ -35,25 +35,32 @@ struct Flow {
   std::vector<std::array<double, 2>> velocity;  ///< (u_rho, u_z) [L/T]
   /// [M/(L T^2)]; its mean is 0 in a container, and it is 0 far away in unbounded fluid.
   std::vector<double> pressure;
-  /// psi [L^3/T], with u_rho = -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; 0 on the axis.
+  /// psi [L^3/T], with u_rho = -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; 0 on the axis. Only of
+  /// the approach.
   std::vector<double> stream_function;
+  /// u_phi [L/T] of the other motions. If the sphere slides or rolls, the flow is (u_rho cos phi, u_phi
+  /// sin phi, u_z cos phi) and the pressure p cos phi; velocity and pressure are those at phi = 0.
+  std::vector<double> azimuthal_velocity{};
 };
 
 /// A row with what a picture shows of it.
 struct RowPicture {
-  lubrication::ForceTableRow row;
-  Flow flow;  ///< on the finest mesh
+  lubrication::MotionKind motion = lubrication::MotionKind::kApproach;
+  double gap = 0;                 ///< q [L]
+  double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns
+  Flow flow;                      ///< on the finest mesh
   /// The mesh that the finest mesh was made from, by repeated division of triangles into four.
   CurvedMesh coarsest;
 };
 
 /// Solves one row again for its picture. Throws the errors of solve_row(), and
 /// Error(kExternalProgram) if the mesh or the flow that FreeFEM wrote is incomplete.
-RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabulation, double gap,
-                                 double reference_velocity);
+RowPicture solve_row_for_picture(
+    const FreeFem& freefem, const Tabulation& tabulation, double gap, double reference_velocity,
+    lubrication::MotionKind motion = lubrication::MotionKind::kApproach);
 
 /// The text of a VTK file (.vtu) for ParaView: quadratic triangles at (rho, z, 0) with the point
-/// data velocity, pressure and stream_function in the units of the case.
+/// data velocity, pressure and stream_function or azimuthal_velocity in the units of the case.
 std::string write_vtu(const Flow& flow);
 
 }  // namespace viscontact::freefem_axi

@@ -70,7 +70,8 @@ void tabulate_cases(const TabulateOptions& o) {
                                 one.case_path.string()));
       pictures.push_back(
           with_place("--plot", [&] { return pipeline::gaps_to_picture(*one.tabulation, gaps); }));
-      pipeline::check_pictures(pictures.back(), pipeline::picture_folder(one.table));
+      for (const auto& [motion, table] : one.motions)
+        pipeline::check_pictures(pictures.back(), pipeline::picture_folder(table));
     }
   if (o.dry_run) {
     std::vector<pipeline::DryRun> runs;
@@ -91,9 +92,10 @@ void tabulate_cases(const TabulateOptions& o) {
   else
     pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    pipeline::picture_stage(*tables[i].tabulation, pictures[i],
-                            pipeline::picture_folder(tables[i].table), tables[i].case_path,
-                            interrupt_token());
+    for (const auto& [motion, table] : tables[i].motions)
+      pipeline::picture_stage(*tables[i].tabulation, motion, pictures[i],
+                              pipeline::picture_folder(table), tables[i].case_path,
+                              interrupt_token());
 }
 
 }  // namespace

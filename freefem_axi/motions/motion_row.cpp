@@ -106,13 +106,16 @@ bool neighbour_is_sphere(const Tabulation& tabulation) {
 }
 
 MotionRow solve_motions(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
-                        double gap) {
+                        double gap, const std::vector<std::string>& further_arguments,
+                        std::string* output) {
   const auto start = std::chrono::steady_clock::now();
   auto scaled = tabulation;
   scaled.viscosity = 1;
   auto arguments = row_arguments(scaled, gap, 1);
   arguments.insert(arguments.end(), {"-motion", std::to_string(static_cast<int>(group))});
+  arguments.insert(arguments.end(), further_arguments.begin(), further_arguments.end());
   const auto result = run_freefem(freefem, find_geometry(tabulation.geometry).script, arguments);
+  if (output != nullptr) *output = result.output;
 
   MotionRow row;
   row.results.resize(motions_of(group).size());

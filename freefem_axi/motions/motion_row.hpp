@@ -35,7 +35,10 @@ bool neighbour_is_sphere(const Tabulation& tabulation);
 /// the last lines of FreeFEM if it fails or exceeds its time limit, or if the torque of sliding and
 /// the force of rolling differ by more than their error estimates allow: the resistance matrix is
 /// symmetric (Lorentz 1896), also if the neighbour moves in proportion to the sphere.
+/// `further_arguments` are added to the command line of FreeFEM. If `output` is not null, it is set to
+/// everything that FreeFEM printed.
 MotionRow solve_motions(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
-                        double gap);
+                        double gap, const std::vector<std::string>& further_arguments = {},
+                        std::string* output = nullptr);
 
 }  // namespace viscontact::freefem_axi

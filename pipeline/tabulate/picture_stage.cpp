@@ -72,26 +72,31 @@ std::filesystem::path picture_folder(const std::filesystem::path& table_path) {
   return folder.replace_extension(".plots");
 }
 
-void picture_stage(const freefem_axi::Tabulation& tabulation, const std::vector<double>& gaps,
-                   const std::filesystem::path& folder, const std::filesystem::path& case_file,
-                   const StopToken& stop) {
+void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::MotionKind motion,
+                   const std::vector<double>& gaps, const std::filesystem::path& folder,
+                   const std::filesystem::path& case_file, const StopToken& stop) {
+  const bool approaches = motion == lubrication::MotionKind::kApproach;
   const auto freefem = freefem_axi::default_freefem(stop);
   const auto provenance = results::provenance_of({{case_file}, {}});
   for (const double gap : gaps) {
     stop.throw_if_stop_requested();
     terminal::show_progress(fmt::format("tabulate: pictures of gap {:.7g}", gap));
     const auto picture = freefem_axi::solve_row_for_picture(
-        freefem, tabulation, gap, tabulation.reference_velocities.front());
+        freefem, tabulation, gap, tabulation.reference_velocities.front(), motion);
     const auto path = [&](const PictureFile& file) { return path_of(folder, gap, file); };
     // The VTK file comes first because it needs no gnuplot, which may be missing.
     results::write_output(path(kVtu), TextKind::kXml, freefem_axi::write_vtu(picture.flow),
                           provenance);
     results::write_output(path(kMesh), TextKind::kSvg, report::plot_mesh(picture, tabulation, stop),
                           provenance);
-    results::write_output(path(kFlow), TextKind::kSvg, report::plot_flow(picture, tabulation, stop),
+    results::write_output(path(kFlow), TextKind::kSvg,
+                          approaches ? report::plot_flow(picture, tabulation, stop)
+                                     : report::plot_motion(picture, tabulation, false, stop),
                           provenance);
     results::write_output(path(kFilm), TextKind::kSvg,
-                          report::plot_gap_flow(picture, tabulation, stop), provenance);
+                          approaches ? report::plot_gap_flow(picture, tabulation, stop)
+                                     : report::plot_motion(picture, tabulation, true, stop),
+                          provenance);
     terminal::clear_progress();
     terminal::say(
         fmt::format("tabulate: {}/gap_{:.7g}_{{mesh,flow,film}}.svg, .vtu", folder.string(), gap));

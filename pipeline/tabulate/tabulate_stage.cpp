@@ -150,12 +150,23 @@ std::vector<CaseTable> tables_of(const fs::path& case_path, const std::string& t
   using lubrication::MotionKind;
   std::vector<CaseTable> tables;
   if (std::ranges::find(tabulation.motions, MotionKind::kApproach) != tabulation.motions.end())
-    tables.push_back({case_path, text, path_of(MotionKind::kApproach),
-                      freefem_axi::force_table_plan(tabulation), tabulation});
-  for (const auto group : freefem_axi::motion_groups(tabulation))
-    tables.push_back({case_path, text,
-                      path_of(freefem_axi::asked_motions(tabulation, group).front()),
-                      freefem_axi::motion_table_plan(tabulation, group, path_of), tabulation});
+    tables.push_back({case_path,
+                      text,
+                      path_of(MotionKind::kApproach),
+                      freefem_axi::force_table_plan(tabulation),
+                      tabulation,
+                      {{MotionKind::kApproach, path_of(MotionKind::kApproach)}}});
+  for (const auto group : freefem_axi::motion_groups(tabulation)) {
+    const auto asked = freefem_axi::asked_motions(tabulation, group);
+    auto& one =
+        tables.emplace_back(CaseTable{case_path,
+                                      text,
+                                      path_of(asked.front()),
+                                      freefem_axi::motion_table_plan(tabulation, group, path_of),
+                                      tabulation,
+                                      {}});
+    for (const auto motion : asked) one.motions.emplace_back(motion, path_of(motion));
+  }
   return tables;
 }
 
@@ -169,11 +180,13 @@ CaseTable case_table(const case_file::Case& c, const fs::path& table) {
                             "because the sphere moves along the axis; `viscontact tabulate` makes "
                             "tables of the other motions",
                             c.path.string()));
-  return {c.path, c.text, table, freefem_axi::force_table_plan(tabulation), tabulation};
+  return {c.path,     c.text,
+          table,      freefem_axi::force_table_plan(tabulation),
+          tabulation, {{lubrication::MotionKind::kApproach, table}}};
 }
 
 CaseTable case_table(const case_file::SwimmerCase& c, const fs::path& table) {
-  return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}};
+  return {c.path, c.text, table, freefem_axi::resistance_table_plan(c.spheres, c.gaps), {}, {}};
 }
 
 std::vector<CaseTable> case_tables(const case_file::RollingCase& c,

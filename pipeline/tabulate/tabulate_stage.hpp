@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
@@ -25,6 +26,8 @@ struct CaseTable {
   freefem_axi::TablePlan plan;
   /// What the table of forces on one sphere is made from; nothing for a swimmer.
   std::optional<freefem_axi::Tabulation> tabulation;
+  /// The motions of the table and of its companion, with their files; none for a swimmer.
+  std::vector<std::pair<lubrication::MotionKind, std::filesystem::path>> motions{};
 };
 
 /// The table of the approach of a case. Throws Error(kBadInput) if it has no section [tabulation], or
