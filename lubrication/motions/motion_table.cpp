@@ -107,6 +107,7 @@ ActionUnits action_units(MotionKind motion, double viscosity, double radius) {
 }
 
 bool is_motion_table(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return false;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line) && line.starts_with('#');)
     if (line.starts_with(fmt::format("# viscontact: {}", kKind))) return true;

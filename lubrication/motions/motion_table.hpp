@@ -58,7 +58,8 @@ struct ActionUnits {
 };
 ActionUnits action_units(MotionKind motion, double viscosity, double radius);
 
-/// True if the file begins as the tables that write_motion_table() writes.
+/// True if the path is a regular file that begins as the tables that write_motion_table() writes. A pipe
+/// is not read, because it cannot be read a second time.
 bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table. The columns gap, reference_velocity, force and torque are required. Throws

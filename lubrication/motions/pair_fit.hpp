@@ -69,7 +69,8 @@ struct PairFit {
 /// entry. Outside the interval of gaps the formula is continued.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
-/// True if the file is that of a PairFit.
+/// True if the path is a regular file with a PairFit. A pipe is not read, because it cannot be read a
+/// second time.
 bool is_pair_fit(const std::filesystem::path& path);
 
 /// Reads the file. Throws Error(kBadInput) with the line, the key and what is allowed.

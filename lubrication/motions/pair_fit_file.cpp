@@ -25,7 +25,8 @@ void check_same_pair(const JsonObject& object, const Fit& entry, const PairFit& 
 }  // namespace
 
 bool is_pair_fit(const std::filesystem::path& path) {
-  return read_file(path).find(fmt::format("\"kind\": \"{}\"", kPairFit)) != std::string::npos;
+  return std::filesystem::is_regular_file(path) &&
+         read_file(path).find(fmt::format("\"kind\": \"{}\"", kPairFit)) != std::string::npos;
 }
 
 PairFit read_pair_fit(const std::filesystem::path& path) {

@@ -197,16 +197,21 @@ std::vector<CaseTable> case_tables(const case_file::RollingCase& c,
 std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
                                         const fs::path& output,
                                         const std::vector<std::string>& motions) {
+  const auto name_of = [&](const std::string& file) {
+    return case_files.size() == 1 ? output : output / fs::path(file).stem();
+  };
+  const auto csv_of = [&](const std::string& file) {
+    return case_files.size() == 1 ? output : fs::path(name_of(file).string() + ".csv");
+  };
   std::map<fs::path, std::string> case_of;
-  std::vector<CaseTable> tables;
-  for (const auto& file : case_files) {
-    const fs::path name = case_files.size() == 1 ? output : output / fs::path(file).stem();
-    const auto csv = case_files.size() == 1 ? name : fs::path(name.string() + ".csv");
-    const auto [other, is_new] = case_of.insert({name, file});
-    if (!is_new)
+  for (const auto& file : case_files)
+    if (const auto [other, is_new] = case_of.insert({name_of(file), file}); !is_new)
       throw Error(ErrorKind::kWrongUsage,
                   fmt::format("{} and {} would both be tabulated to {}; rename one of them",
-                              other->second, file, csv.string()));
+                              other->second, file, csv_of(file).string()));
+  std::vector<CaseTable> tables;
+  for (const auto& file : case_files) {
+    const auto name = name_of(file), csv = csv_of(file);
     if (case_file::is_swimmer_case(file)) {
       if (!motions.empty())
         throw Error(ErrorKind::kWrongUsage,

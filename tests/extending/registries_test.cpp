@@ -79,7 +79,13 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // the body in words
                   Found("report/particles/particles_page.cpp", "sphere"),
                   // what a legend numbers
-                  Found("report/swimmer/swimmer_plots.cpp", "sphere")));
+                  Found("report/swimmer/swimmer_plots.cpp", "sphere"),
+                  // bases of pairs, two of which are named bases
+                  Found("lubrication/motions/pair_fit.cpp", "asymptotic"),
+                  Found("lubrication/motions/pair_fit.cpp", "asymptotic_extended"),
+                  // a model of the rolling sphere, and a section of its case
+                  Found("reduced_model/rolling/roll_with_viscous_contact.cpp", "viscous_contact"),
+                  Found("case_file/rolling/rolling_case.cpp", "sphere")));
 }
 
 }  // namespace

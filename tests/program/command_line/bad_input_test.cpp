@@ -94,7 +94,9 @@ std::string name_of(const ::testing::TestParamInfo<BadInputCase>& test) { return
 
 const Cases kTabulate = {
     {"MissingCase", {"tabulate", "@no.toml", "-o", "@t.csv"}, "no.toml: cannot be read"},
-    {"FolderAsCase", {"tabulate", "@folder", "-o", "@t.csv"}, "folder: cannot be read"},
+    {"FolderAsCase",
+     {"tabulate", "@folder", "-o", "@t.csv"},
+     "folder: has none of the tables approach.csv"},
     {"EmptyCase", {"tabulate", "@empty", "-o", "@t.csv"}, "title"},
     {"TruncatedCase", {"tabulate", "@half.toml", "-o", "@t.csv"}, "half.toml"},
     {"NotANumberInCase", {"tabulate", "@nan.toml", "-o", "@t.csv"}, "fluid.viscosity is nan"},

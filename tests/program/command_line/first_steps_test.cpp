@@ -173,7 +173,7 @@ TEST_F(FirstSteps, ManualHasEveryCommandAndOptionOfHelp) {
     for (const auto& option : matches_in(options, "--[\\w-]+", 0))
       EXPECT_THAT(part, HasSubstr(replaced_matches(option, "-", "\\-"))) << name;
   }
-  EXPECT_EQ(commands.size(), 16U);
+  EXPECT_EQ(commands.size(), 17U);
   EXPECT_THAT(manual, AllOf(HasSubstr(".SH EXIT STATUS"), HasSubstr("NO_COLOR")));
 }
 

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
             "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
         WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
         WrongUsage{
-            "ArgumentTooMany", {"fit", "table.csv", "other.csv", "-o", "fit.json"}, "other.csv"},
+            "ArgumentTooMany", {"export", "fit.json", "other.json", "--to", "json"}, "other.json"},
         WrongUsage{"MissingOutput", {"tabulate", "case.toml"}, "--output"},
         WrongUsage{"UnknownBasis",
                    {"fit", "table.csv", "-o", "f.json", "--basis", "cubic"},

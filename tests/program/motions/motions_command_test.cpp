@@ -1,0 +1,169 @@
+// `tabulate`, `fit` and `export` of several motions, and `rolling`, with FreeFEM once and with the shipped
+// tables.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/common/temporary_folder.hpp"
+#include "tests/program/program.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/lubrication/motions/motion_table.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string kData = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/";
+const std::string kIncline = kData + "cases/rolling/incline.toml";
+
+class MotionsCommand : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+  /// A case of a few rows.
+  std::string small_case(const std::string& motion, const std::string& geometry = "") const {
+    return scratch_
+        .file("small.toml",
+              "title = \"small\"\n[fluid]\nviscosity = 2.0\n"
+              "[sphere]\nradius = 0.5\nmass = 1.0\n[tabulation]\n" +
+                  motion +
+                  "\ngaps = [0.05, 0.1, 0.2]\nreference_velocities = [1.0, -3.0]\n"
+                  "relative_accuracy = 1e-2\n" +
+                  (geometry.empty() ? std::string("container = \"unbounded\"\n") : geometry))
+        .string();
+  }
+  /// The shipped incline with one text replaced, and with the fit by its whole path.
+  std::string incline(const std::string& from, const std::string& to) const {
+    auto text = read_file(kIncline);
+    for (const auto& [old_text, new_text] :
+         {std::pair(std::string("../../fits"), kData + "fits"), std::pair(from, to)}) {
+      const auto at = text.find(old_text);
+      if (at == std::string::npos) throw std::logic_error("the case has no " + old_text);
+      text.replace(at, old_text.size(), new_text);
+    }
+    return scratch_.file("incline.toml", text).string();
+  }
+
+  TemporaryFolder scratch_;
+};
+
+TEST_F(MotionsCommand, TabulateWritesATableForEachMotionAndKeepsThem) {
+  const auto file = small_case("motion = \"all\"");
+  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
+  for (const char* motion : {"slide", "roll", "spin"}) {
+    SCOPED_TRACE(motion);
+    const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
+    EXPECT_EQ(to_string(table.motion), motion);
+    ASSERT_EQ(table.rows.size(), 6U);
+    EXPECT_EQ(table.rows[3].gap, 0.05);
+    EXPECT_EQ(table.rows[3].reference_velocity, -3);
+    EXPECT_EQ(table.rows[3].sphere.torque, table.rows[0].sphere.torque);
+    EXPECT_FALSE(fs::exists(path("out/") + motion + ".csv.rows"));
+  }
+  EXPECT_TRUE(fs::exists(path("out/approach.csv")));
+  // A second call computes nothing, not even with FreeFEM out of reach.
+  const auto before = files_below(path("out"));
+  const auto again = run_viscontact({"tabulate", file, "-o", path("out")},
+                                    {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
+  expect_done(again);
+  EXPECT_THAT(again.errors,
+              AllOf(HasSubstr("slide.csv is up to date"), HasSubstr("spin.csv is up to date")));
+  EXPECT_EQ(files_below(path("out")), before);
+  // The tables can be fitted and exported as one pair, with coarse errors and few terms.
+  const auto fit = run_viscontact({"fit", path("out/slide.csv"), path("out/roll.csv"), "--basis",
+                                   "asymptotic", "-o", path("pair.json")});
+  expect_refusal(fit, ErrorKind::kBadInput, HasSubstr("different gap(s)"));
+}
+
+TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
+  const auto file = small_case("motion = \"all\"");
+  expect_done(run_viscontact({"tabulate", file, "--motion", "spin", "-o", path("spin.csv")}));
+  const auto table = lubrication::read_motion_table(path("spin.csv"));
+  EXPECT_EQ(to_string(table.motion), "spin");
+  EXPECT_NEAR(table.leading_torque_factor.value(), 0.5 / 0.5, 1e-15);
+  expect_refusal(run_viscontact({"tabulate", file, "--motion", "glide", "-o", path("x.csv")}),
+                 ErrorKind::kBadInput, HasSubstr("--motion: is 'glide'; it must be approach"));
+}
+
+TEST_F(MotionsCommand, RefusesMotionsThatThereAreNot) {
+  const auto rough = small_case(
+      "motion = \"slide\"",
+      "container = \"unbounded\"\ngeometry = { kind = \"rough_plane\", amplitude = 0.01, "
+      "wavelength = 0.1 }\n");
+  expect_refusal(run_viscontact({"tabulate", rough, "-o", path("x.csv")}), ErrorKind::kBadInput,
+                 HasSubstr("tabulation.motion is not accepted: is slide; beside a rough_plane"));
+  EXPECT_FALSE(fs::exists(path("x.csv")));
+}
+
+TEST_F(MotionsCommand, FitsAndExportsAPair) {
+  const auto fit = run_viscontact({"fit", kData + "tables/pairs/plane", "-o", path("pair.json")});
+  expect_done(fit);
+  EXPECT_THAT(fit.errors,
+              AllOf(HasSubstr("5 entries at gaps from 0.001 to 1"), HasSubstr("ln q: -10.053")));
+  const auto code = run_viscontact({"export", path("pair.json"), "--to", "c-header"});
+  expect_done(code);
+  EXPECT_THAT(code.output, AllOf(HasSubstr("viscontact_slide_roll(double gap)"),
+                                 HasSubstr("viscontact_spin(double gap)")));
+  const auto bases =
+      run_viscontact({"fit", kData + "tables/pairs/plane", "--compare-bases", "--json"});
+  expect_done(bases);
+  const auto json = nlohmann::json::parse(bases.output);
+  EXPECT_LT(json["asymptotic_cubic"]["roll"]["largest_relative_residual"].get<double>(), 1e-6);
+  EXPECT_GT(json["asymptotic"]["roll"]["largest_relative_residual"].get<double>(), 1e-4);
+  expect_refusal(run_viscontact({"fit", kData + "tables/pairs/plane", "--terms", "1", "-o",
+                                 path("pair.json")}),
+                 ErrorKind::kWrongUsage, HasSubstr("tables of a pair take --basis"));
+  expect_refusal(run_viscontact({"fit", path(""), "-o", path("x.json")}), ErrorKind::kBadInput,
+                 HasSubstr("has none of the tables approach.csv"));
+}
+
+TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {
+  const auto result = run_viscontact({"rolling", kIncline, "-o", path("out"), "--json"});
+  expect_done(result);
+  const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
+  EXPECT_EQ(nlohmann::json::parse(result.output)["models"], json["models"]);
+  // A sphere that rolls without slip at q = 0.001: f / (slide - 2 slide_roll + roll) with the exact
+  // resistances of data/reference/sphere_plane_modes.csv, in units of 6 pi mu.
+  const double resistance =
+      4.640038165209212 - 2 * 4. / 3 * 0.49911184477374975 + 4. / 3 * 3.137983756794614;
+  for (const char* model : {"rough", "viscous_contact"}) {
+    const auto& end = json["models"][model];
+    EXPECT_NEAR(end["velocity"].get<double>() * resistance / std::sin(0.3), 1, 1e-6) << model;
+    EXPECT_NEAR(end["slip"].get<double>(), 0, 1e-12);
+    EXPECT_EQ(end["contact"], 1);
+  }
+  EXPECT_EQ(json["models"]["smooth"]["contact_time"], nullptr);
+  const auto rows = read_csv<3>(path("out/rough.csv"), {"time", "gap", "velocity"}, 3);
+  ASSERT_EQ(rows.rows.size(), 2001U);
+  EXPECT_EQ(*rows.rows.back().fields[0], 20);
+  EXPECT_THAT(read_file(path("out/report.html")),
+              AllOf(HasSubstr("A sphere rolls down an incline"), HasSubstr("plots/slip.svg")));
+}
+
+TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
+  const auto refused = [&](const std::string& from, const std::string& to,
+                           const std::string& message) {
+    expect_refusal(run_viscontact({"rolling", incline(from, to), "-o", path("out")}),
+                   ErrorKind::kBadInput, HasSubstr(message));
+    EXPECT_FALSE(fs::exists(path("out/rolling.json")));
+  };
+  refused("friction = 0.3", "friction = -1.0", "rolling.friction is -1; it must be a number >= 0");
+  refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "or weight must be there, one of");
+  refused("initial_gap = 0.5", "initial_gap = 1e-4", "it must be at least the roughness, 0.001");
+  refused("radius = 1.0", "radius = 2.0",
+          "the sphere of the fit has the radius 1, that of the case 2");
+  refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]",
+          "contains 'rigid'; the models");
+  refused("plane.json", "equal_spheres.json", "it must be a plane");
+  refused("initial_gap = 0.5", "initial_gap = 2.0", "outside");
+}
+
+}  // namespace
+}  // namespace viscontact
