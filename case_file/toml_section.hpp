@@ -34,7 +34,8 @@ class TomlSection {
   TomlSection with_texts(std::span<const std::pair<std::string, std::string>> texts) const;
 
   /// This root table as TOML, without the comments of the file and with its keys in alphabetical
-  /// order. Tables with equal keys and values give equal texts. Numbers read back to the same value.
+  /// order. Tables with equal keys and values give equal texts. Numbers read back to the same
+  /// value.
   std::string as_toml() const;
 
   bool has(std::string_view key) const;

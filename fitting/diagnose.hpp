@@ -23,8 +23,8 @@ struct FittedSystem {
   Eigen::VectorXd scaled_residual;
 };
 
-/// The diagnostics of a fit whose other members are complete. There is a warning if the fitted function
-/// has another shape.
+/// The diagnostics of a fit whose other members are complete. There is a warning if the fitted
+/// function has another shape.
 lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
                                      const FittedSystem& system, const lubrication::Fit& fit,
                                      lubrication::FittedShape shape);

@@ -24,8 +24,8 @@ struct FitSettings {
   /// Fixed coefficient of 1/q in the force at the table's first velocity, as in the fit file
   /// [M L^2/T^2].
   std::optional<double> leading_value{};
-  /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2]; empty:
-  /// the forces.
+  /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2];
+  /// empty: the forces.
   std::vector<double> row_scales{};
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
@@ -200,7 +201,7 @@ lubrication::PairFit fit_pair(const PairTables& tables, const PairFitSettings& s
   fit.viscosity = pair.viscosity;
   fit.radius = pair.radius;
   fit.geometry = pair.geometry;
-  fit.gap_interval = {0, INFINITY};
+  fit.gap_interval = {0, std::numeric_limits<double>::infinity()};
   for (const auto& [which, entry] : entries) {
     const auto& one = fit.entries[which] = fit_entry(which, entry, settings, stop);
     fit.gap_interval[0] = std::max(fit.gap_interval[0], one.fit.gap_interval[0]);

@@ -24,10 +24,10 @@ struct PairFitSettings {
 };
 
 /// Fits the entries that the tables contain. Residuals of slide_roll are relative to the geometric
-/// mean of slide and roll, or to slide r or roll / r if one of these tables is missing; those of the
-/// other entries are relative to the entry. Throws Error(kBadInput) if the tables are of different
-/// pairs, if the neighbour has a velocity of its own, if the torque of sliding and the force of
-/// rolling differ by more than their error estimates, and as fit_force_table() does.
+/// mean of slide and roll, or to slide r or roll / r if one of these tables is missing; those of
+/// the other entries are relative to the entry. Throws Error(kBadInput) if the tables are of
+/// different pairs, if the neighbour has a velocity of its own, if the torque of sliding and the
+/// force of rolling differ by more than their error estimates, and as fit_force_table() does.
 lubrication::PairFit fit_pair(const PairTables& tables, const PairFitSettings& settings,
                               const StopToken& stop = {});
 

@@ -1,5 +1,5 @@
-// Fits the resistance matrices of a table by a function of the gaps (ResistanceFit), and says how far
-// the fit can be trusted.
+// Fits the resistance matrices of a table by a function of the gaps (ResistanceFit), and says how
+// far the fit can be trusted.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 namespace viscontact::fitting {
 
 /// The fit that interpolates all rows of the table. The number of lubrication terms is the one with
-/// the smallest largest_left_one_out_error among those for which the rest of each matrix is positive
-/// definite. Throws Error(kBadInput) if the rows are not all combinations of at least three values of
-/// each gap, each once.
+/// the smallest largest_left_one_out_error among those for which the rest of each matrix is
+/// positive definite. Throws Error(kBadInput) if the rows are not all combinations of at least
+/// three values of each gap, each once.
 lubrication::ResistanceFit fit_resistance(const lubrication::ResistanceTable& table);
 
 /// The fits that a result is computed with again to see how exact it is.

@@ -23,8 +23,8 @@ struct RobustSolution {
 
 /// The x that minimises the sum of loss((A x - b)_i/scale), by iteratively reweighted least
 /// squares. Arguments and errors are those of solve_least_squares(). Throws Error(kNotConverged)
-/// also if the weights do not converge, and Error(kInterrupted) if `stop` requests a stop; it is asked
-/// before each reweighting.
+/// also if the weights do not converge, and Error(kInterrupted) if `stop` requests a stop; it is
+/// asked before each reweighting.
 RobustSolution solve_robust_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right_hand_side,
                                           lubrication::Loss loss, const StopToken& stop = {});

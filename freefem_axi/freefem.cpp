@@ -1,4 +1,5 @@
-// Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in seconds.
+// Runs FreeFEM processes to their end and reads what they print (freefem.hpp). Times are in
+// seconds.
 #include "viscontact/freefem_axi/freefem.hpp"
 
 #include <fmt/format.h>

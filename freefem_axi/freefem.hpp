@@ -50,8 +50,8 @@ void append_mesh_arguments(std::vector<std::string>& arguments, double relative_
 /// remedy.
 std::string timed_out_in_words(std::chrono::seconds time_limit);
 
-/// Why a script failed, for an error message: its time limit, the error that it printed, or the last
-/// lines of its output.
+/// Why a script failed, for an error message: its time limit, the error that it printed, or the
+/// last lines of its output.
 std::string failure_in_words(const ProcessResult& result, std::chrono::seconds time_limit);
 
 /// The rest of the first line of `output` that starts with `prefix` and a space; empty if no line

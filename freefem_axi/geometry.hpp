@@ -74,8 +74,8 @@ const Geometry& default_geometry();
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
 /// The motions with these names, in the order of MotionKind; "all" stands for every motion that the
-/// geometry has. Throws Error(kBadInput) for an unknown name, a name that stands twice, and a motion
-/// that the geometry lacks.
+/// geometry has. Throws Error(kBadInput) for an unknown name, a name that stands twice, and a
+/// motion that the geometry lacks.
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry);
 

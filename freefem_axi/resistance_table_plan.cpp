@@ -1,5 +1,5 @@
-// The table of resistance matrices as a TablePlan: its rows, their reflections, and their numbers in
-// the journal (collinear_spheres.hpp).
+// The table of resistance matrices as a TablePlan: its rows, their reflections, and their numbers
+// in the journal (collinear_spheres.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>

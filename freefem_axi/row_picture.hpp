@@ -38,8 +38,9 @@ struct Flow {
   /// psi [L^3/T], with u_rho = -(1/rho) dpsi/dz and u_z = (1/rho) dpsi/drho; 0 on the axis. Only of
   /// the approach.
   std::vector<double> stream_function;
-  /// u_phi [L/T] of the other motions. If the sphere slides or rolls, the flow is (u_rho cos phi, u_phi
-  /// sin phi, u_z cos phi) and the pressure p cos phi; velocity and pressure are those at phi = 0.
+  /// u_phi [L/T] of the other motions. If the sphere slides or rolls, the flow is (u_rho cos phi,
+  /// u_phi sin phi, u_z cos phi) and the pressure p cos phi; velocity and pressure are those at phi
+  /// = 0.
   std::vector<double> azimuthal_velocity{};
 };
 

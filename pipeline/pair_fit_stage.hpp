@@ -21,8 +21,8 @@ bool are_of_pair(const std::vector<std::filesystem::path>& files);
 /// Reads the tables. Throws Error(kBadInput) if two of them are of the same motion.
 fitting::PairTables read_pair_tables(const std::vector<std::filesystem::path>& files);
 
-/// Fits the tables and writes the fit (JSON). If the file differs in its provenance only, it is left as
-/// it is. Prints the residuals, and the leading coefficients beside those of theory.
+/// Fits the tables and writes the fit (JSON). If the file differs in its provenance only, it is
+/// left as it is. Prints the residuals, and the leading coefficients beside those of theory.
 void fit_pair_stage(const std::vector<std::filesystem::path>& files,
                     const std::filesystem::path& fit_path, const fitting::PairFitSettings& settings,
                     const StopToken& stop);

@@ -34,9 +34,9 @@ struct RerunOptions {
 /// itself is refused, and so are the options by which a file could make this program run other
 /// programs (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
-  constexpr auto kWriting =
-      std::to_array<std::string_view>({"run", "tabulate", "fit", "export", "shift", "simulate",
-                                       "sweep", "compare", "report", "particles", "rolling", "swimmer"});
+  constexpr auto kWriting = std::to_array<std::string_view>(
+      {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",
+       "particles", "rolling", "swimmer"});
   const bool known =
       command.size() > 1 && std::ranges::find(kWriting, command[1]) != kWriting.end();
   const auto is_refused = [](const std::string& word) {

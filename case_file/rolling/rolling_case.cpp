@@ -51,7 +51,7 @@ std::vector<std::string> read_models(const TomlSection& section) {
   std::vector<std::string> all;
   for (const auto& model : reduced_model::rolling_models()) all.emplace_back(model.name);
   if (!section.has("models")) return all;
-  const auto models = section.texts("models");
+  auto models = section.texts("models");
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (std::ranges::find(all, models[i]) == all.end())
       section.fail("models", fmt::format("contains '{}'; the models are: {}", models[i],
@@ -77,7 +77,7 @@ void read_rolling(const TomlSection& section, RollingCase& c) {
   motion.end_time = section.number("end_time", kPositive);
   motion.time_step = section.number("time_step", kPositive);
   constexpr Allowed kOfTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
-                                  "from 1e-13 to 0.01"};
+                                    "from 1e-13 to 0.01"};
   motion.relative_tolerance = number_or(section, "relative_tolerance", 1e-9, kOfTolerance);
   c.models = read_models(section);
   section.finish();

@@ -1,5 +1,6 @@
-// The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths, masses
-// and times are in any one consistent system of units. A new key needs an entry in docs/case-file.md.
+// The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
+// masses and times are in any one consistent system of units. A new key needs an entry in
+// docs/case-file.md.
 #pragma once
 
 #include <filesystem>
@@ -24,12 +25,12 @@ struct RollingCase {
   std::filesystem::path path;
 };
 
-/// True if the file has the section [rolling]. Throws Error(kBadInput) if it cannot be read or is not
-/// valid TOML.
+/// True if the file has the section [rolling]. Throws Error(kBadInput) if it cannot be read or is
+/// not valid TOML.
 bool is_rolling_case(const std::filesystem::path& path);
 
-/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its value
-/// and what is allowed.
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
 }  // namespace viscontact::case_file

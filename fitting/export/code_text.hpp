@@ -49,7 +49,8 @@ inline std::string terms_text(const std::vector<WeightedTerm>& terms,
   return text;
 }
 
-/// Lines that become comments of the code. A line end from a fit file must not start a line of code.
+/// Lines that become comments of the code. A line end from a fit file must not start a line of
+/// code.
 inline std::vector<std::string> on_lines_of_comments(std::vector<std::string> lines) {
   for (auto& line : lines)
     std::ranges::replace_if(

@@ -31,11 +31,10 @@ std::vector<std::string> facts_of_pair(const PairFit& fit, std::string_view sour
       fmt::format("Resistances of a sphere beside its neighbour at rest, written by 'viscontact "
                   "export' (Viscontact {}).",
                   version == fit.versions.end() ? "of unknown version" : version->second),
-      "z goes from the neighbour to the sphere; the velocity is u along x, u_z along z, the "
-      "angular",
-      "velocity w about y and w_z about z, through the centre. Force and torque on the sphere:",
-      "F_z = -squeeze u_z, F_x = -slide u + slide_roll w, T_y = slide_roll u - roll w, T_z = -spin "
-      "w_z.",
+      "z goes from the neighbour to the sphere. Its velocity is u along x and u_z along z, its",
+      "angular velocity w about y and w_z about z. Force and torque on the sphere:",
+      "F_z = -squeeze u_z, F_x = -slide u + slide_roll w,",
+      "T_y = slide_roll u - roll w, T_z = -spin w_z.",
       fmt::format(
           "Valid for gaps in [{}, {}]; sphere of radius {}, viscosity {}, consistent units.",
           plain(fit.gap_interval[0]), plain(fit.gap_interval[1]), plain(fit.radius),

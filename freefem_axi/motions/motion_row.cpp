@@ -1,5 +1,5 @@
-// Calls the script of a geometry with -motion and reads its lines "viscontact-action", in which forces
-// and torques are in units of mu, r and the velocity of the motion.
+// Calls the script of a geometry with -motion and reads its lines "viscontact-action", in which
+// forces and torques are in units of mu, r and the velocity of the motion.
 #include "viscontact/freefem_axi/motions/motion_row.hpp"
 
 #include <fmt/format.h>

@@ -31,12 +31,12 @@ struct MotionRow {
 /// True if the neighbour is a sphere, on which there are force and torque, too.
 bool neighbour_is_sphere(const Tabulation& tabulation);
 
-/// Solves the motions of a group at one gap in a FreeFEM process. Throws Error(kExternalProgram) with
-/// the last lines of FreeFEM if it fails or exceeds its time limit, or if the torque of sliding and
-/// the force of rolling differ by more than their error estimates allow: the resistance matrix is
-/// symmetric (Lorentz 1896), also if the neighbour moves in proportion to the sphere.
-/// `further_arguments` are added to the command line of FreeFEM. If `output` is not null, it is set to
-/// everything that FreeFEM printed.
+/// Solves the motions of a group at one gap in a FreeFEM process. Throws Error(kExternalProgram)
+/// with the last lines of FreeFEM if it fails or exceeds its time limit, or if the torque of
+/// sliding and the force of rolling differ by more than their error estimates allow: the resistance
+/// matrix is symmetric (Lorentz 1896), also if the neighbour moves in proportion to the sphere.
+/// `further_arguments` are added to the command line of FreeFEM. If `output` is not null, it is set
+/// to everything that FreeFEM printed.
 MotionRow solve_motions(const FreeFem& freefem, const Tabulation& tabulation, MotionGroup group,
                         double gap, const std::vector<std::string>& further_arguments = {},
                         std::string* output = nullptr);

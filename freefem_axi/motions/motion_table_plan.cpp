@@ -120,8 +120,8 @@ std::optional<MotionTable> finished_table(const std::filesystem::path& path, Mot
   }
 }
 
-/// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks for
-/// them.
+/// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks
+/// for them.
 std::optional<std::vector<FinishedRow>> finished_rows(const Tabulation& tabulation,
                                                       MotionGroup group, const TablePath& path_of) {
   const auto motions = motions_of(group);

@@ -38,8 +38,8 @@ std::string_view to_string(Loss loss);
 /// The inverse of to_string(). Throws Error(kBadInput) for another word.
 Loss parse_loss(std::string_view word);
 
-/// What is known of a fitted resistance: kDrag, that it is positive and falls with the gap; kPositive;
-/// kAny, nothing.
+/// What is known of a fitted resistance: kDrag, that it is positive and falls with the gap;
+/// kPositive; kAny, nothing.
 enum class FittedShape { kDrag, kPositive, kAny };
 
 /// One term of a fit with its coefficient.

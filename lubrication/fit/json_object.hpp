@@ -137,8 +137,8 @@ class JsonObject {
 
 struct Fit;
 
-/// Reads a Fit from an object that has the keys of a fit file, and perhaps `further_keys`, which are
-/// separated by spaces and which the caller reads.
+/// Reads a Fit from an object that has the keys of a fit file, and perhaps `further_keys`, which
+/// are separated by spaces and which the caller reads.
 Fit read_fit_object(const JsonObject& root, const std::string& further_keys = "");
 
 }  // namespace viscontact::lubrication

@@ -1,8 +1,8 @@
 // The table of the force and torque on a sphere in one of the motions across the axis or around it
-// (sliding, rolling, spinning), over a grid of gaps and velocities. The force is along x, the torque
-// about y and the centre of the body, or about z for spinning; the neighbour is below. Lengths,
-// masses and times are in any one consistent system of units. A change must keep the names of the
-// columns and header keys, because published tables use them.
+// (sliding, rolling, spinning), over a grid of gaps and velocities. The force is along x, the
+// torque about y and the centre of the body, or about z for spinning; the neighbour is below.
+// Lengths, masses and times are in any one consistent system of units. A change must keep the names
+// of the columns and header keys, because published tables use them.
 #pragma once
 
 #include <filesystem>
@@ -58,8 +58,8 @@ struct ActionUnits {
 };
 ActionUnits action_units(MotionKind motion, double viscosity, double radius);
 
-/// True if the path is a regular file that begins as the tables that write_motion_table() writes. A pipe
-/// is not read, because it cannot be read a second time.
+/// True if the path is a regular file that begins as the tables that write_motion_table() writes. A
+/// pipe is not read, because it cannot be read a second time.
 bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table. The columns gap, reference_velocity, force and torque are required. Throws

@@ -29,7 +29,8 @@ struct LeadingFactors {
 };
 
 /// The leading coefficients of a motion across the axis or around it (kSlide, kRoll, kSpin), with q
-/// in sphere radii (Goldman, Cox & Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two spheres).
+/// in sphere radii (Goldman, Cox & Brenner 1967 for a plane; Jeffrey & Onishi 1984 for two
+/// spheres).
 LeadingFactors leading_factors(MotionKind motion, const NeighbourSurface& neighbour);
 
 }  // namespace viscontact::lubrication

@@ -41,10 +41,10 @@ inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 /// q^4 ln q and q^4.
 std::vector<std::string_view> pair_bases();
 
-/// The basis for an entry: that with the name, without the terms that the entry lacks, and without its
-/// leading term if theory's coefficient of that is 0. Throws
-/// Error(kBadInput), which lists the names, if there is none.
-Basis basis_of_entry(const NamedEntry& entry, std::string_view basis,
+/// The basis for an entry: that with the name, without the terms that the entry lacks, and without
+/// its leading term if theory's coefficient of that is 0. Throws Error(kBadInput), which lists the
+/// names, if there is none.
+Basis basis_of_entry(const NamedEntry& entry, std::string_view name,
                      std::optional<double> theory = {});
 
 /// The fit of one entry.
@@ -69,8 +69,8 @@ struct PairFit {
 /// entry. Outside the interval of gaps the formula is continued.
 double entry_value(const PairFit& fit, PairEntry entry, double gap);
 
-/// True if the path is a regular file with a PairFit. A pipe is not read, because it cannot be read a
-/// second time.
+/// True if the path is a regular file with a PairFit. A pipe is not read, because it cannot be read
+/// a second time.
 bool is_pair_fit(const std::filesystem::path& path);
 
 /// Reads the file. Throws Error(kBadInput) with the line, the key and what is allowed.

@@ -1,5 +1,5 @@
-// Reads and writes the file of a PairFit (docs/file-formats.md): one object per entry, each of which
-// has the keys of a fit file.
+// Reads and writes the file of a PairFit (docs/file-formats.md): one object per entry, each of
+// which has the keys of a fit file.
 #include <fmt/format.h>
 
 #include "viscontact/common/error.hpp"

@@ -15,10 +15,10 @@ struct SwimmerRequest {
 };
 
 /// Writes table.csv, fit.json, stroke.csv, optimal_stroke.csv, swimmer.json and the report into the
-/// folder (docs/file-formats.md). A table or fit that was made from the same inputs is kept, and rows
-/// that an interrupted call has finished are not computed again. Throws Error(kBadInput) before
-/// anything is written if the case is wrong or a file must not be replaced, and the errors of
-/// tabulate_stage, fit_resistance, swim_sums and find_optimal_stroke.
+/// folder (docs/file-formats.md). A table or fit that was made from the same inputs is kept, and
+/// rows that an interrupted call has finished are not computed again. Throws Error(kBadInput)
+/// before anything is written if the case is wrong or a file must not be replaced, and the errors
+/// of tabulate_stage, fit_resistance, swim_sums and find_optimal_stroke.
 void run_swimmer(const SwimmerRequest& request);
 
 }  // namespace viscontact::pipeline

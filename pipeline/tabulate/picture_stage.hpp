@@ -27,8 +27,9 @@ void check_pictures(const std::vector<double>& gaps, const std::filesystem::path
 
 /// Solves the flow again for each of these gaps at the first reference velocity, and writes
 /// gap_GAP_mesh.svg, gap_GAP_flow.svg, gap_GAP_film.svg and gap_GAP.vtu into `folder`. `case_file`
-/// is the case that contains the tabulation, `motion` that of the table. Throws Error(kExternalProgram) if FreeFEM or gnuplot
-/// fails, Error(kInterrupted) if `stop` requests a stop.
+/// is the case that contains the tabulation, `motion` that of the table. Throws
+/// Error(kExternalProgram) if FreeFEM or gnuplot fails, Error(kInterrupted) if `stop` requests a
+/// stop.
 void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::MotionKind motion,
                    const std::vector<double>& gaps, const std::filesystem::path& folder,
                    const std::filesystem::path& case_file, const StopToken& stop);

@@ -1,6 +1,6 @@
 // CVODE integrates the motion of a sphere whose film resists (physics.md (4.8), (4.9)). Until the
-// solids touch, the state is s = ln(q/r), whose equation is that of inertial_equation.hpp, then u - V,
-// w, x and the angle. In contact the gap is constant.
+// solids touch, the state is s = ln(q/r), whose equation is that of inertial_equation.hpp, then u -
+// V, w, x and the angle. In contact the gap is constant.
 #include <algorithm>
 #include <array>
 #include <cmath>

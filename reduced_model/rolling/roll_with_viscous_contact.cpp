@@ -2,6 +2,7 @@
 // (4.10), (4.11)).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "viscontact/lubrication/lubrication_force.hpp"
@@ -41,8 +42,8 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   const double radius = fit.radius;
   // k of R ~ k/q: gamma = k ln(film / r).
   const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius;
-  const double gamma_min =
-      motion.roughness > 0 ? k * std::log(motion.roughness / radius) : -INFINITY;
+  const double gamma_min = motion.roughness > 0 ? k * std::log(motion.roughness / radius)
+                                                : -std::numeric_limits<double>::infinity();
   const int count = step_count(motion.end_time, motion.time_step);
   ContactState normal = {motion.initial_gap, motion.normal_velocity, 0};
   RollingRow row;

@@ -1,5 +1,5 @@
-// A sphere near a plane that moves in two directions and turns (physics.md (4.8) to (4.11)): x along
-// the plane, z away from it, y the axis of rotation. Lengths, masses and times are in any one
+// A sphere near a plane that moves in two directions and turns (physics.md (4.8) to (4.11)): x
+// along the plane, z away from it, y the axis of rotation. Lengths, masses and times are in any one
 // consistent system of units.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace viscontact::reduced_model {
 
-/// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid is
-/// at rest where the plane is at rest; it is carried along by a plane that moves at a constant
+/// The sphere, its start, the forces that do not depend on its motion, and the surfaces. The fluid
+/// is at rest where the plane is at rest; it is carried along by a plane that moves at a constant
 /// velocity.
 struct RollingMotion {
   double mass = 0;                   ///< m [M], > 0
@@ -56,14 +56,14 @@ using RollingTrajectory = std::vector<RollingRow>;
 /// slide, roll and slide_roll are needed, and the errors of Cvode.
 RollingTrajectory roll_smooth(const RollingMotion& motion, const lubrication::PairFit& fit);
 
-/// Lubrication, and solid contact with Coulomb's friction at the gap `roughness`, CVODE. The impact is
-/// without rebound. Throws as roll_smooth() does.
+/// Lubrication, and solid contact with Coulomb's friction at the gap `roughness`, CVODE. The impact
+/// is without rebound. Throws as roll_smooth() does.
 RollingTrajectory roll_rough(const RollingMotion& motion, const lubrication::PairFit& fit);
 
-/// Viscous contact (physics.md (4.5)) along z with time steps: no force of the film except by gamma;
-/// friction once the film is thinner than the roughness. Resistances along x and to rotation are those
-/// at the thickness of the film, and those at the gap, at most the largest one of the fit, while there
-/// is no contact. First order in the time step.
+/// Viscous contact (physics.md (4.5)) along z with time steps: no force of the film except by
+/// gamma; friction once the film is thinner than the roughness. Resistances along x and to rotation
+/// are those at the thickness of the film, and those at the gap, at most the largest one of the
+/// fit, while there is no contact. First order in the time step.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const lubrication::PairFit& fit);
 

@@ -59,8 +59,9 @@ struct Friction {
   SolidContact contact = SolidContact::kRolling;
 };
 
-/// The friction on a sphere of which the lowest point would have the slip (or its rate) `slip` without
-/// friction and `slip` + `compliance` T with the friction T: no slip if |T| <= bound, else T = -+bound.
+/// The friction on a sphere of which the lowest point would have the slip (or its rate) `slip`
+/// without friction and `slip` + `compliance` T with the friction T: no slip if |T| <= bound, else
+/// T = -+bound.
 Friction coulomb(double slip, double compliance, double bound);
 
 }  // namespace viscontact::reduced_model

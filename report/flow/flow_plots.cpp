@@ -122,8 +122,8 @@ std::string plot_pressure_and_streamlines(const std::string& what,
   return draw(panel, view, kColourBar, stop);
 }
 
-/// Arrows of the velocity in the plane of motion. Where phi = pi, on the left, cos phi changes the sign
-/// of u_z; the component along x is the same, because e_rho changes its sign, too.
+/// Arrows of the velocity in the plane of motion. Where phi = pi, on the left, cos phi changes the
+/// sign of u_z; the component along x is the same, because e_rho changes its sign, too.
 Curve velocity_arrows(const freefem_axi::Flow& flow, const PlotView& view, double fastest) {
   constexpr std::size_t kColumns = 24;
   constexpr double kHead = 0.35, kAngle = 0.45;  // of an arrow's length, radians
@@ -144,8 +144,9 @@ Curve velocity_arrows(const freefem_axi::Flow& flow, const PlotView& view, doubl
                cell_y = window.height() / static_cast<double>(rows);
   std::vector<Polyline> arrows;
   for (std::size_t i = 0; i < kColumns * rows; ++i) {
+    const std::size_t row = i / kColumns;
     const double x = window.left + (static_cast<double>(i % kColumns) + 0.5) * cell_x;
-    const double y = window.bottom + (static_cast<double>(i / kColumns) + 0.5) * cell_y;
+    const double y = window.bottom + (static_cast<double>(row) + 0.5) * cell_y;
     const auto pixel = static_cast<std::size_t>((y - window.bottom) / window.height() *
                                                 static_cast<double>(u_field.rows)) *
                            u_field.columns +

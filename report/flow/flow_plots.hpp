@@ -28,9 +28,9 @@ std::string plot_flow(const freefem_axi::RowPicture& picture,
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop = {});
 
-/// The flow of a sphere that slides, rolls or spins, in a cut through the axis along the motion: the
-/// speed as colours and the direction as arrows; for spinning, the azimuthal velocity as colours.
-/// `in_gap`: the part in the gap.
+/// The flow of a sphere that slides, rolls or spins, in a cut through the axis along the motion:
+/// the speed as colours and the direction as arrows; for spinning, the azimuthal velocity as
+/// colours. `in_gap`: the part in the gap.
 std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop = {});

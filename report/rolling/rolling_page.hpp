@@ -29,8 +29,8 @@ std::vector<Plot> rolling_plots(const RollingResults& results);
 /// write.
 void check_rolling_report(const std::filesystem::path& folder);
 
-/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no still
-/// pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
+/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

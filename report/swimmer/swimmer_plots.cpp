@@ -130,8 +130,8 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
               false,
               false,
               {"set size ratio -1",
-               "set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78',"
-               " 0.75 '#bcae6c', 1 '#fee838')",
+               ("set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78',"
+                " 0.75 '#bcae6c', 1 '#fee838')"),
                "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", "set key below spacing 1.3",
                "set xlabel offset 0,0.6"},
               {}};

@@ -1,4 +1,5 @@
-// The fits of the shipped tables of all motions, beside exact values and theory, and what is refused.
+// The fits of the shipped tables of all motions, beside exact values and theory, and what is
+// refused.
 #include "viscontact/fitting/fit_pair.hpp"
 
 #include <gmock/gmock.h>
@@ -27,8 +28,8 @@ PairTables shipped_tables(const std::string& pair) {
           lubrication::read_motion_table(folder + "spin.csv")};
 }
 
-/// The expansions beside a free surface are those of two spheres at twice the gap, so that they need more
-/// terms.
+/// The expansions beside a free surface are those of two spheres at twice the gap, so that they
+/// need more terms.
 PairFitSettings settings_of(const std::string& pair) {
   PairFitSettings settings;
   if (pair == "free_surface") settings.basis = "asymptotic_quartic";
@@ -59,8 +60,8 @@ TEST_P(ShippedPair, IsFittedWithin1e5WithTheLeadingTermsOfTheory) {
     for (const auto& warning : entry.fit.diagnostics->warnings)
       EXPECT_THAT(warning, HasSubstr("is not determined"));
     ASSERT_TRUE(entry.theory);
-    // Theory's coefficient is met to a fraction of the entry: the part of q ln q of the spin is small,
-    // and known less well.
+    // Theory's coefficient is met to a fraction of the entry: the part of q ln q of the spin is
+    // small, and known less well.
     const double unit = which == PairEntry::kSlide || which == PairEntry::kSqueeze
                             ? 6 * std::numbers::pi
                             : 8 * std::numbers::pi;

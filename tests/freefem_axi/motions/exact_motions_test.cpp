@@ -27,8 +27,8 @@ Tabulation in_unbounded_fluid(const std::string& geometry, std::vector<double> p
   return tabulation;
 }
 
-/// The exact factors above a plane, from data/reference/sphere_plane_modes.csv, whose head says where
-/// they are from.
+/// The exact factors above a plane, from data/reference/sphere_plane_modes.csv, whose head says
+/// where they are from.
 struct ExactFactors {
   double gap, slide_force, slide_torque, roll_force, roll_torque, spin_torque;
 };
@@ -118,8 +118,8 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfBothSpheresMoveAlike) {
 TEST(MotionsOfAPair, TurnAsOneBodyIfBothSpin) {
   const auto alike = in_unbounded_fluid("sphere", {2, 1}, 1e-4);
   const auto row = solve_motions(default_freefem(), alike, MotionGroup::kAround, 0.01);
-  // Both turn as a rigid body does, so that the film between them is not sheared, and each has nearly
-  // its torque alone, 1 and 2^3, less than what the other one's flow takes off.
+  // Both turn as a rigid body does, so that the film between them is not sheared, and each has
+  // nearly its torque alone, 1 and 2^3, less than what the other one's flow takes off.
   EXPECT_LT(row.results.at(0).sphere.torque, 1);
   EXPECT_LT(row.results.at(0).neighbour->torque, 8);
   EXPECT_GT(row.results.at(0).neighbour->torque, 7);

@@ -94,9 +94,7 @@ std::string name_of(const ::testing::TestParamInfo<BadInputCase>& test) { return
 
 const Cases kTabulate = {
     {"MissingCase", {"tabulate", "@no.toml", "-o", "@t.csv"}, "no.toml: cannot be read"},
-    {"FolderAsCase",
-     {"tabulate", "@folder", "-o", "@t.csv"},
-     "folder: has none of the tables approach.csv"},
+    {"FolderAsCase", {"tabulate", "@folder", "-o", "@t.csv"}, "folder: cannot be read"},
     {"EmptyCase", {"tabulate", "@empty", "-o", "@t.csv"}, "title"},
     {"TruncatedCase", {"tabulate", "@half.toml", "-o", "@t.csv"}, "half.toml"},
     {"NotANumberInCase", {"tabulate", "@nan.toml", "-o", "@t.csv"}, "fluid.viscosity is nan"},
@@ -114,7 +112,9 @@ INSTANTIATE_TEST_SUITE_P(Tabulate, BadInput, ::testing::ValuesIn(kTabulate), nam
 
 const Cases kFit = {
     {"MissingTable", {"fit", "@no.csv", "-o", "@f.json"}, "no.csv: cannot be read"},
-    {"FolderAsTable", {"fit", "@folder", "-o", "@f.json"}, "folder: cannot be read"},
+    {"FolderAsTable",
+     {"fit", "@folder", "-o", "@f.json"},
+     "folder: has none of the tables approach.csv"},
     {"EmptyTable", {"fit", "@empty", "-o", "@f.json"}, "empty: "},
     {"TruncatedTable", {"fit", "@half.csv", "-o", "@f.json"}, "half.csv"},
     {"NotANumberInTable", {"fit", "@nan.csv", "-o", "@f.json"}, "nan.csv:37: reference_velocity"},

@@ -1,5 +1,5 @@
-// `tabulate`, `fit` and `export` of several motions, and `rolling`, with FreeFEM once and with the shipped
-// tables.
+// `tabulate`, `fit` and `export` of several motions, and `rolling`, with FreeFEM once and with the
+// shipped tables.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

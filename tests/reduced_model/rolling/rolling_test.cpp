@@ -101,8 +101,8 @@ TEST(SmoothSphere, KeepsTheBalanceOfMomentumAlongThePlane) {
 TEST(RoughSphere, RollsWithoutSlipBelowTheThresholdAndSlidesAboveIt) {
   const auto r = RollingFluid(plane()).at(1e-3);
   const double resistance = r.slide - 2 * r.slide_roll + r.roll;  // of rolling without slip
-  // Without slip the friction is T = r_torque: -r T = (roll - slide_roll) w, so the threshold of the
-  // incline is the one at which |T| = mu_s N.
+  // Without slip the friction is T = r_torque: -r T = (roll - slide_roll) w, so the threshold of
+  // the incline is the one at which |T| = mu_s N.
   const double share = (r.roll - r.slide_roll) / resistance;  // |T| over the force
   const double threshold = std::atan(0.3 / share);
   for (const double incline :

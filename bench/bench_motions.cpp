@@ -1,0 +1,113 @@
+// Measures errors, error estimates and times of the motions across the axis and around it, at random
+// gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of random size
+// and in a cavity. The reference is the same row at a hundredth of the accuracy, whose own error
+// was checked above a plane against exact values (tests/freefem_axi/motions).
+//
+//   bench_motions [ROWS=12 [SEED=1]]
+//
+// Prints every entry whose error is above its estimate, then sums over all entries, and the time of
+// all motions over that of the approach alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "viscontact/common/splitmix.hpp"
+#include "viscontact/freefem_axi/motions/motion_row.hpp"
+
+namespace viscontact {
+namespace {
+
+using freefem_axi::MotionGroup;
+using lubrication::ActionFactors;
+
+constexpr double kAccuracy = 1e-5;
+
+double log_uniform_between(SplitMix64& random, double from, double to) {
+  return from * std::pow(to / from, random.unit());
+}
+
+double median_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+struct Sums {
+  std::vector<double> errors, ratios, cost;
+
+  void add(const ActionFactors& row, const ActionFactors& exact, double diagonal,
+           const std::string& what) {
+    const auto one = [&](double error, double estimate, const char* name) {
+      if (estimate == 0) return;  // the force of a sphere that spins
+      errors.push_back(error);
+      ratios.push_back(error / estimate);
+      if (error > estimate)
+        fmt::print("  {}: {} has error {:.2g}, estimate {:.2g}\n", what, name, error, estimate);
+    };
+    one(std::abs(row.force - exact.force) / diagonal, row.force_error_estimate, "force");
+    one(std::abs(row.torque - exact.torque) / diagonal, row.torque_error_estimate, "torque");
+  }
+};
+
+freefem_axi::Tabulation random_pair(SplitMix64& random, int number) {
+  freefem_axi::Tabulation tabulation;
+  tabulation.viscosity = tabulation.radius = 1;
+  tabulation.relative_accuracy = kAccuracy;
+  const std::vector<std::string> geometries = {"plane", "free_surface", "sphere", "cavity"};
+  tabulation.geometry = geometries.at(static_cast<std::size_t>(number) % geometries.size());
+  if (tabulation.geometry == "sphere")
+    tabulation.geometry_parameters = {log_uniform_between(random, 0.2, 5), 0};
+  if (tabulation.geometry == "cavity") tabulation.geometry_parameters = {12};
+  return tabulation;
+}
+
+void measure_motions(int rows, std::uint64_t seed) {
+  const auto freefem = freefem_axi::default_freefem();
+  SplitMix64 random(seed);
+  Sums sums;
+  for (int n = 0; n < rows; ++n) {
+    auto tabulation = random_pair(random, n);
+    const double gap = log_uniform_between(random, 1e-3, 10);
+    double seconds = 0;
+    const auto approach = solve_row(freefem, tabulation, gap, 1);
+    for (const auto group : {MotionGroup::kAcross, MotionGroup::kAround}) {
+      tabulation.relative_accuracy = kAccuracy;
+      const auto row = solve_motions(freefem, tabulation, group, gap);
+      seconds += row.seconds;
+      tabulation.relative_accuracy = kAccuracy / 100;
+      const auto exact = solve_motions(freefem, tabulation, group, gap);
+      for (std::size_t i = 0; i < row.results.size(); ++i) {
+        const auto& result = row.results[i];
+        const bool slides = group == MotionGroup::kAcross && i == 0;
+        const double diagonal = slides ? result.sphere.force : result.sphere.torque;
+        const auto what = fmt::format("{}, gap {:.4g}, motion {}",
+                                      freefem_axi::geometry_in_words(tabulation), gap, i);
+        sums.add(result.sphere, exact.results[i].sphere, diagonal, what);
+        if (result.neighbour)
+          sums.add(*result.neighbour, *exact.results[i].neighbour, diagonal, what + ", neighbour");
+      }
+    }
+    sums.cost.push_back((approach.seconds + seconds) / approach.seconds);
+  }
+  const auto true_estimates = std::ranges::count_if(sums.ratios, [](double r) { return r <= 1; });
+  fmt::print(
+      "{} entries at {}: error median {:.2g}, largest {:.2g}; at most the estimate: {:.1f} %; "
+      "error "
+      "over estimate: median {:.2g}, largest {:.2g}; all motions over the approach: median {:.2f}, "
+      "largest {:.2f}\n",
+      sums.errors.size(), kAccuracy, median_of(sums.errors), std::ranges::max(sums.errors),
+      100 * static_cast<double>(true_estimates) / static_cast<double>(sums.ratios.size()),
+      median_of(sums.ratios), std::ranges::max(sums.ratios), median_of(sums.cost),
+      std::ranges::max(sums.cost));
+}
+
+}  // namespace
+}  // namespace viscontact
+
+int main(int argc, char** argv) {
+  viscontact::measure_motions(argc > 1 ? std::atoi(argv[1]) : 12,
+                              argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1);
+}
