@@ -49,6 +49,12 @@ std::vector<double> read_gaps(const std::string& text) {
   return gaps;
 }
 
+/// The option --motion, if it was given, for the tasks of a job.
+std::vector<std::string> motion_words(const TabulateOptions& o) {
+  if (o.motions.empty()) return {};
+  return {"--motion", fmt::format("{}", fmt::join(o.motions, ","))};
+}
+
 void tabulate_cases(const TabulateOptions& o) {
   check_array_options(o.array);
   check_outputs({o.output});
@@ -81,7 +87,8 @@ void tabulate_cases(const TabulateOptions& o) {
   }
   if (o.array.is_slurm())
     with_remedy(kRemedyOfSlurm, [&] {
-      pipeline::submit_to_slurm(tables, array_request(o.array, o.output, *o.jobs_option, o.jobs));
+      pipeline::submit_to_slurm(tables, array_request(o.array, o.output, *o.jobs_option, o.jobs),
+                                motion_words(o));
     });
   else if (o.array.gather)
     with_remedy(kRemedyOfGather, [&] {

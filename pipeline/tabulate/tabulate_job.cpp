@@ -1,6 +1,8 @@
 // Finds the tasks of a tabulation that have rows to compute (tabulate_job.hpp).
 #include "viscontact/pipeline/tabulate/tabulate_job.hpp"
 
+#include <algorithm>
+
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
@@ -28,7 +30,8 @@ std::vector<std::size_t> tasks_with_rows(const std::vector<CaseTable>& tables, s
 
 }  // namespace
 
-void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& request) {
+void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& request,
+                     const std::vector<std::string>& options) {
   std::size_t rows = 0;
   ArrayJob job;
   job.command = "tabulate";
@@ -37,9 +40,12 @@ void submit_to_slurm(const std::vector<CaseTable>& tables, const ArrayRequest& r
   for (const auto& one : tables) {
     check_output_file(one.table);
     rows += one.plan.points.size();
+    // A case of several motions has several tables.
+    if (std::ranges::find(job.cases, one.case_path.string()) != job.cases.end()) continue;
     job.cases.push_back(one.case_path.string());
     job.copies.emplace_back(one.case_path.filename().string(), one.case_text);
   }
+  job.options = options;
   job.count = task_count(request, rows);
   (void)split_words(request.options);  // throws if they are wrong, before Slurm is asked
   refuse_second_job(job, request);

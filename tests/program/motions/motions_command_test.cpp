@@ -92,6 +92,27 @@ TEST_F(MotionsCommand, OneMotionIsAFileAndTheOptionReplacesThatOfTheCase) {
                  ErrorKind::kBadInput, HasSubstr("--motion: is 'glide'; it must be approach"));
 }
 
+TEST_F(MotionsCommand, SharesOfTasksAreGatheredIntoTheTablesOfAllMotions) {
+  const auto file = small_case("motion = [\"slide\", \"roll\", \"spin\"]");
+  for (const char* task : {"0/2", "1/2"})
+    expect_done(run_viscontact({"tabulate", file, "-o", path("out"), "--task", task}));
+  EXPECT_FALSE(fs::exists(path("out/slide.csv")));
+  const auto gather = run_viscontact({"tabulate", file, "-o", path("out"), "--gather"},
+                                     {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
+  expect_done(gather);
+  for (const char* motion : {"slide", "roll", "spin"})
+    EXPECT_EQ(lubrication::read_motion_table(path("out/") + motion + ".csv").rows.size(), 6U);
+  // A table that is lost is made again from the companion's rows and those of FreeFEM.
+  fs::remove(path("out/roll.csv"));
+  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
+  EXPECT_TRUE(fs::exists(path("out/roll.csv")));
+}
+
+TEST_F(MotionsCommand, RunNeedsTheApproachAlone) {
+  expect_refusal(run_viscontact({"run", small_case("motion = \"all\""), "-o", path("run")}),
+                 ErrorKind::kBadInput, HasSubstr("small.toml"));
+}
+
 TEST_F(MotionsCommand, RefusesMotionsThatThereAreNot) {
   const auto rough = small_case(
       "motion = \"slide\"",

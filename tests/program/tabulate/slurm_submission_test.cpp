@@ -66,6 +66,16 @@ TEST_F(SlurmSubmission, PrintsTheJobAndHowToGather) {
   EXPECT_TRUE(fake_.answered().empty());
 }
 
+TEST_F(SlurmSubmission, OfSeveralMotionsNamesTheCaseOnceAndTheMotions) {
+  const auto result = submit({"--motion", "slide,roll,spin"}, "tables");
+  expect_done(result);
+  EXPECT_THAT(result.errors, HasSubstr("viscontact tabulate " + path("case.toml") + " -o " +
+                                       path("tables") + " --motion slide,roll,spin --gather"));
+  const auto script = read_file(path("tables.slurm/task.sh"));
+  EXPECT_THAT(script, HasSubstr(" tabulate " + path("tables.slurm/case.toml") + " -o " +
+                                path("tables") + " --motion slide,roll,spin --jobs 1"));
+}
+
 TEST_F(SlurmSubmission, AsksForATaskARowOfThisProgramWithTheCaseAsItIsNow) {
   expect_done(submit());
   EXPECT_THAT(asked(), AllOf(HasSubstr("\n--array=0-5\n"), HasSubstr("\n--requeue\n"),
