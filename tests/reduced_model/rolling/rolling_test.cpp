@@ -134,7 +134,7 @@ TEST(RoughSphere, IsCarriedByAPlaneThatSlides) {
   motion.plane_velocity = 0.7;
   motion.end_time = 60;
   for (const auto& model : rolling_models()) {
-    const auto& last = model.run(motion, plane()).back();
+    const auto last = model.run(motion, plane()).back();
     EXPECT_NEAR(last.velocity, 0.7, 1e-6) << model.name;
     EXPECT_NEAR(last.angular_velocity, 0, 1e-6) << model.name;
   }
@@ -168,8 +168,8 @@ TEST(RoughSphere, ThatStartsInContactSlidesUntilTheSlipHasEnded) {
 TEST(ViscousContact, ConvergesToTheRoughSphereInItsFinalStateAndHasItsFriction) {
   for (const double incline : {0.3, 1.0}) {
     const auto motion = on_incline(incline);
-    const auto& rough = roll_rough(motion, plane()).back();
-    const auto& contact = roll_with_viscous_contact(motion, plane()).back();
+    const auto rough = roll_rough(motion, plane()).back();
+    const auto contact = roll_with_viscous_contact(motion, plane()).back();
     EXPECT_EQ(contact.contact, rough.contact);
     EXPECT_NEAR(contact.velocity / rough.velocity, 1, 1e-9);
     EXPECT_NEAR(contact.angular_velocity / rough.angular_velocity, 1, 1e-9);
