@@ -59,7 +59,7 @@ freefem_axi::Tabulation random_pair(SplitMix64& random, int number) {
   const std::vector<std::string> geometries = {"plane", "free_surface", "sphere", "cavity"};
   tabulation.geometry = geometries.at(static_cast<std::size_t>(number) % geometries.size());
   if (tabulation.geometry == "sphere")
-    tabulation.geometry_parameters = {log_uniform_between(random, 0.2, 5), 0};
+    tabulation.geometry_parameters = {log_uniform_between(random, 0.2, 5), 0, 0};
   if (tabulation.geometry == "cavity") tabulation.geometry_parameters = {12};
   return tabulation;
 }

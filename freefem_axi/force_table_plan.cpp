@@ -69,7 +69,7 @@ lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRe
   table.viscosity = tabulation.viscosity;
   table.radius = tabulation.radius;
   table.geometry = geometry_in_words(tabulation);
-  table.neighbour_moves = neighbour_moves(tabulation);
+  table.neighbour_moves = neighbour_ratio(tabulation, lubrication::MotionKind::kApproach) != 0;
   table.leading_coefficient = leading_coefficient(tabulation);
   table.container = container_in_words(tabulation);
   table.case_hash = tabulation_hash(tabulation);

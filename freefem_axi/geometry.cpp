@@ -17,6 +17,7 @@ using Parameters = std::span<const double>;
 constexpr std::array kSphereParameters = {
     GeometryParameter{"radius", "-neighbourRadius", kPositive, {}},
     GeometryParameter{"velocity_ratio", "-velocityRatio", kFinite, 0.0},
+    GeometryParameter{"rotation_ratio", "-rotationRatio", kFinite, 0.0, true},
 };
 constexpr std::array kCavityParameters = {
     GeometryParameter{"radius", "-cavityRadius", kPositive, {}},
@@ -41,7 +42,10 @@ RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   return {larger, gap + 4 * larger};
 }
 
-bool has_velocity(Parameters parameters) { return parameters[1] != 0; }
+double ratio_of_pair(lubrication::MotionKind motion, Parameters parameters) {
+  using lubrication::MotionKind;
+  return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
+}
 
 /// The gap is that to the nearest wall, so it is largest if sphere and cavity are concentric.
 RequiredSpace space_in_cavity(double radius, double, Parameters parameters) {
@@ -90,7 +94,7 @@ constexpr std::array kGeometries = {
              1,
              flat,
              true},
-    Geometry{"sphere", "sphere.edp", kSphereParameters, true, has_velocity, leading_of_pair,
+    Geometry{"sphere", "sphere.edp", kSphereParameters, true, ratio_of_pair, leading_of_pair,
              space_of_pair, false, 2.5, curvature_of_sphere},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
              space_in_cavity, false, 1, curvature_of_cavity},

@@ -22,6 +22,8 @@ struct GeometryParameter {
   Allowed allowed;        ///< the values that are accepted
   /// Value for a case without this key; nothing if the key is required.
   std::optional<double> fallback;
+  /// True: a table names the parameter only if it differs from the fallback.
+  bool is_named_if_given = false;
 };
 
 /// The space that a sphere at some gap and its neighbour need [L].
@@ -42,9 +44,9 @@ struct Geometry {
   std::span<const GeometryParameter> parameters;
   /// False if the geometry is closed and needs no container.
   bool takes_container;
-  /// True if the neighbour itself moves, so that it may pull the sphere along. Null: it never
-  /// moves.
-  bool (*moves)(std::span<const double> parameters);
+  /// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
+  /// sphere [1]. Null: the neighbour is always at rest.
+  double (*neighbour_ratio)(lubrication::MotionKind motion, std::span<const double> parameters);
   /// Coefficient k of R ~ k/q near contact in theory, over that of a plane, 6 pi mu r^2 [1]. It
   /// depends on curvature and velocity of the neighbour. Null: not known.
   double (*leading_factor)(double radius, std::span<const double> parameters);

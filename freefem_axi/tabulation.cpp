@@ -59,15 +59,19 @@ std::string container_in_words(const Tabulation& tabulation) {
 std::string geometry_in_words(const Tabulation& tabulation) {
   const auto& geometry = find_geometry(tabulation.geometry);
   std::string words(geometry.name);
-  for (std::size_t i = 0; i < geometry.parameters.size(); ++i)
-    words += fmt::format(", {} {}", geometry.parameters[i].key,
-                         format_number(tabulation.geometry_parameters.at(i)));
+  for (std::size_t i = 0; i < geometry.parameters.size(); ++i) {
+    const auto& parameter = geometry.parameters[i];
+    const double value = tabulation.geometry_parameters.at(i);
+    if (parameter.is_named_if_given && value == parameter.fallback) continue;
+    words += fmt::format(", {} {}", parameter.key, format_number(value));
+  }
   return words;
 }
 
-bool neighbour_moves(const Tabulation& tabulation) {
+double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion) {
   const auto& geometry = find_geometry(tabulation.geometry);
-  return geometry.moves != nullptr && geometry.moves(tabulation.geometry_parameters);
+  if (geometry.neighbour_ratio == nullptr) return 0;
+  return geometry.neighbour_ratio(motion, tabulation.geometry_parameters);
 }
 
 std::optional<double> leading_coefficient(const Tabulation& tabulation) {

@@ -44,8 +44,9 @@ std::string container_in_words(const Tabulation& tabulation);
 /// The geometry in words for the header of a table: "sphere, radius 2, velocity_ratio 0".
 std::string geometry_in_words(const Tabulation& tabulation);
 
-/// True if the neighbour moves, according to the parameters of the geometry.
-bool neighbour_moves(const Tabulation& tabulation);
+/// The neighbour's velocity (approach, slide) or angular velocity (roll, spin) over that of the
+/// sphere [1], from the parameters of the geometry.
+double neighbour_ratio(const Tabulation& tabulation, lubrication::MotionKind motion);
 
 /// Coefficient k of R ~ k/q near contact in theory [M L/T]. Nothing if it is not known or too large
 /// for a double.

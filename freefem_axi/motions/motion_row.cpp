@@ -77,16 +77,16 @@ bool take(const std::vector<ActionLine>& lines, std::size_t bodies, MotionRow& r
 double asymmetry(const Tabulation& tabulation, const MotionRow& row) {
   const auto& slide = row.results.at(0);
   const auto& roll = row.results.at(1);
-  const double ratio = neighbour_moves(tabulation) ? tabulation.geometry_parameters.at(1) : 0;
   double difference = kTorqueUnit * slide.sphere.torque - kForceUnit * roll.sphere.force;
-  if (slide.neighbour && roll.neighbour)
-    difference +=
-        ratio * (kTorqueUnit * slide.neighbour->torque - kForceUnit * roll.neighbour->force);
   double slide_error = slide.sphere.torque_error_estimate;
   double roll_error = roll.sphere.force_error_estimate;
   if (slide.neighbour && roll.neighbour) {
-    slide_error += std::abs(ratio) * slide.neighbour->torque_error_estimate;
-    roll_error += std::abs(ratio) * roll.neighbour->force_error_estimate;
+    const double moves = neighbour_ratio(tabulation, MotionKind::kSlide);
+    const double turns = neighbour_ratio(tabulation, MotionKind::kRoll);
+    difference +=
+        turns * kTorqueUnit * slide.neighbour->torque - moves * kForceUnit * roll.neighbour->force;
+    slide_error += std::abs(turns) * slide.neighbour->torque_error_estimate;
+    roll_error += std::abs(moves) * roll.neighbour->force_error_estimate;
   }
   const double allowed = kTorqueUnit * slide_error * std::abs(slide.sphere.force) +
                          kForceUnit * roll_error * std::abs(roll.sphere.torque);

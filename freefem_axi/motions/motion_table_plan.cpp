@@ -20,7 +20,7 @@ using lubrication::MotionTable;
 
 // Revision of the scripts for these motions. Raise it when a change of the scripts changes their
 // results: tables of another revision are then computed again.
-constexpr int kMotionMethod = 1;
+constexpr int kMotionMethod = 2;
 
 // Numbers of a body in a journal, and numbers of a row after those of its results.
 constexpr std::size_t kOfBody = 4, kOfRow = 2;
@@ -70,10 +70,10 @@ MotionTable head_of(const Tabulation& tabulation, MotionGroup group, MotionKind 
   table.radius = tabulation.radius;
   table.geometry = geometry_in_words(tabulation);
   table.container = container_in_words(tabulation);
-  table.neighbour_moves = neighbour_moves(tabulation);
+  const double ratio = neighbour_ratio(tabulation, motion);
+  table.neighbour_moves = ratio != 0;
   table.case_hash = hash_of(tabulation, group);
   if (geometry.curvature == nullptr) return table;
-  const double ratio = table.neighbour_moves ? tabulation.geometry_parameters.at(1) : 0;
   const auto leading = lubrication::leading_factors(
       motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
                geometry.is_shear_free, ratio});

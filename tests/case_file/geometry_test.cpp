@@ -107,10 +107,10 @@ TEST(Geometry, MayBeAFreeSurface) {
 TEST(Geometry, MayBeASecondSphereAtRestUnlessItIsSaid) {
   auto tabulation = tabulation_of(with_geometry("{ kind = \"sphere\", radius = 2.5 }"));
   EXPECT_EQ(tabulation.geometry, "sphere");
-  EXPECT_THAT(tabulation.geometry_parameters, ElementsAre(2.5, 0));
+  EXPECT_THAT(tabulation.geometry_parameters, ElementsAre(2.5, 0, 0));
   tabulation =
       tabulation_of(with_geometry("{ velocity_ratio = -1, kind = \"sphere\", radius = 2 }"));
-  EXPECT_THAT(tabulation.geometry_parameters, ElementsAre(2, -1));
+  EXPECT_THAT(tabulation.geometry_parameters, ElementsAre(2, -1, 0));
 }
 
 TEST(Geometry, MayBeARoughPlane) {

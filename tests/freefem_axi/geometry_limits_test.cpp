@@ -83,8 +83,8 @@ class SecondSphere : public ::testing::TestWithParam<double> {};
 TEST_P(SecondSphere, MayBeAHundredTimesSmallerOrLarger) {
   const double radius = GetParam();
   for (const double gap : {1e-3 * std::min(1.0, radius), 1.0})
-    expect_reached(
-        exact_row("sphere", gap, {radius, 0}, kAccuracy, two_sphere_drag_factor(gap, radius, 0)));
+    expect_reached(exact_row("sphere", gap, {radius, 0, 0}, kAccuracy,
+                             two_sphere_drag_factor(gap, radius, 0)));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfRadius, SecondSphere, ::testing::Values(0.01, 100.0),
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(OfRadius, SecondSphere, ::testing::Values(0.01, 100.0),
 TEST(SecondSphere, TendsToAPlaneAsItGrows) {
   constexpr double kGap = 0.1;
   for (const double radius : {100.0, 1000.0}) {
-    const auto sphere = drag("sphere", kGap, {radius, 0}, 1e-4);
+    const auto sphere = drag("sphere", kGap, {radius, 0, 0}, 1e-4);
     // The film's resistance is (1 + 1/R)^-2 of the plane's, a difference of 2/R; the flow around,
     // some 10 % of the drag here, differs less: 1.63/R and 1.56/R observed.
     const double difference = 1 - sphere.factor / bispherical_plane_factor(kGap);
@@ -134,7 +134,7 @@ TEST(TightCylinder, HasTheDragOfASphereInALongTube) {
 TEST(MirrorImage, OfTheSphereIsAFreeSurfaceHalfWay) {
   constexpr double kGap = 0.05;
   const auto surface = drag("free_surface", kGap, {});
-  const auto pair = drag("sphere", 2 * kGap, {1, -1});
+  const auto pair = drag("sphere", 2 * kGap, {1, -1, 0});
   // One flow in two domains, on meshes that have nothing in common.
   EXPECT_NEAR(pair.factor, surface.factor, pair.error + surface.error);
 }

@@ -51,7 +51,7 @@ TEST(Geometry, HasAScriptOfItsOwnName) {
 TEST(Geometry, HasTheParametersOfTheCaseFile) {
   EXPECT_THAT(keys_of("plane"), ElementsAre());
   EXPECT_THAT(keys_of("free_surface"), ElementsAre());
-  EXPECT_THAT(keys_of("sphere"), ElementsAre("radius", "velocity_ratio"));
+  EXPECT_THAT(keys_of("sphere"), ElementsAre("radius", "velocity_ratio", "rotation_ratio"));
   EXPECT_THAT(keys_of("cavity"), ElementsAre("radius"));
   EXPECT_THAT(keys_of("rough_plane"), ElementsAre("amplitude", "wavelength"));
 }
@@ -59,7 +59,7 @@ TEST(Geometry, HasTheParametersOfTheCaseFile) {
 TEST(Geometry, SecondSphereIsAtRestUnlessTheCaseSaysOtherwiseAndNothingElseHasADefault) {
   for (const auto* name : kNames)
     for (const auto& parameter : find_geometry(name).parameters) {
-      if (parameter.key == "velocity_ratio") {
+      if (parameter.key.ends_with("_ratio")) {
         EXPECT_EQ(parameter.fallback, 0.0);
       } else {
         EXPECT_EQ(parameter.fallback, std::nullopt) << name << " " << parameter.key;
@@ -67,10 +67,10 @@ TEST(Geometry, SecondSphereIsAtRestUnlessTheCaseSaysOtherwiseAndNothingElseHasAD
     }
 }
 
-TEST(Geometry, LengthsArePositiveAndAVelocityRatioIsAnything) {
+TEST(Geometry, LengthsArePositiveAndARatioOfVelocitiesIsAnything) {
   for (const auto* name : kNames)
     for (const auto& parameter : find_geometry(name).parameters) {
-      const bool any = parameter.key == "velocity_ratio";
+      const bool any = parameter.key.ends_with("_ratio");
       EXPECT_EQ(parameter.allowed.test(0), any) << name << " " << parameter.key;
       EXPECT_EQ(parameter.allowed.test(-1), any) << name << " " << parameter.key;
       EXPECT_TRUE(parameter.allowed.test(1e-300)) << name << " " << parameter.key;
@@ -116,7 +116,7 @@ Tabulation tabulation_of(const char* geometry, std::vector<double> parameters) {
 
 TEST(GeometryInWords, NamesEveryParameterWithItsValue) {
   EXPECT_EQ(geometry_in_words(tabulation_of("plane", {})), "plane");
-  EXPECT_EQ(geometry_in_words(tabulation_of("sphere", {2, -0.5})),
+  EXPECT_EQ(geometry_in_words(tabulation_of("sphere", {2, -0.5, 0})),
             "sphere, radius 2, velocity_ratio -0.5");
   EXPECT_EQ(geometry_in_words(tabulation_of("rough_plane", {0.01, 0.05})),
             "rough_plane, amplitude 0.01, wavelength 0.05");
@@ -134,10 +134,10 @@ TEST(TabulationHash, ChangesWithEveryParameterOfEveryGeometry) {
   std::vector<Tabulation> all = {
       tabulation_of("plane", {}),
       tabulation_of("free_surface", {}),
-      tabulation_of("sphere", {2, 0}),
-      tabulation_of("sphere", {2.0000000000000004, 0}),
-      tabulation_of("sphere", {2, 1e-300}),
-      tabulation_of("sphere", {2, -1}),
+      tabulation_of("sphere", {2, 0, 0}),
+      tabulation_of("sphere", {2.0000000000000004, 0, 0}),
+      tabulation_of("sphere", {2, 1e-300, 0}),
+      tabulation_of("sphere", {2, -1, 0}),
       tabulation_of("cavity", {2}),
       tabulation_of("cavity", {3}),
       tabulation_of("rough_plane", {0.01, 0.05}),
@@ -180,8 +180,8 @@ TEST_P(LeadingCoefficient, IsThatOfLubricationTheory) {
 INSTANTIATE_TEST_SUITE_P(
     Of, LeadingCoefficient,
     ::testing::Values(Leading{"plane", {}, 1}, Leading{"free_surface", {}, 0.25},
-                      Leading{"sphere", {1, 0}, 0.25},      // r_eff = 1/2
-                      Leading{"sphere", {1, -1}, 0.5},      // approach at twice the velocity
+                      Leading{"sphere", {1, 0, 0}, 0.25},   // r_eff = 1/2
+                      Leading{"sphere", {1, -1, 0}, 0.5},   // approach at twice the velocity
                       Leading{"sphere", {1, 1}, 0},         // no approach
                       Leading{"sphere", {3, 0}, 9.0 / 16},  // r_eff = 3/4
                       Leading{"cavity", {5}, 25.0 / 16}),   // r_eff = 5/4
@@ -207,14 +207,15 @@ TEST(RoughPlane, HasNoLeadingCoefficientThatIsKnown) {
   EXPECT_FALSE(leading_coefficient(tabulation_of("rough_plane", {0.01, 0.05})).has_value());
 }
 
-TEST(Neighbour, MovesOnlyIfItIsASphereWithAVelocity) {
+TEST(Neighbour, HasAVelocityOnlyIfItIsASphere) {
   auto tabulation = unit_tabulation({0.1}, 5, 1e-3);
-  EXPECT_FALSE(neighbour_moves(tabulation));
+  EXPECT_EQ(neighbour_ratio(tabulation, lubrication::MotionKind::kApproach), 0);
   tabulation.geometry = "sphere";
-  tabulation.geometry_parameters = {1, 0};
-  EXPECT_FALSE(neighbour_moves(tabulation));
-  tabulation.geometry_parameters = {1, -0.5};
-  EXPECT_TRUE(neighbour_moves(tabulation));
+  tabulation.geometry_parameters = {1, -0.5, 2};
+  EXPECT_EQ(neighbour_ratio(tabulation, lubrication::MotionKind::kApproach), -0.5);
+  EXPECT_EQ(neighbour_ratio(tabulation, lubrication::MotionKind::kSlide), -0.5);
+  EXPECT_EQ(neighbour_ratio(tabulation, lubrication::MotionKind::kRoll), 2);
+  EXPECT_EQ(neighbour_ratio(tabulation, lubrication::MotionKind::kSpin), 2);
 }
 
 }  // namespace

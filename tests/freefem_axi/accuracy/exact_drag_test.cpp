@@ -123,7 +123,7 @@ TEST(Scaling, ForceIsLinearInTheVelocityNearContact) {
 TEST(Scaling, ForceOfAMovingPairIsLinearInItsVelocity) {
   auto tabulation = unit_tabulation({0.5}, 10, kCoarse);
   tabulation.geometry = "sphere";
-  tabulation.geometry_parameters = {2, -0.5};
+  tabulation.geometry_parameters = {2, -0.5, 0};
   expect_linear(tabulation);
 }
 
@@ -134,7 +134,7 @@ TEST(MovingNeighbour, PullsTheSphereAlongWhenItIsTheFaster) {
   auto tabulation = unit_tabulation({kGap}, 5, 1e-4);
   tabulation.container.reset();
   tabulation.geometry = "sphere";
-  tabulation.geometry_parameters = {1, 2};
+  tabulation.geometry_parameters = {1, 2, 0};
   const auto row = solve_row(default_freefem(), tabulation, kGap, -1);
   EXPECT_LT(row.force, 0);  // along the velocity
   EXPECT_NEAR(row.drag_factor / exact, 1, 1e-4);

@@ -54,7 +54,7 @@ ExactRow draw_free_surface(Random& random, double accuracy) {
 ExactRow draw_equal_spheres(Random& random, double accuracy) {
   const double gap = draw_gap(random);
   const double velocity_ratio = std::floor(uniform(random, 0, 3)) - 1;
-  return exact_row("sphere", gap, {1, velocity_ratio}, accuracy,
+  return exact_row("sphere", gap, {1, velocity_ratio, 0}, accuracy,
                    two_sphere_drag_factor(gap, 1, velocity_ratio));
 }
 
@@ -62,7 +62,7 @@ ExactRow draw_spheres(Random& random, double accuracy) {
   const double gap = draw_gap(random);
   const double radius = log_uniform(random, 0.01, 100);
   const double velocity_ratio = uniform(random, -2, 2);
-  return exact_row("sphere", gap, {radius, velocity_ratio}, accuracy,
+  return exact_row("sphere", gap, {radius, velocity_ratio, 0}, accuracy,
                    two_sphere_drag_factor(gap, radius, velocity_ratio));
 }
 

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"free_surface", "free_surface", {}, free_surface_drag_factor},
                     Shipped{"equal_spheres",
                             "sphere",
-                            {1, 0},
+                            {1, 0, 0},
                             [](double gap) { return two_sphere_drag_factor(gap, 1, 0); }}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 

@@ -54,7 +54,7 @@ TEST(CollinearSpheres, TwoAgreeWithTheGeometryOfASphereAndItsNeighbour) {
   Tabulation tabulation = unit_tabulation({0.05}, 1, 1e-5);
   tabulation.container.reset();
   tabulation.geometry = "sphere";
-  tabulation.geometry_parameters = {2, 0};
+  tabulation.geometry_parameters = {2, 0, 0};
   // The force on the sphere at rest of the neighbour: it is the upper one.
   const auto sphere = solve_row(default_freefem(), tabulation, 0.05, -1);
   const auto row = solve_resistance(default_freefem(), {1, {2, 1}, {}, 1e-5}, {0.05});

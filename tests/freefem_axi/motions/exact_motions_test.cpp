@@ -94,35 +94,65 @@ TEST(MotionsInACavity, AreThoseOfConcentricSpheres) {
   EXPECT_NEAR(across.results.at(0).sphere.torque, 0, 1e-6);
 }
 
-TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfBothSpheresMoveAlike) {
+TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
   constexpr double kAccuracy = 1e-4;
-  // The free surface is the plane of symmetry of two spheres, whose gap is twice as large.
+  // The free surface is the plane of symmetry of two spheres, whose gap is twice as large. Mirror
+  // images move alike along it, turn against each other about axes in it, and alike about its
+  // normal.
   const auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
-  const auto alike = in_unbounded_fluid("sphere", {1, 1}, kAccuracy);
-  const auto opposite = in_unbounded_fluid("sphere", {1, -1}, kAccuracy);
+  const auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
   const auto one = solve_motions(default_freefem(), surface, MotionGroup::kAcross, 0.2);
-  const auto moving = solve_motions(default_freefem(), alike, MotionGroup::kAcross, 0.4);
-  const auto turning = solve_motions(default_freefem(), opposite, MotionGroup::kAcross, 0.4);
-  const auto& slide = moving.results.at(0);
-  const auto& roll = turning.results.at(1);
-  EXPECT_NEAR(slide.sphere.force, one.results.at(0).sphere.force, 2 * kAccuracy);
-  EXPECT_NEAR(slide.sphere.torque, one.results.at(0).sphere.torque, 2 * kAccuracy);
-  EXPECT_NEAR(roll.sphere.torque, one.results.at(1).sphere.torque, 2 * kAccuracy);
-  // The other sphere is the mirror image: equal forces, opposite torques.
-  ASSERT_TRUE(slide.neighbour && roll.neighbour);
-  EXPECT_NEAR(slide.neighbour->force, slide.sphere.force, 2 * kAccuracy);
-  EXPECT_NEAR(slide.neighbour->torque, -slide.sphere.torque, 2 * kAccuracy);
-  EXPECT_NEAR(roll.neighbour->torque, -roll.sphere.torque, 2 * kAccuracy);
+  const auto pair = solve_motions(default_freefem(), mirrored, MotionGroup::kAcross, 0.4);
+  for (std::size_t motion : {0, 1}) {
+    const auto& both = pair.results.at(motion);
+    const auto& alone = one.results.at(motion).sphere;
+    EXPECT_NEAR(both.sphere.force, alone.force, 2 * kAccuracy);
+    EXPECT_NEAR(both.sphere.torque, alone.torque, 2 * kAccuracy);
+    ASSERT_TRUE(both.neighbour);
+    EXPECT_NEAR(both.neighbour->force, both.sphere.force, 2 * kAccuracy);
+    EXPECT_NEAR(both.neighbour->torque, -both.sphere.torque, 2 * kAccuracy);
+  }
+  const auto spinning = in_unbounded_fluid("sphere", {1, 0, 1}, kAccuracy);
+  EXPECT_NEAR(solve_motions(default_freefem(), spinning, MotionGroup::kAround, 0.4)
+                  .results.at(0)
+                  .sphere.torque,
+              solve_motions(default_freefem(), surface, MotionGroup::kAround, 0.2)
+                  .results.at(0)
+                  .sphere.torque,
+              2 * kAccuracy);
 }
 
-TEST(MotionsOfAPair, TurnAsOneBodyIfBothSpin) {
-  const auto alike = in_unbounded_fluid("sphere", {2, 1}, 1e-4);
+TEST(MotionsOfAPair, AreThoseOfARigidBodyIfItTurnsAsAWhole) {
+  // Two spheres that turn about the axis as one body have no flow between them. Each has nearly its
+  // torque alone, 1 and 2^3, less what the other one's flow takes off.
+  const auto alike = in_unbounded_fluid("sphere", {2, 0, 1}, 1e-4);
   const auto row = solve_motions(default_freefem(), alike, MotionGroup::kAround, 0.01);
-  // Both turn as a rigid body does, so that the film between them is not sheared, and each has
-  // nearly its torque alone, 1 and 2^3, less than what the other one's flow takes off.
   EXPECT_LT(row.results.at(0).sphere.torque, 1);
   EXPECT_LT(row.results.at(0).neighbour->torque, 8);
   EXPECT_GT(row.results.at(0).neighbour->torque, 7);
+}
+
+TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
+  constexpr double kAccuracy = 1e-5, kGap = 0.3, kMoves = 0.7, kTurns = -1.3;
+  const auto solved = [](double moves, double turns) {
+    return solve_motions(default_freefem(),
+                         in_unbounded_fluid("sphere", {2, moves, turns}, kAccuracy),
+                         MotionGroup::kAcross, kGap)
+        .results;
+  };
+  const auto alone = solved(0, 0), both = solved(1, 1), any = solved(kMoves, kTurns);
+  for (std::size_t motion : {0, 1}) {
+    const double ratio = motion == 0 ? kMoves : kTurns;
+    const auto expect_sum = [&](auto entry) {
+      const double one = entry(alone.at(motion)), sum = entry(both.at(motion));
+      // Each row may be wrong by the accuracy of its largest entry.
+      EXPECT_NEAR(entry(any.at(motion)), one + ratio * (sum - one), 50 * kAccuracy);
+    };
+    expect_sum([](const MotionResult& row) { return row.sphere.force; });
+    expect_sum([](const MotionResult& row) { return row.sphere.torque; });
+    expect_sum([](const MotionResult& row) { return row.neighbour->force; });
+    expect_sum([](const MotionResult& row) { return row.neighbour->torque; });
+  }
 }
 
 TEST(Motions, OfAGeometry) {

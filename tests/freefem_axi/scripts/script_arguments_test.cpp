@@ -54,7 +54,8 @@ const Arguments kCylinder = {"-containerRadius", "5", "-containerHeight", "10"};
 const Script kPlane = script("plane.edp", kCylinder);
 const Script kFreeSurface = script("free_surface.edp", kCylinder);
 const Script kSphere =
-    script("sphere.edp", kCylinder).with_more({"-neighbourRadius", "2", "-velocityRatio", "0"});
+    script("sphere.edp", kCylinder)
+        .with_more({"-neighbourRadius", "2", "-velocityRatio", "0", "-rotationRatio", "0"});
 const Script kCavity = script("cavity.edp", {"-cavityRadius", "2"});
 const Script kRoughPlane =
     script("rough_plane.edp", kCylinder).with_more({"-amplitude", "0.02", "-wavelength", "0.5"});
@@ -125,6 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"PairHigherThanHalfTheContainer", kSphere.with("-containerHeight", "8.5"),
                 "do not fit"},
         Refusal{"NoVelocityRatio", kSphere.without("-velocityRatio"), "-velocityRatio is missing"},
+        Refusal{"NoRotationRatio", kSphere.without("-rotationRatio"), "-rotationRatio is missing"},
         Refusal{"ContainerAroundACavity", kCavity.with_more(kCylinder), "-containerRadius"},
         Refusal{"PastTheCavitysCentre", kCavity.with("-gap", "1.0001"), "-gap must be at most"},
         Refusal{"CavityAsSmallAsTheSphere", kCavity.with("-cavityRadius", "1"),

@@ -16,7 +16,8 @@ void prepare(const freefem_axi::Tabulation& tabulation) {
   (void)freefem_axi::tabulation_hash(tabulation);
   (void)freefem_axi::geometry_in_words(tabulation);
   (void)freefem_axi::container_in_words(tabulation);
-  (void)freefem_axi::neighbour_moves(tabulation);
+  for (const auto& [name, motion] : lubrication::all_motions())
+    (void)freefem_axi::neighbour_ratio(tabulation, motion);
   (void)freefem_axi::leading_coefficient(tabulation);
   for (const double gap : {tabulation.gaps.front(), tabulation.gaps.back()})
     (void)freefem_axi::row_arguments(tabulation, gap, tabulation.reference_velocities.front());
