@@ -16,6 +16,7 @@
 #include "viscontact/pipeline/pair_fit_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
 #include "viscontact/report/rolling/rolling_page.hpp"
+#include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/run_folder.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -112,12 +113,46 @@ std::string rolling_json(const RollingResults& results) {
                                  ? nlohmann::ordered_json(nullptr)
                                  : nlohmann::ordered_json(first_contact->time);
   }
+  for (const auto& model : results.failed) json["failed_models"][model.model] = model.reason;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// Runs the models of the case, and keeps the reasons of those that fail. Throws the Error of the
+/// first one if all fail.
+void run_models(const case_file::RollingCase& c, RollingResults& results) {
+  for (const auto& model : reduced_model::rolling_models()) {
+    const std::string name(model.name);
+    if (std::ranges::find(c.models, name) == c.models.end()) continue;
+    terminal::show_progress(fmt::format("rolling: {}", name));
+    try {
+      results.trajectories.emplace_back(name, model.run(c.motion, results.fit));
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kInterrupted) throw;
+      results.failed.push_back({name, error.what(), error.kind(), {}});
+    }
+    terminal::clear_progress();
+  }
+  if (results.trajectories.empty()) throw results::error_of(results.failed, 0, c.path);
+}
+
+void write_trajectories(const RollingFolder& folder, const RollingResults& results,
+                        const results::Provenance& provenance) {
+  for (const auto& model : reduced_model::rolling_models()) {
+    const std::string name(model.name);
+    const auto found = std::ranges::find(results.trajectories, name,
+                                         [](const auto& trajectory) { return trajectory.first; });
+    if (found == results.trajectories.end())
+      remove_file(folder.trajectory(name));
+    else
+      results::write_output(folder.trajectory(name), TextKind::kHashComment,
+                            trajectory_csv(name, found->second), provenance);
+  }
+}
+
 void say_end(const std::string& model, const RollingRow& last) {
-  terminal::say(fmt::format("{}: at the end gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
-                            model, last.gap, last.velocity, last.angular_velocity));
+  terminal::say(
+      fmt::format("rolling: {} ends at the gap {:.6g}, velocity {:.6g}, angular velocity {:.6g}",
+                  model, last.gap, last.velocity, last.angular_velocity));
 }
 
 }  // namespace
@@ -134,26 +169,15 @@ void run_rolling(const RollingRequest& request) {
   const auto provenance = results::provenance_of(
       {given, results.c.fit ? std::vector<fs::path>{} : std::vector{folder.fit()}});
   results.c.motion.stop = request.stop;
-  for (const auto& model : reduced_model::rolling_models()) {
-    const std::string name(model.name);
-    if (std::ranges::find(results.c.models, name) == results.c.models.end()) {
-      remove_file(folder.trajectory(name));
-      continue;
-    }
-    terminal::show_progress(fmt::format("rolling: {}", name));
-    results.trajectories.emplace_back(name, with_place(results.c.path.string() + ": " + name, [&] {
-                                        return model.run(results.c.motion, results.fit);
-                                      }));
-    terminal::clear_progress();
-    const auto& rows = results.trajectories.back().second;
-    results::write_output(folder.trajectory(name), TextKind::kHashComment,
-                          trajectory_csv(name, rows), provenance);
-    say_end(name, rows.back());
-  }
+  run_models(results.c, results);
+  write_trajectories(folder, results, provenance);
+  for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
   const auto json = rolling_json(results);
   results::write_output(folder.results(), TextKind::kJson, json, provenance);
   report::write_rolling_report(results, folder.path, provenance, request.stop);
   if (request.json) fmt::print("{}", json);
+  if (!results.failed.empty())
+    throw results::error_of(results.failed, results.trajectories.size(), results.c.path);
 }
 
 }  // namespace viscontact::pipeline

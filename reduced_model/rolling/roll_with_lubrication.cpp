@@ -1,271 +1,193 @@
-// CVODE integrates the motion of a sphere whose film resists (physics.md (4.8), (4.9)). Until the
-// solids touch, the state is s = ln(q/r), whose equation is that of inertial_equation.hpp, then u -
-// V, w, x and the angle. In contact the gap is constant.
+// CVODE integrates the motion of a sphere whose film resists, from one change of the solid contact
+// to the next: the sphere touches the roughness, its slip ends, friction no longer suffices, or it
+// is lifted off.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
-#include "viscontact/common/error.hpp"
 #include "viscontact/common/root_finding.hpp"
-#include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/reduced_model/integration/cvode.hpp"
-#include "viscontact/reduced_model/models/inertial_equation.hpp"
-#include "viscontact/reduced_model/rolling/rolling_resistance.hpp"
+#include "viscontact/reduced_model/rolling/rolling_equation.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
 
-// Components of the state.
-enum State : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
-using StateVector = std::array<double, kStates>;
+/// The state in which a sphere leaves the roughness.
+struct LiftOff {
+  double time = 0;
+  RollingStateVector state{};
+};
 
-Motion normal_motion(const RollingMotion& motion) {
-  return {.mass = motion.mass,
-          .initial_gap = motion.initial_gap,
-          .initial_velocity = motion.normal_velocity,
-          .end_time = motion.end_time,
-          .external_force = ExternalForce({{motion.end_time, motion.normal_force}})};
-}
-
+/// The motion up to its end, or until the sphere is lifted off the roughness.
 class LubricatedRun {
  public:
-  LubricatedRun(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap)
+  LubricatedRun(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap,
+                std::vector<double> times)
       : motion_(motion),
-        fluid_(fit),
-        radius_(fit.radius),
         contact_gap_(contact_gap),
-        normal_(normal_motion(motion)),
-        squeeze_(fit.entries.at(lubrication::PairEntry::kSqueeze).fit,
-                 {.below = lubrication::BelowInterval::kLubricationLimit}),
-        equation_(normal_, squeeze_, motion.relative_tolerance),
-        normal_system_(equation_.system(now_)),
-        cvode_(system(), StateVector{equation_.state_of(motion.initial_gap),
-                                     motion.velocity - motion.plane_velocity,
-                                     motion.angular_velocity, 0, 0}) {
-    const int count = step_count(motion.end_time, motion.time_step);
-    for (int i = 0; i <= count; ++i)
-      times_.push_back(step_time(i, count, motion.end_time, motion.time_step));
-  }
+        times_(std::move(times)),
+        equation_(motion, fit, contact_gap),
+        cvode_(equation_.system(now_), equation_.initial_state()) {}
 
+  /// The rows at the times, as far as the sphere is not lifted off before.
   RollingTrajectory run() {
-    add_row(0, initial_state());
-    next_row_ = 1;
-    if (motion_.initial_gap <= contact_gap_ && motion_.normal_force < 0) touch(0, initial_state());
+    add_rows_until(0);
+    const bool starts_in_contact = motion_.initial_gap <= contact_gap_ &&
+                                   motion_.normal_velocity <= 0 && motion_.normal_force < 0;
+    if (starts_in_contact) {
+      auto state = equation_.initial_state();
+      touch(state);
+    }
     cvode_.restart(0, motion_.end_time);
-    while (now_ < motion_.end_time) {
+    while (now_ < motion_.end_time && !lift_off_) {
       motion_.stop.throw_if_stop_requested();
       cvode_.step();
-      double end = cvode_.time();
-      const bool touches = !in_contact_ && gap_of(state_at(end)) <= contact_gap_;
-      if (touches)
-        end = bisect_first_true(now_, end,
-                                [&](double t) { return gap_of(state_at(t)) <= contact_gap_; });
-      const double slip_end =
-          in_contact_ && contact_ == SolidContact::kSliding ? end_of_sliding(now_, end) : end;
-      const bool sticks = slip_end < end;
-      end = slip_end;
-      for (; next_row_ < times_.size() && times_[next_row_] <= end; ++next_row_)
-        add_row(times_[next_row_], state_at(times_[next_row_]));
-      const auto state = state_at(end);
-      now_ = end;
-      if (touches) touch(end, state);
-      if (sticks) stick(state);
-      const bool slips = in_contact_ && contact_ == SolidContact::kRolling && !can_roll(state);
-      if (slips) contact_ = SolidContact::kSliding;
-      if ((touches || sticks || slips) && now_ < motion_.end_time)
-        cvode_.restart(now_, motion_.end_time);
+      advance();
     }
     return std::move(rows_);
   }
 
+  const std::optional<LiftOff>& lift_off() const { return lift_off_; }
+
  private:
-  StateVector initial_state() const {
-    StateVector state{};
-    std::ranges::copy(cvode_.state(), state.begin());
-    return state;
+  /// Takes the step of CVODE, or its part up to the first change of the contact.
+  void advance() {
+    double end = cvode_.time();
+    const bool touches =
+        !equation_.touching.is_there && equation_.gap_of(state_at(end)) <= contact_gap_;
+    if (touches)
+      end = bisect_first_true(
+          now_, end, [&](double t) { return equation_.gap_of(state_at(t)) <= contact_gap_; });
+    const double slip_end = end_of_sliding(now_, end);
+    const bool sticks = slip_end < end;
+    end = slip_end;
+    add_rows_until(end);
+    auto state = state_at(end);
+    now_ = end;
+    if (touches) touch(state);
+    if (sticks) stick(state);
+    auto& contact = equation_.touching.contact;
+    const bool slips =
+        !touches && !sticks && contact == SolidContact::kRolling && !equation_.can_roll(state);
+    if (slips) contact = SolidContact::kSliding;
+    if ((touches || sticks || slips) && now_ < motion_.end_time)
+      cvode_.restart(now_, motion_.end_time);
   }
-  StateVector state_at(double time) const {
-    StateVector state{};
+
+  RollingStateVector state_at(double time) const {
+    if (time == 0) return equation_.initial_state();
+    RollingStateVector state{};
     for (std::size_t i = 0; i < kStates; ++i) state[i] = cvode_.at(time, i);
     return state;
-  }
-  double gap_of(std::span<const double> y) const {
-    return in_contact_ ? contact_gap_ : equation_.gap_of(y[kLogGap]);
-  }
-  double contact_force() const { return in_contact_ ? -motion_.normal_force : 0; }
-
-  /// Force and torque without those of the solids.
-  RollingForce free_force(std::span<const double> y) const {
-    const auto fluid = fluid_force(fluid_.at(gap_of(y)), {y[kMove], y[kTurn]});
-    return {motion_.force + fluid.force, motion_.torque + fluid.torque};
-  }
-  /// 1/m + r^2/I: how much a friction force accelerates the lowest point.
-  double compliance() const {
-    return 1 / motion_.mass + radius_ * radius_ / motion_.moment_of_inertia;
-  }
-  /// The rate of the slip without friction.
-  double slip_rate(std::span<const double> y) const {
-    const auto free = free_force(y);
-    return free.force / motion_.mass - radius_ * free.torque / motion_.moment_of_inertia;
-  }
-  double friction_force(std::span<const double> y) const {
-    const double bound = motion_.friction * contact_force();
-    if (contact_ == SolidContact::kNone) return 0;
-    if (contact_ == SolidContact::kRolling) return -slip_rate(y) / compliance();
-    return -std::copysign(bound, sliding_direction_);
-  }
-  bool can_roll(std::span<const double> y) {
-    const auto friction = coulomb(slip_rate(y), compliance(), motion_.friction * contact_force());
-    if (friction.contact == SolidContact::kRolling) return true;
-    sliding_direction_ = -friction.force;
-    if (sliding_direction_ == 0) sliding_direction_ = slip_rate(y);
-    return false;
   }
 
   /// The time in the step at which the slip becomes 0, or its end.
   double end_of_sliding(double from, double to) const {
+    if (equation_.touching.contact != SolidContact::kSliding) return to;
     const auto has_stopped = [&](double t) {
-      return slip_of({cvode_.at(t, kMove), cvode_.at(t, kTurn)}, radius_) * sliding_direction_ < 0;
+      return equation_.slip(state_at(t)) * equation_.touching.sliding_direction < 0;
     };
     return has_stopped(to) ? bisect_first_true(from, to, has_stopped) : to;
   }
 
   /// The solids touch: the normal velocity becomes 0, and friction acts during the impact, too.
-  void touch(double time, StateVector state) {
-    const double impulse =
-        time == 0
-            ? 0
-            : -motion_.mass * std::min(0.0, equation_.instant(time, contact_gap_, time).velocity);
-    in_contact_ = true;
-    const double slip = slip_of({state[kMove], state[kTurn]}, radius_);
-    const auto friction = coulomb(slip, compliance(), motion_.friction * impulse);
-    state[kMove] += friction.force / motion_.mass;
-    state[kTurn] -= radius_ * friction.force / motion_.moment_of_inertia;
-    state[kLogGap] = equation_.state_of(contact_gap_);
-    contact_ = friction.contact;
-    sliding_direction_ = slip;
-    if (contact_ == SolidContact::kRolling)
+  void touch(RollingStateVector& state) {
+    const double impulse = -motion_.mass * std::min(0.0, equation_.normal_velocity(now_, state));
+    const double slip = equation_.slip(state);
+    const auto friction = coulomb(slip, equation_.compliance(), motion_.friction * impulse);
+    push(state, friction.force);
+    equation_.touching = {true, friction.contact, slip};
+    if (friction.contact == SolidContact::kRolling)
       stick(state);
     else
       cvode_.set_state(state);
+    if (motion_.normal_force > 0) lift_off_ = {now_, state};
   }
 
   /// Sets the slip to 0 exactly, and rolls on if friction suffices.
-  void stick(StateVector state) {
-    const double impulse = -slip_of({state[kMove], state[kTurn]}, radius_) / compliance();
-    state[kMove] += impulse / motion_.mass;
-    state[kTurn] -= radius_ * impulse / motion_.moment_of_inertia;
-    contact_ = can_roll(state) ? SolidContact::kRolling : SolidContact::kSliding;
+  void stick(RollingStateVector& state) {
+    push(state, -equation_.slip(state) / equation_.compliance());
+    equation_.touching.contact =
+        equation_.can_roll(state) ? SolidContact::kRolling : SolidContact::kSliding;
     cvode_.set_state(state);
   }
 
-  StiffSystem system() {
-    StiffSystem system;
-    system.dimension = kStates;
-    system.derivative = [this](double t, std::span<const double> y, std::span<double> f) {
-      derivative(t, y, f);
-    };
-    system.jacobian = [this](double t, std::span<const double> y, std::span<double> j) {
-      jacobian(t, y, j);
-    };
-    system.tolerance = [this](double t, std::span<const double> y, std::span<double> allowed) {
-      normal_system_.tolerance(t, y.first(1), allowed.first(1));
-      // Velocities to the tolerance of the largest one that the forces can make, so that one that
-      // passes through 0 does not stop CVODE.
-      const auto r = fluid_.at(std::min(gap_of(y), fluid_.largest_gap()));
-      const double move = std::abs(y[kMove]) + radius_ * std::abs(y[kTurn]) +
-                          std::abs(motion_.force) / r.slide +
-                          std::abs(motion_.torque) * radius_ / r.roll;
-      const double scale = std::max(move, 1e-12 * radius_ / motion_.end_time);
-      allowed[kMove] = motion_.relative_tolerance * scale;
-      allowed[kTurn] = allowed[kMove] / radius_;
-      allowed[kPosition] =
-          motion_.relative_tolerance * (std::abs(y[kPosition]) + scale * motion_.end_time * 1e-3);
-      allowed[kAngle] = allowed[kPosition] / radius_;
-    };
-    return system;
+  /// An impulse along x on the lowest point.
+  void push(RollingStateVector& state, double impulse) const {
+    state[kMove] += impulse / motion_.mass;
+    state[kTurn] -= equation_.radius() * impulse / motion_.moment_of_inertia;
   }
 
-  void derivative(double t, std::span<const double> y, std::span<double> f) const {
-    f[kLogGap] = 0;
-    if (!in_contact_) normal_system_.derivative(t, y.first(1), f.first(1));
-    const auto free = free_force(y);
-    const double friction = friction_force(y);
-    f[kMove] = (free.force + friction) / motion_.mass;
-    f[kTurn] = (free.torque - radius_ * friction) / motion_.moment_of_inertia;
-    f[kPosition] = y[kMove] + motion_.plane_velocity;
-    f[kAngle] = y[kTurn];
+  void add_rows_until(double time) {
+    for (; rows_.size() < times_.size() && times_[rows_.size()] <= time;)
+      add_row(times_[rows_.size()], state_at(times_[rows_.size()]));
   }
 
-  void jacobian(double t, std::span<const double> y, std::span<double> j) const {
-    std::ranges::fill(j, 0.0);
-    const auto at = [&](std::size_t row, std::size_t column) -> double& {
-      return j[column * kStates + row];
-    };
-    if (!in_contact_) {
-      std::array<double, 1> of_gap{};
-      normal_system_.jacobian(t, y.first(1), of_gap);
-      at(kLogGap, kLogGap) = of_gap[0];
-    }
-    const double gap = gap_of(y);
-    const auto put = [&](std::size_t column, const RollingForce& change) {
-      // Friction of rolling keeps the slip constant, whatever the other forces are.
-      double friction = 0;
-      if (contact_ == SolidContact::kRolling)
-        friction =
-            -(change.force / motion_.mass - radius_ * change.torque / motion_.moment_of_inertia) /
-            compliance();
-      at(kMove, column) = (change.force + friction) / motion_.mass;
-      at(kTurn, column) = (change.torque - radius_ * friction) / motion_.moment_of_inertia;
-    };
-    const auto r = fluid_.at(gap);
-    put(kMove, fluid_force(r, {1, 0}));
-    put(kTurn, fluid_force(r, {0, 1}));
-    if (!in_contact_) put(kLogGap, fluid_force(fluid_.slopes(gap), {y[kMove], y[kTurn]}));
-    at(kPosition, kMove) = 1;
-    at(kAngle, kTurn) = 1;
-  }
-
-  void add_row(double time, const StateVector& y) {
-    RollingRow row;
-    row.time = time;
-    row.gap = gap_of(y);
-    row.position = y[kPosition];
-    row.angle = y[kAngle];
-    row.normal_velocity = in_contact_ ? 0 : equation_.instant(time, row.gap, time).velocity;
-    row.velocity = y[kMove] + motion_.plane_velocity;
-    row.angular_velocity = y[kTurn];
-    row.contact_force = contact_force();
-    row.friction_force = friction_force(y);
-    row.contact = contact_;
-    rows_.push_back(row);
+  void add_row(double time, const RollingStateVector& y) {
+    rows_.push_back({.time = time,
+                     .gap = equation_.gap_of(y),
+                     .position = y[kPosition],
+                     .angle = y[kAngle],
+                     .normal_velocity = equation_.normal_velocity(time, y),
+                     .velocity = y[kMove] + motion_.plane_velocity,
+                     .angular_velocity = y[kTurn],
+                     .contact_force = equation_.contact_force(),
+                     .friction_force = equation_.friction_force(y),
+                     .contact = equation_.touching.contact});
   }
 
   const RollingMotion& motion_;
-  RollingFluid fluid_;
-  double radius_, contact_gap_;
-  Motion normal_;
-  lubrication::LubricationForce squeeze_;
-  InertialEquation equation_;
+  double contact_gap_;
+  std::vector<double> times_;  // of the rows
   double now_ = 0;
-  StiffSystem normal_system_;
+  RollingEquation equation_;
   Cvode cvode_;
-  bool in_contact_ = false;
-  SolidContact contact_ = SolidContact::kNone;
-  double sliding_direction_ = 0;  // sign of the slip while sliding
-  std::vector<double> times_;
-  std::size_t next_row_ = 0;
   RollingTrajectory rows_;
+  std::optional<LiftOff> lift_off_;
 };
+
+/// Appends the motion after a lift-off. The force is constant, so that the sphere does not come
+/// back, and the solids do not touch again.
+void append_flight(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap,
+                   std::vector<double> times, const LiftOff& lift_off, RollingTrajectory& rows) {
+  auto flight = motion;
+  flight.initial_gap = contact_gap;
+  flight.normal_velocity = 0;
+  flight.velocity = lift_off.state[kMove] + motion.plane_velocity;
+  flight.angular_velocity = lift_off.state[kTurn];
+  flight.end_time = motion.end_time - lift_off.time;
+  times.erase(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(rows.size()));
+  auto since = times;
+  for (double& time : since) time -= lift_off.time;
+  auto later = LubricatedRun(flight, fit, 0, since).run();
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    later[i].time = times[i];
+    later[i].position += lift_off.state[kPosition];
+    later[i].angle += lift_off.state[kAngle];
+  }
+  rows.insert(rows.end(), later.begin(), later.end());
+}
+
+RollingTrajectory roll_with_lubrication(const RollingMotion& motion,
+                                        const lubrication::PairFit& fit, double contact_gap) {
+  const int count = step_count(motion.end_time, motion.time_step);
+  std::vector<double> times;
+  for (int i = 0; i <= count; ++i)
+    times.push_back(step_time(i, count, motion.end_time, motion.time_step));
+  LubricatedRun run(motion, fit, contact_gap, times);
+  auto rows = run.run();
+  if (run.lift_off() && rows.size() < times.size())
+    append_flight(motion, fit, contact_gap, times, *run.lift_off(), rows);
+  return rows;
+}
 
 }  // namespace
 
 RollingTrajectory roll_smooth(const RollingMotion& motion, const lubrication::PairFit& fit) {
-  return LubricatedRun(motion, fit, 0).run();
+  return roll_with_lubrication(motion, fit, 0);
 }
 
 RollingTrajectory roll_rough(const RollingMotion& motion, const lubrication::PairFit& fit) {
-  return LubricatedRun(motion, fit, motion.roughness).run();
+  return roll_with_lubrication(motion, fit, motion.roughness);
 }
 
 }  // namespace viscontact::reduced_model

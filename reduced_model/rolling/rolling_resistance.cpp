@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/terms.hpp"
 
 namespace viscontact::reduced_model {
@@ -42,8 +43,9 @@ template <bool slope>
 RollingResistance RollingFluid::sum(double gap) const {
   if (gap > fit_.gap_interval[1])
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the sphere reaches the gap {:.6g}; the fit is known up to {:.6g}", gap,
-                            fit_.gap_interval[1]));
+                fmt::format("the sphere rises above the gap {}, up to which the fit is known; "
+                            "tabulate and fit larger gaps",
+                            format_number(fit_.gap_interval[1])));
   const double log_gap = std::log(gap);
   return {sum_of_entry<slope>(fit_, PairEntry::kSlide, gap, log_gap),
           sum_of_entry<slope>(fit_, PairEntry::kRoll, gap, log_gap),

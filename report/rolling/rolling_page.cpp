@@ -60,12 +60,16 @@ std::string end_table(const RollingResults& results) {
   for (const auto& [model, trajectory] : results.trajectories) {
     const auto& last = trajectory.back();
     const double move = last.velocity - results.c.motion.plane_velocity;
+    const double slip = move - results.c.radius * last.angular_velocity;
     rows += fmt::format(
-        "<tr><td>{}</td><td>{:.6g}</td><td>{:.8g}</td><td>{:.8g}</td><td>{:.5g}</td><td>{}</td>"
+        "<tr><td>{}</td><td>{:.6g}</td><td>{:.8g}</td><td>{:.8g}</td><td>{}</td><td>{}</td>"
         "</tr>\n",
         model, last.gap, last.velocity, last.angular_velocity,
-        1 - results.c.radius * last.angular_velocity / move, contact_in_words(last.contact));
+        move == 0 ? "" : fmt::format("{:.5g}", slip / move), contact_in_words(last.contact));
   }
+  for (const auto& model : results.failed)
+    rows += fmt::format("<tr><td>{}</td><td colspan=5>failed: {}</td></tr>\n", model.model,
+                        escaped(model.reason));
   return "<div class=scroll><table>\n" + rows + "</table></div>\n";
 }
 

@@ -10,6 +10,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/motions/pair_fit.hpp"
 #include "viscontact/report/report_plot.hpp"
+#include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::report {
@@ -20,6 +21,7 @@ struct RollingResults {
   lubrication::PairFit fit;
   /// Name of the model, and its trajectory.
   std::vector<std::pair<std::string, reduced_model::RollingTrajectory>> trajectories;
+  std::vector<results::FailedModel> failed;
 };
 
 /// Gap, velocities and slip over time, with a curve for each model.

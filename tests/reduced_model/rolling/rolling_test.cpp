@@ -165,6 +165,48 @@ TEST(RoughSphere, ThatStartsInContactSlidesUntilTheSlipHasEnded) {
   }
 }
 
+TEST(RoughSphere, ThatAForceLiftsLeavesTheRoughnessAfterTheImpact) {
+  // Heavy enough to reach the roughness against the film and the force.
+  auto motion = on_incline(0.4);
+  motion.mass = 500;
+  motion.moment_of_inertia = 200;
+  motion.normal_velocity = -1;
+  motion.normal_force = 3;
+  motion.end_time = 4;
+  const auto rows = roll_rough(motion, plane());
+  ASSERT_EQ(rows.size(), 401U);
+  const auto lowest = std::ranges::min_element(rows, {}, &RollingRow::gap);
+  EXPECT_NEAR(lowest->gap, motion.roughness, 0.01 * motion.roughness);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.contact, SolidContact::kNone);
+    EXPECT_EQ(row.contact_force, 0);
+  }
+  // From any row after the impact the motion is that of smooth surfaces.
+  const auto from = lowest + 20;
+  auto rest = motion;
+  rest.initial_gap = from->gap;
+  rest.normal_velocity = from->normal_velocity;
+  rest.velocity = from->velocity;
+  rest.angular_velocity = from->angular_velocity;
+  rest.end_time = motion.end_time - from->time;
+  const auto last = roll_smooth(rest, plane()).back();
+  EXPECT_GT(rows.back().gap, motion.roughness);
+  EXPECT_NEAR(rows.back().gap / last.gap, 1, 1e-6);
+  EXPECT_NEAR(rows.back().velocity / last.velocity, 1, 1e-6);
+  EXPECT_NEAR((rows.back().position - from->position) / last.position, 1, 1e-6);
+}
+
+TEST(RoughSphere, ThatMovesAwayFromItsContactTouchesAgainLater) {
+  auto motion = on_incline(0.4);
+  motion.initial_gap = motion.roughness;
+  motion.normal_velocity = 5;
+  motion.end_time = 20;
+  const auto rows = roll_rough(motion, plane());
+  EXPECT_EQ(rows.front().contact, SolidContact::kNone);
+  EXPECT_GT(rows.at(1).gap, motion.roughness);
+  EXPECT_NE(rows.back().contact, SolidContact::kNone);
+}
+
 TEST(ViscousContact, ConvergesToTheRoughSphereInItsFinalStateAndHasItsFriction) {
   for (const double incline : {0.3, 1.0}) {
     const auto motion = on_incline(incline);

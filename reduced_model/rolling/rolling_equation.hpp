@@ -1,0 +1,67 @@
+// The equations of a sphere whose film resists (physics.md (4.8), (4.9)) as CVODE integrates them.
+// Until the solids touch, the gap follows s = ln(q/r), whose equation is that of
+// inertial_equation.hpp; in contact it is constant.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "viscontact/lubrication/lubrication_force.hpp"
+#include "viscontact/reduced_model/integration/cvode.hpp"
+#include "viscontact/reduced_model/models/inertial_equation.hpp"
+#include "viscontact/reduced_model/rolling/rolling_resistance.hpp"
+
+namespace viscontact::reduced_model {
+
+/// The components of the state: s, u - V, w, x and the angle.
+enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
+using RollingStateVector = std::array<double, kStates>;
+
+/// The solids between sphere and plane.
+struct Touching {
+  bool is_there = false;
+  SolidContact contact = SolidContact::kNone;
+  double sliding_direction = 0;  ///< the sign of the slip while the sphere slides
+};
+
+/// The right-hand side for the present Touching. `motion` and `fit` must outlive the object.
+class RollingEquation {
+ public:
+  /// Solids touch at the gap `contact_gap` [L]; 0: they never touch.
+  RollingEquation(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap);
+
+  RollingStateVector initial_state() const;
+  double gap_of(std::span<const double> y) const;
+  /// dq/dt [L/T] at time t.
+  double normal_velocity(double t, std::span<const double> y) const;
+  double contact_force() const;                            ///< of the solids along z, >= 0
+  double friction_force(std::span<const double> y) const;  ///< of the solids along x
+  double slip(std::span<const double> y) const;            ///< of the lowest point [L/T]
+  /// 1/m + r^2/I: how much a friction force accelerates the lowest point.
+  double compliance() const;
+  /// True if Coulomb's friction can keep the slip at 0. If not, sets the direction of sliding.
+  bool can_roll(std::span<const double> y);
+
+  /// For CVODE. `step_begin` is the time at which its present step begins.
+  StiffSystem system(const double& step_begin) const;
+
+  double radius() const { return radius_; }
+
+  Touching touching;
+
+ private:
+  RollingForce free_force(std::span<const double> y) const;
+  double slip_rate(std::span<const double> y) const;
+  void derivative(std::span<const double> y, std::span<double> f) const;
+  void jacobian(std::span<const double> y, std::span<double> j) const;
+  void tolerance(std::span<const double> y, std::span<double> allowed) const;
+
+  const RollingMotion& motion_;
+  RollingFluid fluid_;
+  double radius_, contact_gap_;
+  Motion normal_;
+  lubrication::LubricationForce squeeze_;
+  InertialEquation gap_equation_;
+};
+
+}  // namespace viscontact::reduced_model
