@@ -1,12 +1,13 @@
 // Measures errors, error estimates and times of the motions across the axis and around it, at random
 // gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of random size
-// and in a cavity. The reference is the same row at a hundredth of the accuracy, whose own error
-// was checked above a plane against exact values (tests/freefem_axi/motions).
+// at rest or with a velocity of their own, and in a cavity. The reference is the same row at a
+// hundredth of the accuracy, whose own error was checked above a plane against exact values
+// (tests/freefem_axi/motions).
 //
 //   bench_motions [ROWS=12 [SEED=1]]
 //
-// Prints every entry whose error is above its estimate, then sums over all entries, and the time of
-// all motions over that of the approach alone.
+// Prints every entry whose error is above its estimate and every row whose cost is high, then sums
+// over all entries, and the time of all motions over that of the approach alone.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,8 +59,14 @@ freefem_axi::Tabulation random_pair(SplitMix64& random, int number) {
   tabulation.relative_accuracy = kAccuracy;
   const std::vector<std::string> geometries = {"plane", "free_surface", "sphere", "cavity"};
   tabulation.geometry = geometries.at(static_cast<std::size_t>(number) % geometries.size());
-  if (tabulation.geometry == "sphere")
-    tabulation.geometry_parameters = {log_uniform_between(random, 0.2, 5), 0, 0};
+  if (tabulation.geometry == "sphere") {
+    // Every second neighbour has a velocity and a rotation of its own.
+    const double most = number % 8 == 2 ? 2 : 0;
+    const double radius = log_uniform_between(random, 0.2, 5);
+    const double velocity_ratio = most * (2 * random.unit() - 1);
+    const double rotation_ratio = most * (2 * random.unit() - 1);
+    tabulation.geometry_parameters = {radius, velocity_ratio, rotation_ratio};
+  }
   if (tabulation.geometry == "cavity") tabulation.geometry_parameters = {12};
   return tabulation;
 }
@@ -90,7 +97,12 @@ void measure_motions(int rows, std::uint64_t seed) {
           sums.add(*result.neighbour, *exact.results[i].neighbour, diagonal, what + ", neighbour");
       }
     }
-    sums.cost.push_back((approach.seconds + seconds) / approach.seconds);
+    const double cost = (approach.seconds + seconds) / approach.seconds;
+    constexpr double kMost = 4;
+    if (cost > kMost)
+      fmt::print("  {}, gap {:.4g}: all motions cost {:.1f} times the approach\n",
+                 freefem_axi::geometry_in_words(tabulation), gap, cost);
+    sums.cost.push_back(cost);
   }
   const auto true_estimates = std::ranges::count_if(sums.ratios, [](double r) { return r <= 1; });
   fmt::print(

@@ -37,7 +37,7 @@ Pair pair_of(const Table& table) {
     throw Error(
         ErrorKind::kBadInput,
         "the neighbour has a velocity of its own; resistances need tables in which it is at "
-        "rest (velocity_ratio = 0)");
+        "rest (velocity_ratio = 0, rotation_ratio = 0)");
   return {table.viscosity, table.radius, table.geometry, table.container};
 }
 

@@ -50,7 +50,8 @@ std::optional<std::vector<ActionLine>> read_action_lines(const std::string& outp
 }
 
 ActionFactors factors_of(const ActionLine& line) {
-  return {-line.numbers[0] / kForceUnit, -line.numbers[1] / kTorqueUnit, line.numbers[2],
+  // 0 - x is 0 where x is 0, while -x would be written as -0.
+  return {(0 - line.numbers[0]) / kForceUnit, (0 - line.numbers[1]) / kTorqueUnit, line.numbers[2],
           line.numbers[3]};
 }
 

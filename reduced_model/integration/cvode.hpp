@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace viscontact::reduced_model {
@@ -22,6 +23,8 @@ struct StiffSystem {
   std::function<void(double time, std::span<const double> y, std::span<double> jacobian)> jacobian;
   /// The error that is allowed in a step, for each component, > 0.
   std::function<void(double time, std::span<const double> y, std::span<double> allowed)> tolerance;
+  /// The key of the case file that sets the tolerance, for messages.
+  std::string tolerance_key = "inertial.relative_tolerance";
 };
 
 /// BDF of variable order and step with Newton's method and dense linear algebra. If the system

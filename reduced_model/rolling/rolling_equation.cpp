@@ -15,12 +15,19 @@ Motion normal_motion(const RollingMotion& motion) {
           .external_force = ExternalForce({{motion.end_time, motion.normal_force}})};
 }
 
+/// The fluid, which throws if the sphere starts above the gaps of the fit.
+RollingFluid fluid_around(const RollingMotion& motion, const lubrication::PairFit& fit) {
+  const RollingFluid fluid(fit);
+  (void)fluid.at(motion.initial_gap);
+  return fluid;
+}
+
 }  // namespace
 
 RollingEquation::RollingEquation(const RollingMotion& motion, const lubrication::PairFit& fit,
                                  double contact_gap)
     : motion_(motion),
-      fluid_(fit),
+      fluid_(fluid_around(motion, fit)),
       radius_(fit.radius),
       contact_gap_(contact_gap),
       normal_(normal_motion(motion)),
@@ -88,10 +95,11 @@ StiffSystem RollingEquation::system(const double& step_begin) const {
   const auto of_gap = gap_equation_.system(step_begin);
   StiffSystem system;
   system.dimension = kStates;
+  system.tolerance_key = "rolling.relative_tolerance";
   system.derivative = [this, of_gap](double t, std::span<const double> y, std::span<double> f) {
+    derivative(y, f);
     f[kLogGap] = 0;
     if (!touching.is_there) of_gap.derivative(t, y.first(1), f.first(1));
-    derivative(y, f);
   };
   system.jacobian = [this, of_gap](double t, std::span<const double> y, std::span<double> j) {
     jacobian(y, j);

@@ -27,7 +27,8 @@ struct Touching {
 /// The right-hand side for the present Touching. `motion` and `fit` must outlive the object.
 class RollingEquation {
  public:
-  /// Solids touch at the gap `contact_gap` [L]; 0: they never touch.
+  /// Solids touch at the gap `contact_gap` [L]; 0: they never touch. Throws Error(kBadInput) if
+  /// the sphere starts above the interval of gaps of `fit`.
   RollingEquation(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap);
 
   RollingStateVector initial_state() const;

@@ -190,14 +190,14 @@ TEST_F(MotionsCommand, RollingWritesTheModelsThatDoNotFail) {
   const auto run = run_viscontact(
       {"rolling", incline("initial_gap = 0.5", "initial_gap = 2.0"), "-o", path("out")});
   expect_refusal(run, ErrorKind::kBadInput,
-                 AllOf(HasSubstr("model smooth: "), HasSubstr("outside the fitted interval"),
+                 AllOf(HasSubstr("model smooth: "), HasSubstr("rises above the gap 1, up to"),
                        HasSubstr("1 more failed (rough); 1 other model is computed and written")));
   const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
   EXPECT_TRUE(json.at("models").contains("viscous_contact"));
-  EXPECT_THAT(json.at("failed_models").at("rough").get<std::string>(), HasSubstr("outside"));
+  EXPECT_THAT(json.at("failed_models").at("rough").get<std::string>(), HasSubstr("rises above"));
   EXPECT_FALSE(fs::exists(path("out/rough.csv")));
   EXPECT_TRUE(fs::exists(path("out/viscous_contact.csv")));
-  EXPECT_THAT(read_file(path("out/report.html")), HasSubstr("failed: gap"));
+  EXPECT_THAT(read_file(path("out/report.html")), HasSubstr("failed: the sphere rises"));
 }
 
 }  // namespace

@@ -236,7 +236,8 @@ TEST(ViscousContact, HasFrictionOnceTheFilmIsAsThinAsTheRoughness) {
 TEST(Rolling, OutOfTheGapsOfTheFitIsRefused) {
   auto motion = on_incline(0);
   motion.normal_force = 50;
-  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }), HasSubstr("outside"));
+  EXPECT_THAT(bad_input([&] { (void)roll_smooth(motion, plane()); }),
+              HasSubstr("rises above the gap 1, up to which the fit is known"));
 }
 
 }  // namespace
