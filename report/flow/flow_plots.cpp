@@ -51,12 +51,13 @@ std::vector<std::string> layout(const PlotView& view, double right, double below
            "fillstyle solid noborder")};
 }
 
+/// The motion, up to the number of its velocity.
 std::string motion_in_words(lubrication::MotionKind motion) {
   using lubrication::MotionKind;
-  if (motion == MotionKind::kApproach) return "";
-  return motion == MotionKind::kSlide  ? ", sliding"
-         : motion == MotionKind::kRoll ? ", rolling"
-                                       : ", spinning";
+  if (motion == MotionKind::kApproach) return " at velocity";
+  return motion == MotionKind::kSlide  ? ", sliding at velocity"
+         : motion == MotionKind::kRoll ? ", rolling at angular velocity"
+                                       : ", spinning at angular velocity";
 }
 
 Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& picture,
@@ -65,7 +66,7 @@ Panel empty_panel(const std::string& what, const freefem_axi::RowPicture& pictur
   Panel panel;
   const auto container = freefem_axi::container_in_words(tabulation);
   panel.title = fmt::format(
-      "{} {:.6g} of a sphere of radius {:.6g}{} at velocity {:.6g}{}\n{}{}", what, picture.gap,
+      "{} {:.6g} of a sphere of radius {:.6g}{} {:.6g}{}\n{}{}", what, picture.gap,
       tabulation.radius, motion_in_words(picture.motion), picture.reference_velocity,
       view.stretch() > kVisible ? fmt::format(" (heights stretched {:.3g} times)", view.stretch())
                                 : "",
