@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bench/statistics.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/freefem_axi/collinear_spheres.hpp"
@@ -25,15 +26,6 @@ namespace viscontact {
 namespace {
 
 constexpr double kAccuracy = 1e-5;
-
-double log_uniform(SplitMix64& random, double from, double to) {
-  return from * std::pow(to / from, random.unit());
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 void measure(int rows, std::uint64_t seed) {
   const auto freefem = freefem_axi::default_freefem();

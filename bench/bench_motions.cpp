@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/statistics.hpp"
 #include "viscontact/common/splitmix.hpp"
 #include "viscontact/freefem_axi/motions/motion_row.hpp"
 
@@ -26,15 +27,6 @@ using freefem_axi::MotionGroup;
 using lubrication::ActionFactors;
 
 constexpr double kAccuracy = 1e-5;
-
-double log_uniform_between(SplitMix64& random, double from, double to) {
-  return from * std::pow(to / from, random.unit());
-}
-
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 struct Sums {
   std::vector<double> errors, ratios, cost;
@@ -62,7 +54,7 @@ freefem_axi::Tabulation random_pair(SplitMix64& random, int number) {
   if (tabulation.geometry == "sphere") {
     // Every second neighbour has a velocity and a rotation of its own.
     const double most = number % 8 == 2 ? 2 : 0;
-    const double radius = log_uniform_between(random, 0.2, 5);
+    const double radius = log_uniform(random, 0.2, 5);
     const double velocity_ratio = most * (2 * random.unit() - 1);
     const double rotation_ratio = most * (2 * random.unit() - 1);
     tabulation.geometry_parameters = {radius, velocity_ratio, rotation_ratio};
@@ -77,7 +69,7 @@ void measure_motions(int rows, std::uint64_t seed) {
   Sums sums;
   for (int n = 0; n < rows; ++n) {
     auto tabulation = random_pair(random, n);
-    const double gap = log_uniform_between(random, 1e-3, 10);
+    const double gap = log_uniform(random, 1e-3, 10);
     double seconds = 0;
     const auto approach = solve_row(freefem, tabulation, gap, 1);
     for (const auto group : {MotionGroup::kAcross, MotionGroup::kAround}) {
@@ -110,9 +102,9 @@ void measure_motions(int rows, std::uint64_t seed) {
       "error "
       "over estimate: median {:.2g}, largest {:.2g}; all motions over the approach: median {:.2f}, "
       "largest {:.2f}\n",
-      sums.errors.size(), kAccuracy, median_of(sums.errors), std::ranges::max(sums.errors),
+      sums.errors.size(), kAccuracy, median(sums.errors), std::ranges::max(sums.errors),
       100 * static_cast<double>(true_estimates) / static_cast<double>(sums.ratios.size()),
-      median_of(sums.ratios), std::ranges::max(sums.ratios), median_of(sums.cost),
+      median(sums.ratios), std::ranges::max(sums.ratios), median(sums.cost),
       std::ranges::max(sums.cost));
 }
 

@@ -53,7 +53,7 @@ class LubricatedRun {
   void advance() {
     double end = cvode_.time();
     const bool touches =
-        !equation_.touching.is_there && equation_.gap_of(state_at(end)) <= contact_gap_;
+        !equation_.solids.touches && equation_.gap_of(state_at(end)) <= contact_gap_;
     if (touches)
       end = bisect_first_true(
           now_, end, [&](double t) { return equation_.gap_of(state_at(t)) <= contact_gap_; });
@@ -65,7 +65,7 @@ class LubricatedRun {
     now_ = end;
     if (touches) touch(state);
     if (sticks) stick(state);
-    auto& contact = equation_.touching.contact;
+    auto& contact = equation_.solids.contact;
     const bool slips =
         !touches && !sticks && contact == SolidContact::kRolling && !equation_.can_roll(state);
     if (slips) contact = SolidContact::kSliding;
@@ -82,9 +82,9 @@ class LubricatedRun {
 
   /// The time in the step at which the slip becomes 0, or its end.
   double end_of_sliding(double from, double to) const {
-    if (equation_.touching.contact != SolidContact::kSliding) return to;
+    if (equation_.solids.contact != SolidContact::kSliding) return to;
     const auto has_stopped = [&](double t) {
-      return equation_.slip(state_at(t)) * equation_.touching.sliding_direction < 0;
+      return equation_.slip(state_at(t)) * equation_.solids.sliding_direction < 0;
     };
     return has_stopped(to) ? bisect_first_true(from, to, has_stopped) : to;
   }
@@ -95,7 +95,7 @@ class LubricatedRun {
     const double slip = equation_.slip(state);
     const auto friction = coulomb(slip, equation_.compliance(), motion_.friction * impulse);
     push(state, friction.force);
-    equation_.touching = {true, friction.contact, slip};
+    equation_.solids = {true, friction.contact, slip};
     if (friction.contact == SolidContact::kRolling)
       stick(state);
     else
@@ -106,7 +106,7 @@ class LubricatedRun {
   /// Sets the slip to 0 exactly, and rolls on if friction suffices.
   void stick(RollingStateVector& state) {
     push(state, -equation_.slip(state) / equation_.compliance());
-    equation_.touching.contact =
+    equation_.solids.contact =
         equation_.can_roll(state) ? SolidContact::kRolling : SolidContact::kSliding;
     cvode_.set_state(state);
   }
@@ -132,7 +132,7 @@ class LubricatedRun {
                      .angular_velocity = y[kTurn],
                      .contact_force = equation_.contact_force(),
                      .friction_force = equation_.friction_force(y),
-                     .contact = equation_.touching.contact});
+                     .contact = equation_.solids.contact});
   }
 
   const RollingMotion& motion_;

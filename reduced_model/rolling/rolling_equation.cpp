@@ -41,15 +41,15 @@ RollingStateVector RollingEquation::initial_state() const {
 }
 
 double RollingEquation::gap_of(std::span<const double> y) const {
-  return touching.is_there ? contact_gap_ : gap_equation_.gap_of(y[kLogGap]);
+  return solids.touches ? contact_gap_ : gap_equation_.gap_of(y[kLogGap]);
 }
 
 double RollingEquation::normal_velocity(double t, std::span<const double> y) const {
-  return touching.is_there ? 0 : gap_equation_.instant(t, gap_of(y), t).velocity;
+  return solids.touches ? 0 : gap_equation_.instant(t, gap_of(y), t).velocity;
 }
 
 double RollingEquation::contact_force() const {
-  return touching.is_there ? std::max(0.0, -motion_.normal_force) : 0;
+  return solids.touches ? std::max(0.0, -motion_.normal_force) : 0;
 }
 
 double RollingEquation::slip(std::span<const double> y) const {
@@ -73,11 +73,11 @@ double RollingEquation::slip_rate(std::span<const double> y) const {
 }
 
 double RollingEquation::friction_force(std::span<const double> y) const {
-  switch (touching.contact) {
+  switch (solids.contact) {
     case SolidContact::kRolling:
       return -slip_rate(y) / compliance();
     case SolidContact::kSliding:
-      return -std::copysign(motion_.friction * contact_force(), touching.sliding_direction);
+      return -std::copysign(motion_.friction * contact_force(), solids.sliding_direction);
     case SolidContact::kNone:
       break;
   }
@@ -87,7 +87,7 @@ double RollingEquation::friction_force(std::span<const double> y) const {
 bool RollingEquation::can_roll(std::span<const double> y) {
   const auto friction = coulomb(slip_rate(y), compliance(), motion_.friction * contact_force());
   if (friction.contact == SolidContact::kRolling) return true;
-  touching.sliding_direction = friction.force != 0 ? -friction.force : slip_rate(y);
+  solids.sliding_direction = friction.force != 0 ? -friction.force : slip_rate(y);
   return false;
 }
 
@@ -99,11 +99,11 @@ StiffSystem RollingEquation::system(const double& step_begin) const {
   system.derivative = [this, of_gap](double t, std::span<const double> y, std::span<double> f) {
     derivative(y, f);
     f[kLogGap] = 0;
-    if (!touching.is_there) of_gap.derivative(t, y.first(1), f.first(1));
+    if (!solids.touches) of_gap.derivative(t, y.first(1), f.first(1));
   };
   system.jacobian = [this, of_gap](double t, std::span<const double> y, std::span<double> j) {
     jacobian(y, j);
-    if (!touching.is_there) of_gap.jacobian(t, y.first(1), j.first(1));
+    if (!solids.touches) of_gap.jacobian(t, y.first(1), j.first(1));
   };
   system.tolerance = [this, of_gap](double t, std::span<const double> y,
                                     std::span<double> allowed) {
@@ -132,7 +132,7 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   const auto put = [&](std::size_t column, const RollingForce& change) {
     // Friction of rolling keeps the slip constant, whatever the other forces are.
     double friction = 0;
-    if (touching.contact == SolidContact::kRolling)
+    if (solids.contact == SolidContact::kRolling)
       friction =
           -(change.force / motion_.mass - radius_ * change.torque / motion_.moment_of_inertia) /
           compliance();
@@ -143,7 +143,7 @@ void RollingEquation::jacobian(std::span<const double> y, std::span<double> j) c
   const auto r = fluid_.at(gap);
   put(kMove, fluid_force(r, {1, 0}));
   put(kTurn, fluid_force(r, {0, 1}));
-  if (!touching.is_there) put(kLogGap, fluid_force(fluid_.slopes(gap), {y[kMove], y[kTurn]}));
+  if (!solids.touches) put(kLogGap, fluid_force(fluid_.slopes(gap), {y[kMove], y[kTurn]}));
   at(kPosition, kMove) = 1;
   at(kAngle, kTurn) = 1;
 }

@@ -17,14 +17,14 @@ namespace viscontact::reduced_model {
 enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
 using RollingStateVector = std::array<double, kStates>;
 
-/// The solids between sphere and plane.
-struct Touching {
-  bool is_there = false;
+/// What the solids of sphere and plane do at present.
+struct SolidState {
+  bool touches = false;
   SolidContact contact = SolidContact::kNone;
   double sliding_direction = 0;  ///< the sign of the slip while the sphere slides
 };
 
-/// The right-hand side for the present Touching. `motion` and `fit` must outlive the object.
+/// The right-hand side for the present SolidState. `motion` and `fit` must outlive the object.
 class RollingEquation {
  public:
   /// Solids touch at the gap `contact_gap` [L]; 0: they never touch. Throws Error(kBadInput) if
@@ -48,7 +48,7 @@ class RollingEquation {
 
   double radius() const { return radius_; }
 
-  Touching touching;
+  SolidState solids;
 
  private:
   RollingForce free_force(std::span<const double> y) const;

@@ -70,6 +70,13 @@ EditedCase with_text(std::string_view from, std::string_view to) {
   return {text, line_at(text, at)};
 }
 
+std::string text_with(const std::string& path, std::string_view from, std::string_view to) {
+  auto text = read_file(path);
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("not in " + path + ": " + std::string(from));
+  return text.replace(at, from.size(), to);
+}
+
 Case read_text(const std::string& text) {
   const TemporaryFolder folder;
   return read_case(folder.file("case.toml", text));

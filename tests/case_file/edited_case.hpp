@@ -1,4 +1,4 @@
-// The lecture's case file with one thing changed.
+// The lecture's case file, or another one, with one thing changed.
 #pragma once
 
 #include <string>
@@ -35,6 +35,9 @@ EditedCase without_key(const LectureKey& key);
 
 /// With `from` (there once) replaced by `to`; the line is where that begins.
 EditedCase with_text(std::string_view from, std::string_view to);
+
+/// The text of a case file with the first `from` replaced by `to`.
+std::string text_with(const std::string& path, std::string_view from, std::string_view to);
 
 /// Reads a case from a file of that text in a folder of its own.
 Case read_text(const std::string& text);

@@ -8,9 +8,9 @@
 #include <ostream>
 #include <string>
 
+#include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/common/files/file.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -26,10 +26,7 @@ class RollingCaseFile : public ::testing::Test {
  protected:
   /// The shipped case with one text replaced by another one.
   RollingCase changed(const std::string& from, const std::string& to) const {
-    auto text = read_file(kIncline);
-    const auto at = text.find(from);
-    if (at == std::string::npos) throw std::logic_error("the case has no " + from);
-    return read_rolling_case(folder_.file("case.toml", text.replace(at, from.size(), to)));
+    return read_rolling_case(folder_.file("case.toml", text_with(kIncline, from, to)));
   }
   TemporaryFolder folder_;
 };

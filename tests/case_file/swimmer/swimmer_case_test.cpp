@@ -8,9 +8,9 @@
 #include <ostream>
 #include <string>
 
+#include "tests/case_file/edited_case.hpp"
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
-#include "viscontact/common/files/file.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -27,10 +27,7 @@ class SwimmerCaseFile : public ::testing::Test {
  protected:
   /// The shipped case with one text replaced by another one.
   SwimmerCase changed(const std::string& from, const std::string& to) const {
-    auto text = read_file(kCase);
-    const auto at = text.find(from);
-    if (at == std::string::npos) throw std::logic_error("the case has no " + from);
-    return read_swimmer_case(folder_.file("case.toml", text.replace(at, from.size(), to)));
+    return read_swimmer_case(folder_.file("case.toml", text_with(kCase, from, to)));
   }
   TemporaryFolder folder_;
 };
