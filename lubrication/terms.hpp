@@ -47,9 +47,8 @@ std::span<const Term> all_terms();
 std::optional<Term> find_term(std::string_view name);
 
 /// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
-/// terms, in the same order; a term of weight 0 is not evaluated. The functions below do the same for
-/// the other two formulas. They are fast enough for inner loops: they take one logarithm and call no
-/// function pointer.
+/// terms, in the same order; a term of weight 0 is not evaluated. This function and the two below
+/// are fast enough for inner loops: they take one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
 /// Sum of weight * log_slope over all_terms(), as sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);
