@@ -22,7 +22,7 @@ namespace viscontact::case_file {
 
 /// How the drag is fitted, or what replaces tabulation and fit.
 struct FitRequest {
-  fitting::FitSettings settings;
+  fitting::FitSettings settings;  ///< how the table is fitted; not used with `file` or `exact`
   /// A fit file that replaces tabulation and fit.
   std::optional<std::filesystem::path> file;
   lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
@@ -33,7 +33,7 @@ struct FitRequest {
 /// A minimal gap from the literature, shown beside the computed ones.
 struct PublishedGap {
   double minimal_gap = 0;  ///< [L], > 0
-  std::string source;
+  std::string source;      ///< where it was published, in words for the report
 };
 
 /// What `viscontact sweep` varies. Options on its command line replace these values.
@@ -41,27 +41,29 @@ struct SweepRequest {
   std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
   std::vector<std::string> models;  ///< names; empty: the default of the command
   std::string reference;            ///< a model; empty: the default of the command
-  std::string x, y;                 ///< keys on the axes of the plot; may be empty
+  std::string x;                    ///< key of the horizontal axis of the plot; may be empty
+  std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
   std::vector<std::string> plot;    ///< columns to draw
   std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
 };
 
+/// What a case file says, checked.
 struct Case {
-  std::string title;
+  std::string title;     ///< for the report; may be empty
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double radius = 0;     ///< r [L], > 0
   std::string text;      ///< content of the file
   // Each of these parts exists only if the file has its section. A command that needs a part calls
   // a required_... function below.
-  std::optional<freefem_axi::Tabulation> tabulation;
-  std::optional<FitRequest> fit;
+  std::optional<freefem_axi::Tabulation> tabulation;  ///< [tabulation]
+  std::optional<FitRequest> fit;                      ///< [fit]
   std::optional<reduced_model::Motion>
       motion;  ///< with the settings of the models, or their defaults
   /// Names of the models to run; empty: the default models of the registry.
   std::vector<std::string> models;
-  std::optional<PublishedGap> published;
-  std::optional<SweepRequest> sweep;
-  std::filesystem::path path;
+  std::optional<PublishedGap> published;           ///< [published]
+  std::optional<SweepRequest> sweep;               ///< [sweep]
+  std::filesystem::path path;                      ///< the case file, as read_case() was given it
   std::vector<std::filesystem::path> force_files;  ///< files from which the external force was read
 };
 
@@ -86,10 +88,12 @@ class CaseTemplate {
   TomlSection root_;
 };
 
-/// The parts of a case that a command needs. Throws Error(kBadInput), which names the missing
-/// section.
+/// The tabulation of a case. Throws Error(kBadInput), which names the missing section, if there is
+/// none; so do the functions below.
 const freefem_axi::Tabulation& required_tabulation(const Case& c);
+/// The fit of a case, or what replaces it.
 const FitRequest& required_fit(const Case& c);
+/// The motion of a case.
 const reduced_model::Motion& required_motion(const Case& c);
 
 }  // namespace viscontact::case_file

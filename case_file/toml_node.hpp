@@ -12,12 +12,13 @@
 
 namespace viscontact::case_file {
 
+/// A table, where it stands, and which of its keys were asked for.
 struct TomlSection::Node {
-  std::shared_ptr<const toml::table> root;  // keeps `table` alive
-  const toml::table* table = nullptr;
-  std::string file;
-  std::string path;             // "tabulation.container"; empty for the root
-  std::set<std::string> asked;  // keys that were asked for
+  std::shared_ptr<const toml::table> root;  ///< keeps `table` alive
+  const toml::table* table = nullptr;       ///< the table of this section, in `root`
+  std::string file;                         ///< name of the file in messages
+  std::string path;                         ///< "tabulation.container"; empty for the root
+  std::set<std::string> asked;              ///< keys that were asked for
 };
 
 }  // namespace viscontact::case_file

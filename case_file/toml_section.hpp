@@ -38,6 +38,7 @@ class TomlSection {
   /// value.
   std::string as_toml() const;
 
+  /// True if the key exists. The key then counts as asked for (finish).
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;   ///< the key exists and its value is a text
   bool is_array(std::string_view key) const;  ///< the key exists and its value is an array
@@ -46,10 +47,11 @@ class TomlSection {
   /// True if the key exists and its value is an array whose first element is a table.
   bool is_array_of_tables(std::string_view key) const;
 
+  /// A finite number, decimal or integer, that is `allowed`.
   double number(std::string_view key, const Allowed& allowed) const;
   int count(std::string_view key, int least, int most) const;  ///< an integer in [least, most]
-  std::string text(std::string_view key) const;
-  bool truth(std::string_view key) const;  ///< true or false
+  std::string text(std::string_view key) const;                ///< a text, which may be empty
+  bool truth(std::string_view key) const;                      ///< true or false
   /// An array of `count` values, each true or false.
   std::vector<bool> truths(std::string_view key, std::size_t count) const;
   /// An array of at least one number.
@@ -58,7 +60,7 @@ class TomlSection {
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns,
                                         const Allowed& allowed) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of at least one text
-  TomlSection section(std::string_view key) const;
+  TomlSection section(std::string_view key) const;             ///< a table inside this one
   /// An array of at least one table.
   std::vector<TomlSection> sections(std::string_view key) const;
 

@@ -12,13 +12,16 @@
 
 namespace viscontact::case_file {
 
-// Squares and cubes of numbers within these bounds, and of their inverses, are finite and not 0.
+/// Squares and cubes of numbers within this bound, and of their inverses, are finite and not 0.
 inline constexpr double kLargestNumber = 1e100;
+/// A number whose magnitude is within the bound.
 inline constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargestNumber; },
                                       "at most 1e100 in magnitude"};
+/// A number > 0 that is within the bound, and its inverse, too.
 inline constexpr Allowed kModeratelyPositive = {
     [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
     "from 1e-100 to 1e100"};
+/// The same, or 0.
 inline constexpr Allowed kModeratelyPositiveOr0 = {
     [](double v) { return v == 0 || (v >= 1 / kLargestNumber && v <= kLargestNumber); },
     "0, or from 1e-100 to 1e100"};

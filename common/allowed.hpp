@@ -7,13 +7,17 @@ namespace viscontact {
 
 /// A test of a number, and words that complete the sentence "it must be a number ...".
 struct Allowed {
-  bool (*test)(double value);
-  std::string_view words;
+  bool (*test)(double value);  ///< true if the value is allowed; it is asked of finite values only
+  std::string_view words;      ///< such as "> 0"
 };
 
+/// A number greater than 0.
 inline constexpr Allowed kPositive = {[](double v) { return v > 0; }, "> 0"};
+/// A number that is 0 or greater.
 inline constexpr Allowed kNotNegative = {[](double v) { return v >= 0; }, ">= 0"};
+/// A positive or negative number.
 inline constexpr Allowed kNotZero = {[](double v) { return v != 0; }, "different from 0"};
+/// Any number. Readers of files refuse NaN and infinity before they ask.
 inline constexpr Allowed kFinite = {[](double) { return true; }, "of finite value"};
 
 }  // namespace viscontact

@@ -26,8 +26,10 @@ enum class ErrorKind {
 /// what is allowed or what to do".
 class Error : public std::runtime_error {
  public:
+  /// `message` is what() of the error, in the form above.
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  ErrorKind kind() const { return kind_; }
+
+  ErrorKind kind() const { return kind_; }  ///< decides on the exit code
 
  private:
   ErrorKind kind_;
@@ -47,8 +49,8 @@ auto with_place(const std::string& place, const Call& call) {
 
 /// A position in an input file. `line` is 0 for the file as a whole.
 struct FilePosition {
-  std::string file;
-  int line = 0;
+  std::string file;  ///< its path, as the user gave it
+  int line = 0;      ///< counted from 1
 };
 
 /// Throws Error(kBadInput) with the message "FILE:LINE: message".

@@ -1,8 +1,13 @@
 // Finds rows by name in the tables of geometries, bases, terms and models. Each row of a table has
 // a member `name`.
+//
+// The row that find_named and require_named return belongs to the table. Therefore they take a
+// table that outlives the call, or a view of one (std::span), but no temporary container: that call
+// does not compile.
 #pragma once
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <string_view>
 
@@ -19,18 +24,18 @@ std::string names_of(const Table& table, const char* separator = ", ") {
 }
 
 /// The row with this name, or nullptr.
-template <class Table>
-auto find_named(const Table& table, std::string_view name) -> decltype(&*table.begin()) {
+template <std::ranges::borrowed_range Table>
+auto find_named(Table&& table, std::string_view name) -> decltype(&*table.begin()) {
   const auto found = std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });
   return found == table.end() ? nullptr : &*found;
 }
 
 /// The row with this name. Throws Error(kBadInput), which lists all names, if there is none; `kind`
 /// is the word for a row in the message.
-template <class Table>
-const auto& require_named(const Table& table, std::string_view name, const std::string& kind) {
+template <std::ranges::borrowed_range Table>
+const auto& require_named(Table&& table, std::string_view name, std::string_view kind) {
   if (const auto* row = find_named(table, name)) return *row;
-  throw Error(ErrorKind::kBadInput, "no " + kind + " is named '" + std::string(name) +
+  throw Error(ErrorKind::kBadInput, "no " + std::string(kind) + " is named '" + std::string(name) +
                                         "'; there are: " + names_of(table));
 }
 

@@ -13,17 +13,19 @@ namespace viscontact {
 class OptionalDouble {
  public:
   constexpr OptionalDouble() = default;
+  /// `value` must not be NaN, which would be a missing value.
   // The conversion is implicit, as in std::optional.
   // NOLINTNEXTLINE(google-explicit-constructor)
   constexpr OptionalDouble(double value) : value_(value) {}
 
-  bool has_value() const { return !std::isnan(value_); }
-  explicit operator bool() const { return has_value(); }
+  bool has_value() const { return !std::isnan(value_); }  ///< false if the value is missing
+  explicit operator bool() const { return has_value(); }  ///< same as has_value()
+  /// The value, which must not be missing (asserted).
   double operator*() const {
     assert(has_value());
     return value_;
   }
-  double value() const { return **this; }
+  double value() const { return **this; }  ///< same as operator*
 
   /// True if both values are equal or both are missing.
   friend bool operator==(const OptionalDouble& a, const OptionalDouble& b) {

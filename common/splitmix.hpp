@@ -25,8 +25,10 @@ inline double unit_interval_of(std::uint64_t bits) {
 /// A sequence of random numbers. Equal seeds give equal sequences.
 class SplitMix64 {
  public:
+  /// Every seed is allowed, also 0.
   explicit SplitMix64(std::uint64_t seed) : state_(splitmix_hash(seed)) {}
 
+  /// The next 64 random bits. All other numbers are made from them.
   std::uint64_t next() {
     const std::uint64_t bits = splitmix_hash(state_);
     state_ += 0x9e3779b97f4a7c15ULL;

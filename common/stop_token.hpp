@@ -14,8 +14,10 @@ namespace viscontact {
 class StopToken {
  public:
   StopToken() = default;
+  /// A view of `flag`, which requests a stop while it is true.
   explicit StopToken(const std::atomic<bool>& flag) : flag_(&flag) {}
 
+  /// True if the flag requests a stop. It may be called on any thread.
   bool stop_requested() const { return flag_ != nullptr && *flag_; }
 
   /// Throws Error(kInterrupted) if stop_requested().

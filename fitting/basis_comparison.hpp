@@ -14,9 +14,9 @@ namespace viscontact::fitting {
 
 /// A fit in one basis, or the reason why there is none.
 struct BasisResult {
-  std::string basis;
-  std::optional<lubrication::Fit> fit{};
-  std::string failure;  ///< message of the error if there is no fit
+  std::string basis;                      ///< its name, or its terms separated by commas
+  std::optional<lubrication::Fit> fit{};  ///< nothing if the basis failed
+  std::string failure;                    ///< message of the error if there is no fit
 };
 
 /// Fits the table in every named basis, and in that of `settings` if it is a list of terms. All

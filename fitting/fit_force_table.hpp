@@ -15,9 +15,10 @@ namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  lubrication::Basis basis = lubrication::default_basis();
-  lubrication::Weights weights = lubrication::Weights::kRelative;
-  lubrication::Loss loss = lubrication::Loss::kSquared;
+  lubrication::Basis basis =
+      lubrication::default_basis();  ///< terms that are combined, at least one
+  lubrication::Weights weights = lubrication::Weights::kRelative;  ///< what each residual counts
+  lubrication::Loss loss = lubrication::Loss::kSquared;            ///< how large residuals count
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
   /// (ForceTable::leading_coefficient).
   bool fix_leading = false;
@@ -27,6 +28,7 @@ struct FitSettings {
   /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2];
   /// empty: the forces.
   std::vector<double> row_scales{};
+  /// What the fitted function must be like; a fit that is not is refused.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 

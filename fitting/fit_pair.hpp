@@ -14,13 +14,16 @@ namespace viscontact::fitting {
 
 /// The tables of one pair, at least one of them.
 struct PairTables {
-  std::optional<lubrication::ForceTable> approach;
-  std::optional<lubrication::MotionTable> slide, roll, spin;
+  std::optional<lubrication::ForceTable> approach;  ///< forces F_z of motion along the axis
+  std::optional<lubrication::MotionTable> slide;    ///< of motion across the axis
+  std::optional<lubrication::MotionTable> roll;     ///< of rotation about a line across the axis
+  std::optional<lubrication::MotionTable> spin;     ///< of rotation about the axis
 };
 
+/// The choices of the fits of a pair, the same for all entries.
 struct PairFitSettings {
-  std::string basis{lubrication::kDefaultPairBasis};  ///< one of pair_bases()
-  lubrication::Loss loss = lubrication::Loss::kSquared;
+  std::string basis{lubrication::kDefaultPairBasis};     ///< one of pair_bases()
+  lubrication::Loss loss = lubrication::Loss::kSquared;  ///< how large residuals count
 };
 
 /// Fits the entries that the tables contain. Residuals of slide_roll are relative to the geometric

@@ -8,7 +8,7 @@ namespace viscontact::fitting {
 
 /// The solution x of a least squares problem, with its uncertainty.
 struct LeastSquaresSolution {
-  Eigen::VectorXd coefficients;
+  Eigen::VectorXd coefficients;  ///< x; the unit of entry i is that of b over that of column i
   /// Covariance of the coefficients, with the variance s^2 = |A x - b|^2/(rows - columns) of the
   /// residuals; zero if rows == columns.
   Eigen::MatrixXd covariance;

@@ -21,6 +21,7 @@ struct Tube {
   std::optional<double> height{};
 };
 
+/// The inputs of a table of resistance matrices R.
 struct CollinearSpheres {
   double viscosity = 0;          ///< mu [M/(L T)], > 0
   std::vector<double> radii;     ///< along the line [L], 2 to 10 of them, > 0

@@ -14,8 +14,9 @@ namespace viscontact::freefem_axi {
 /// The rows are in the order of the table: for each velocity, the gaps in the given order.
 TablePlan force_table_plan(const Tabulation& tabulation);
 
-/// A row of the table as the journal stores it, and back.
+/// A row of the table as the journal stores it.
 FinishedRow finished_row(const lubrication::ForceTableRow& row, const std::string& freefem_version);
+/// The row of the table that the journal has stored: the inverse of finished_row().
 lubrication::ForceTableRow force_row(const FinishedRow& finished);
 
 /// The table of all rows. No row may be missing in the record.

@@ -19,19 +19,20 @@ enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 struct CurvedMesh {
   /// Three vertices, then the mid-side nodes opposite to them.
   using Triangle = std::array<std::size_t, 6>;
+  /// A curved edge of the boundary.
   struct Edge {
-    BoundaryKind kind = BoundaryKind::kWall;
-    std::array<std::size_t, 3> nodes{};  ///< both ends, then the mid-side node
+    BoundaryKind kind = BoundaryKind::kWall;  ///< what the edge bounds
+    std::array<std::size_t, 3> nodes{};       ///< both ends, then the mid-side node
   };
 
-  std::vector<std::array<double, 2>> nodes;
-  std::vector<Triangle> triangles;
-  std::vector<Edge> boundary;
+  std::vector<std::array<double, 2>> nodes;  ///< (rho, z) [L]
+  std::vector<Triangle> triangles;           ///< numbers of nodes, from 0
+  std::vector<Edge> boundary;                ///< edges of the boundary, and interfaces
 };
 
 /// The flow at the nodes of a mesh.
 struct Flow {
-  CurvedMesh mesh;
+  CurvedMesh mesh;                              ///< of the whole fluid
   std::vector<std::array<double, 2>> velocity;  ///< (u_rho, u_z) [L/T]
   /// [M/(L T^2)]; its mean is 0 in a container, and it is 0 far away in unbounded fluid.
   std::vector<double> pressure;
@@ -46,8 +47,8 @@ struct Flow {
 
 /// A row with what a picture shows of it.
 struct RowPicture {
-  lubrication::MotionKind motion = lubrication::MotionKind::kApproach;
-  double gap = 0;                 ///< q [L]
+  lubrication::MotionKind motion = lubrication::MotionKind::kApproach;  ///< of the sphere
+  double gap = 0;                                                       ///< q [L]
   double reference_velocity = 0;  ///< u0 [L/T], or w0 [1/T] of a sphere that turns
   Flow flow;                      ///< on the finest mesh
   /// The mesh that the finest mesh was made from, by repeated division of triangles into four.

@@ -16,7 +16,8 @@ namespace viscontact::freefem_axi {
 
 /// A closed no-slip cylinder on the axis [L].
 struct Container {
-  double radius = 0, height = 0;
+  double radius = 0;  ///< of the cylinder [L], > 0
+  double height = 0;  ///< distance of its ends [L], > 0
 };
 
 /// The inputs of a table of F_lub over a grid of gaps and velocities, for a sphere and its

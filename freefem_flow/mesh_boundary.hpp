@@ -11,21 +11,26 @@
 
 namespace viscontact::freefem_flow {
 
-/// Labels of curves. Walls have those of the protocol: a box 1 left, 2 right, 3 bottom, 4 top; a
-/// disc 1; a cylinder 1 side, 2 floor, 3 lid. A curve with kInsideLabel is inside a particle and bounds
-/// nothing.
-inline constexpr int kAxisLabel = 5, kInsideLabel = 8, kPeriodicLabel = 9,
-                     kFirstParticleLabel = 100;
+/// Label of the axis of a cylinder. Walls have the labels of the protocol: a box 1 left, 2 right,
+/// 3 bottom, 4 top; a disc 1; a cylinder 1 side, 2 floor, 3 lid.
+inline constexpr int kAxisLabel = 5;
+/// Label of a curve inside a particle, which bounds nothing.
+inline constexpr int kInsideLabel = 8;
+/// Label of the sides that are periodic images of each other.
+inline constexpr int kPeriodicLabel = 9;
+/// Label of the surface of particle 0; that of particle k is larger by k.
+inline constexpr int kFirstParticleLabel = 100;
 
 /// Curves, each a chain of straight edges. The fluid is on the left of each outer curve.
 struct MeshBoundary {
+  /// A chain of edges between points that follow each other.
   struct Curve {
     int first = 0;  ///< the curve goes through the points first, first + 1, ..., first + edges
-    int edges = 0;
-    int label = 0;
+    int edges = 0;  ///< number of edges, > 0
+    int label = 0;  ///< one of the labels above
   };
-  std::vector<std::array<double, 2>> points;
-  std::vector<Curve> curves;
+  std::vector<std::array<double, 2>> points;  ///< (x, y), or (distance from the axis, z) [L]
+  std::vector<Curve> curves;                  ///< they may share points
 };
 
 /// The boundary of a mesh for these particles, whose gaps must be greater than 0. With a fitted

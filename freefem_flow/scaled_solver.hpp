@@ -24,9 +24,11 @@ struct SolverUnits {
 SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
                          std::span<const double> radii);
 
-// The same things with numbers in the units of the solver.
+/// The fluid with its numbers in the units of the solver.
 particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
+/// The domain with its lengths and velocities in the units of the solver.
 particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
+/// The lengths [L] in the unit of the solver.
 std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
 
 /// Passes questions in the units of the case to a solver in units of its own.
@@ -36,12 +38,21 @@ class ScaledSolver : public particles::FluidSolver {
   ScaledSolver(const SolverUnits& units, int dimension,
                std::unique_ptr<particles::FluidSolver> solver);
 
+  // Arguments and results are in the units of the case. The errors are those of FluidSolver.
+
+  /// Takes new places of the particles.
   void place(const particles::FluidParticles& bodies) override;
+  /// The velocities under `forces`; with `driving`, walls and driven particles move.
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  /// Quantities of the last velocities(forces, true).
   particles::FlowQuantities quantities() override;
+  /// The velocities of velocities(forces, true) from two meshes, with their error.
   particles::EstimatedVelocities estimate(std::span<const double> forces) override;
+  /// Velocity and pressure of the last velocities(forces, true).
   particles::FlowField flow() override;
+  /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const override { return solver_->unknowns(); }
+  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
 
  private:

@@ -45,7 +45,7 @@ struct ForceTable {
   std::optional<double> leading_coefficient{};
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
-  std::vector<ForceTableRow> rows;
+  std::vector<ForceTableRow> rows;              ///< at least one
 };
 
 /// Reads a table. The columns gap, reference_velocity and force are required; the others may be

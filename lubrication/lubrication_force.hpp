@@ -36,8 +36,8 @@ enum class AboveInterval {
 
 /// What the force is outside the fitted interval.
 struct OutsideInterval {
-  BelowInterval below = BelowInterval::kError;
-  AboveInterval above = AboveInterval::kError;
+  BelowInterval below = BelowInterval::kError;  ///< at gaps in (0, q1)
+  AboveInterval above = AboveInterval::kError;  ///< at gaps > q2
 
   /// The same with kLubricationLimit or kStokesLimit in place of kError.
   OutsideInterval with_limits() const;

@@ -18,8 +18,9 @@ struct Formula {
   /// the same from it. The numbers must therefore be exact in single precision, because Fortran
   /// reads them so.
   std::string_view text;
-  double (*at)(double gap, double log_gap);
+  double (*at)(double gap, double log_gap);  ///< the value at q = gap > 0 and l = log_gap
 
+  /// The value at the gap q > 0.
   double operator()(double gap) const { return at(gap, std::log(gap)); }
 };
 
@@ -28,8 +29,8 @@ struct Formula {
 /// of ln q and q ln q are added. A coefficient has the dimension [M L/T^2] of a force over that of
 /// phi.
 struct Term {
-  std::string_view name;
-  Formula value;  ///< phi(q)
+  std::string_view name;  ///< as fit files and `--terms` give it: "q ln q"
+  Formula value;          ///< phi(q)
   /// q phi'(q) = d phi/d ln q: the derivative in a form that does not overflow near contact.
   Formula log_slope;
   /// A primitive of phi. Gamma is a sum of these.
@@ -45,12 +46,13 @@ std::span<const Term> all_terms();
 /// The term with this name, or nothing if there is none.
 std::optional<Term> find_term(std::string_view name);
 
-/// Sum of weight * value over all_terms(). `weights` has an entry for each of these terms, in the
-/// same order; a term of weight 0 is not evaluated. The functions below do the same for the other
-/// two formulas. They are fast enough for inner loops: they take one logarithm and call no function
-/// pointer.
+/// Sum of weight * value over all_terms() at a gap > 0. `weights` has an entry for each of these
+/// terms, in the same order; a term of weight 0 is not evaluated. This function and the two below
+/// are fast enough for inner loops: they take one logarithm and call no function pointer.
 double sum_values(std::span<const double> weights, double gap);
+/// Sum of weight * log_slope over all_terms(), as sum_values().
 double sum_log_slopes(std::span<const double> weights, double gap);
+/// Sum of weight * antiderivative over all_terms(), as sum_values().
 double sum_antiderivatives(std::span<const double> weights, double gap);
 
 /// The index of the term in all_terms(). Throws Error(kBadInput) if no term has this name.
@@ -58,8 +60,8 @@ std::size_t place_of(std::string_view term);
 
 /// A named list of terms.
 struct Basis {
-  std::string_view name;
-  std::vector<Term> terms;
+  std::string_view name;    ///< one of all_bases(), or kOwnTerms
+  std::vector<Term> terms;  ///< at least one, none of them twice
 };
 
 /// The name of a basis that a user gives as a list of terms.

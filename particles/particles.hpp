@@ -42,12 +42,15 @@ struct Particles {
   /// Rigid bodies of several particles. The case gives them; the restart file stores their motion.
   RigidBodies bodies{};
 
-  std::size_t count() const { return radii.size(); }
+  std::size_t count() const { return radii.size(); }         ///< number of particles
   bool turn() const { return !angular_velocities.empty(); }  ///< whether rotation matters
+  /// Name of particle k < count() in files.
   std::int32_t id(std::size_t k) const {
     return ids.empty() ? static_cast<std::int32_t>(k) : ids[k];
   }
+  /// Centre of particle k < count() [L].
   Vector position(std::size_t k) const { return point_of(positions.data(), k, dimension); }
+  /// Velocity of particle k < count() [L/T].
   Vector velocity(std::size_t k) const { return point_of(velocities.data(), k, dimension); }
 };
 

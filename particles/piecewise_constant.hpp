@@ -11,11 +11,12 @@ namespace viscontact::particles {
 /// Pieces in order of time. The first piece begins at time 0, each other piece where the piece
 /// before it ends. The value is 0 after the last piece.
 struct PiecewiseConstant {
+  /// A time until which the vector is constant, and its value.
   struct Piece {
     double until;  ///< end of the piece [T], > that of the piece before
-    Vector value;
+    Vector value;  ///< in the unit of the vector
   };
-  std::vector<Piece> pieces;
+  std::vector<Piece> pieces;  ///< empty: the vector is 0 at all times
 
   /// Integral from time 0 to t >= 0 [T].
   Vector integral(double t) const;

@@ -10,6 +10,7 @@
 
 namespace viscontact::particles {
 
+/// The components w, x, y, z of a quaternion. A rotation has w^2 + x^2 + y^2 + z^2 = 1.
 using Quaternion = std::array<double, 4>;
 
 /// The orientation that `from` has after a rotation by |turn| [rad] about the vector `turn`, which

@@ -39,20 +39,20 @@ enum class Scheme {
 /// What moves the particles, and how their motion is computed. A case file's values are checked
 /// when it is read. The keys of the maps must be numbers of existing particles.
 struct Setting {
-  std::vector<Plane> planes;
+  std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
   /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
   Domain domain;
   Vector gravity{};  ///< acceleration, on all particles [L/T^2]
   /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
   std::map<std::int32_t, PiecewiseConstant> forces;
-  ContactLaw law;
+  ContactLaw law;  ///< of each pair: how strong the film may pull, and what the solids do
   /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
   std::optional<FrictionLaw> friction;
   Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
   double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
-  SolverSettings solver;
-  std::optional<Fluid> fluid;  ///< around the particles; needs a domain
+  SolverSettings solver;           ///< tolerances and limits of the projection
+  std::optional<Fluid> fluid;      ///< around the particles; needs a domain
   /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
   /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
@@ -67,9 +67,11 @@ struct FluidStepReport {
   /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
   double apparent_viscosity = 0;
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Estimate of the relative error of the velocities, extrapolated and of one mesh, and the part of
-  /// both that is the error of the penalty; < 0 if it was not made in this step.
-  double velocity_error = -1, velocity_error_of_one_mesh = -1, velocity_error_of_penalty = -1;
+  /// Estimate of the relative error of the extrapolated velocities. This and the two numbers below
+  /// are < 0 if they were not estimated in this step.
+  double velocity_error = -1;
+  double velocity_error_of_one_mesh = -1;  ///< the same for the velocities of one mesh
+  double velocity_error_of_penalty = -1;   ///< the part of both that is the error of the penalty
 };
 
 /// What is recorded of one step.
@@ -127,8 +129,8 @@ class Simulation {
   /// that move past each other by up to 256 radii in a step.
   static constexpr int kMostHalvings = 8;
 
-  const State& state() const { return state_; }
-  const Setting& setting() const { return setting_; }
+  const State& state() const { return state_; }        ///< after the last step
+  const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
   /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
   /// state are those at an earlier time (State::velocity_lag); particles and bodies without links and

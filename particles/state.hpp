@@ -33,12 +33,13 @@ struct Pair {
   double carried = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
+  /// True if all members are equal, bit for bit.
   bool operator==(const Pair&) const = default;
 };
 
 /// A new simulation needs only `particles`; all other members then keep their defaults.
 struct State {
-  Particles particles;
+  Particles particles;     ///< where they are and how they move
   double time = 0;         ///< [T]
   std::int64_t steps = 0;  ///< number of steps done
   /// The velocities are those at the time `time` - velocity_lag [T], >= 0; 0 unless the scheme is
@@ -47,7 +48,7 @@ struct State {
   /// Step n ends at time grid_time + (n - grid_step) h. Both numbers are 0 until a step is cut
   /// short or a restart changes h; they are then the time and the number of that step.
   double grid_time = 0;
-  std::int64_t grid_step = 0;
+  std::int64_t grid_step = 0;  ///< number of the step that ended at grid_time
   /// Pairs of particles that may touch soon, in order of first, second, image.
   std::vector<Pair> pairs;
   std::vector<Pair> walls;  ///< particles at planes, in order of plane, particle

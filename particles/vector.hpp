@@ -13,19 +13,25 @@ namespace viscontact::particles {
 /// first, along the axis, is not 0.
 using Vector = std::array<double, 3>;
 
+/// Inner product.
 inline double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+/// Sum.
 inline Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
+/// Difference.
 inline Vector operator-(const Vector& a, const Vector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
+/// Product of a number and a vector.
 inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
+/// Vector product. That of two vectors of the plane is along the third axis.
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+/// Length, without a guard against overflow of its square.
 inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
 
 /// Vector k of a flat array with `dimension` (1, 2 or 3) numbers for each vector.

@@ -17,7 +17,7 @@ namespace viscontact::reduced_model {
 
 /// What the comparison finds for one trajectory.
 struct ModelComparison {
-  std::string model;
+  std::string model;            ///< its name
   double minimal_gap = 0;       ///< smallest gap of the rows [L]
   double minimal_gap_time = 0;  ///< time of the first row with this gap [T]
   /// Film thickness recovered from gamma at its lowest [L]; contact models only.
@@ -36,12 +36,13 @@ struct ModelComparison {
 
 /// A model that should have run but failed.
 struct ModelWithoutTrajectory {
-  std::string model;
-  std::string reason;
+  std::string model;   ///< its name
+  std::string reason;  ///< message of its error
 };
 
+/// The comparison of all models with one of them.
 struct Comparison {
-  std::string reference_model;
+  std::string reference_model;                          ///< the name of that one
   std::vector<ModelComparison> models;                  ///< in the order of the trajectories
   std::vector<ModelWithoutTrajectory> failed_models{};  ///< filled in by the caller
 };

@@ -11,8 +11,9 @@ namespace viscontact::reduced_model {
 
 struct Motion;
 
-/// The parts SECTION and NAME of a key SECTION.NAME in the case file.
+/// The part SECTION of a key SECTION.NAME in the case file.
 constexpr std::string_view section_of(std::string_view key) { return key.substr(0, key.find('.')); }
+/// The part NAME of a key SECTION.NAME in the case file.
 constexpr std::string_view name_of(std::string_view key) { return key.substr(key.find('.') + 1); }
 
 /// A parameter of a model of motion, or of several models. A model lists its parameters in its row
@@ -28,8 +29,8 @@ struct ModelParameter {
   /// True for a time step: it is at most Motion::end_time, and motion.time_scale stretches it.
   bool is_time_step = false;
 
-  constexpr std::string_view section() const { return section_of(key); }
-  constexpr std::string_view name() const { return name_of(key); }
+  constexpr std::string_view section() const { return section_of(key); }  ///< SECTION of `key`
+  constexpr std::string_view name() const { return name_of(key); }        ///< NAME of `key`
 };
 
 }  // namespace viscontact::reduced_model

@@ -22,15 +22,22 @@ namespace viscontact::reduced_model {
 /// the rows, with an error of second order in their spacing, and external_work is set so that the
 /// works are balanced.
 struct MomentumEnergyBudget {
-  double external_impulse = 0, film_impulse = 0, drag_impulse = 0, solid_impulse = 0;
-  double external_work = 0, film_work = 0, drag_work = 0, solid_work = 0;
+  double external_impulse = 0;  ///< of the external force [M L/T]
+  double film_impulse = 0;   ///< of the film: of gamma in contact models, else of the drag [M L/T]
+  double drag_impulse = 0;   ///< of the drag that contact models resolve outside contact [M L/T]
+  double solid_impulse = 0;  ///< of the solid contact [M L/T], >= 0
+  double external_work = 0;  ///< of the external force [M L^2/T^2]
+  double film_work = 0;      ///< of the film [M L^2/T^2]
+  double drag_work = 0;      ///< of the resolved drag [M L^2/T^2], <= 0
+  double solid_work = 0;     ///< of the solid contact [M L^2/T^2], <= 0
 };
 
 /// An entry of the budget with its name in files.
 struct BudgetEntry {
-  std::string_view name;
-  double MomentumEnergyBudget::*value;
+  std::string_view name;                ///< column or key
+  double MomentumEnergyBudget::*value;  ///< the member with this name
 };
+/// All entries, in the order in which files list them.
 inline constexpr std::array kBudgetEntries = {
     BudgetEntry{"external_impulse", &MomentumEnergyBudget::external_impulse},
     BudgetEntry{"film_impulse", &MomentumEnergyBudget::film_impulse},

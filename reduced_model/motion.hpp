@@ -20,11 +20,11 @@ inline constexpr std::string_view kRoughnessKey = "viscous_contact.roughness";
 /// The motion of a sphere along the normal of a wall, problem (M) (physics.md (4.1)):
 /// m d^2q/dt^2 = F_lub(q, dq/dt) + f_ext(t), q(0) = q0, dq/dt(0) = v0.
 struct Motion {
-  double mass = 0;              ///< m [M], > 0
-  double initial_gap = 0;       ///< q0 [L], > 0
-  double initial_velocity = 0;  ///< v0 [L/T]
-  double end_time = 0;          ///< [T], > 0
-  ExternalForce external_force;
+  double mass = 0;               ///< m [M], > 0
+  double initial_gap = 0;        ///< q0 [L], > 0
+  double initial_velocity = 0;   ///< v0 [L/T]
+  double end_time = 0;           ///< [T], > 0
+  ExternalForce external_force;  ///< f_ext [M L/T^2], along the outward normal
 
   /// Heights r1, r2 of the roughness of sphere and wall [L], >= 0; smooth surfaces if both are 0.
   std::array<double, 2> roughness = {};
@@ -41,6 +41,7 @@ struct Motion {
 
   /// The value of a parameter. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
+  /// Sets a parameter. The value must be one that `which` allows, which is not checked here.
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
 

@@ -35,8 +35,8 @@ inline constexpr int kModelsRevision = 3;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
-  std::string model;
-  std::vector<TrajectoryRow> rows;
+  std::string model;                ///< its name
+  std::vector<TrajectoryRow> rows;  ///< in strictly increasing time, at least one
   /// Smallest thickness [L] of the film that gamma stands for; contact models only.
   std::optional<double> recovered_minimal_gap;
   /// First landing and last release (or end of the motion) [T]; contact models only.

@@ -13,11 +13,12 @@
 
 namespace viscontact::sweep {
 
+/// What identifies the rows of a sweep, and the functions that compute them.
 struct Rows {
   std::uint64_t size = 0;  ///< number of rows, > 0
   /// Names of the columns. The first `keys` columns identify the row; the last is `failure`.
   std::vector<std::string> columns;
-  std::size_t keys = 0;
+  std::size_t keys = 0;  ///< number of columns that identify the row
   /// The lines "# key: value" at the head of the file. Files with the same head and the same
   /// columns have the same rows.
   std::map<std::string, std::string> comments;

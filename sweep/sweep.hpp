@@ -18,10 +18,10 @@ namespace viscontact::sweep {
 
 /// What is computed at each point of a sweep.
 struct SweepPlan {
-  std::filesystem::path case_path;
+  std::filesystem::path case_path;  ///< the case whose keys are varied
   lubrication::Fit fit;  ///< each point multiplies it by its viscosity over that of the fit
-  lubrication::OutsideInterval outside;
-  std::vector<Variation> variations;  ///< at least one
+  lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
+  std::vector<Variation> variations;     ///< at least one
   /// Number of random points; 0: the whole grid.
   std::uint64_t samples = 0;
   /// Seed of the random points.
@@ -57,7 +57,7 @@ class Sweep {
   /// not read it or none of the models depends on it.
   explicit Sweep(SweepPlan plan);
 
-  const SweepPlan& plan() const { return plan_; }
+  const SweepPlan& plan() const { return plan_; }  ///< with `reference` filled in
 
   /// The values of the varied keys at a point, as the CSV fields with which its row begins.
   std::string key_fields(std::uint64_t index) const;

@@ -26,7 +26,7 @@ std::uint64_t write_sweep(
 
 /// How many points of a finished sweep have results, and why others have none.
 struct SweepOutcome {
-  std::uint64_t points = 0;
+  std::uint64_t points = 0;          ///< number of all points
   std::uint64_t without_result = 0;  ///< number of points at which everything failed
   /// Number of points with a failure and some results, for example of models that did not fail.
   std::uint64_t with_some_results = 0;

@@ -16,8 +16,9 @@
 
 namespace viscontact::sweep {
 
+/// What is computed at each point of a sweep.
 struct SwimmerSweepPlan {
-  std::filesystem::path case_path;
+  std::filesystem::path case_path;    ///< the case whose keys are varied
   lubrication::ResistanceFit fit;     ///< each point uses it with its own viscosity
   std::vector<Variation> variations;  ///< at least one
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid

@@ -16,9 +16,10 @@ struct Variation {
   std::string key;  ///< as in a case file: "fluid.viscosity"
   /// The values of a list; empty for a range.
   std::vector<double> values;
-  double first = 0, last = 0;
-  bool logarithmic = false;
-  std::uint64_t count = 0;  ///< number of values, >= 1
+  double first = 0;          ///< first value of a range, in the unit of the key
+  double last = 0;           ///< last value of a range, in the unit of the key
+  bool logarithmic = false;  ///< whether a range is a geometric progression
+  std::uint64_t count = 0;   ///< number of values, >= 1
 
   /// Value i, 0 <= i < count.
   double value(std::uint64_t i) const;
