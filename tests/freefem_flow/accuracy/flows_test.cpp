@@ -7,9 +7,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/freefem_flow/placed_flow.hpp"
+#include "tests/oracles/discs/reference_discs.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -75,19 +77,19 @@ TEST(Channel, PeriodicAlongItIsSheared) {
 }
 
 TEST(Channel, PeriodicWithOneDiscHasTheExactSpinAndViscosity) {
-  // docs/physics.md section 6: midway in Couette flow, k = 2/H = 0.5. A period of 8 widths is long
-  // enough: neighbours change the numbers by less than 1e-3.
-  const double width = 4, length = 32;
+  const auto exact = reference_discs(VISCONTACT_SOURCE_FOLDER, "sheared, 2a/H = 0.5, cell of 6 H");
+  const double width = exact.problem.size, length = exact.problem.length;
   for (const auto constraint : kConstraints) {
     auto fluid = fluid_with(24, constraint);
     fluid.boundary = LinearFlow{{0, 1, 0, 0}};
     // The disc crosses the side of the box.
     PlacedFlow flow(fluid, BoxDomain{{0, -width / 2}, {length, width / 2}, {true, false}},
                     {{0.3, 0}});
-    EXPECT_NEAR(flow.velocities()[2], -0.419573, 1e-3);
+    EXPECT_NEAR(flow.velocities()[2], exact.answer.spins[0], 1e-3);
     const auto quantities = flow.solver().quantities();
     const double area = width * length;
-    EXPECT_NEAR((quantities.dissipation / area - 1) * area / pi, 3.217261, 5e-3 * 3.217261);
+    const double added = exact.answer.added_dissipation;
+    EXPECT_NEAR(quantities.dissipation / area - 1, added, 5e-3 * added);
     EXPECT_NEAR(quantities.apparent_viscosity, quantities.dissipation / area, 1e-12);
   }
 }
@@ -122,30 +124,28 @@ TEST(RoundWall, ThatStrainsAConcentricDiscHasTheExactViscosity) {
   }
 }
 
-struct Lattice {
-  double area_fraction, drag, along_axes, along_diagonals;
-};
-
 TEST(SquareLattice, HasTheExactDragAndViscosities) {
-  // Drag over viscosity and mean velocity: Sangani & Acrivos 1982. Viscosities: docs/physics.md
-  // section 6.
-  for (const auto& [phi, drag, along_axes, along_diagonals] :
-       {Lattice{0.1, 24.83, 1.263338, 1.192224}, {0.3, 102.90, 2.53839, 1.598116}})
+  for (const std::string lattice : {"lattice 0.1", "lattice 0.3"})
     for (const auto constraint : kConstraints) {
-      SCOPED_TRACE(::testing::Message() << "area fraction " << phi);
+      SCOPED_TRACE(lattice);
+      const auto exact = [&](const std::string& what) {
+        return reference_discs(VISCONTACT_SOURCE_FOLDER, lattice + ", " + what);
+      };
       const BoxDomain cell = {{0, 0}, {1, 1}, {true, true}};
-      const std::vector<Body> disc = {{0.3, 0.9, std::sqrt(phi / pi)}};  // crosses the top
+      const double radius = exact("force").problem.discs.at(0).radius;
+      const std::vector<Body> disc = {{0.3, 0.9, radius}};  // crosses the top
       PlacedFlow pulled(fluid_with(24, constraint), cell, disc);
       // The mean velocity of the mixture is 0, so that the disc moves with minus that of the flow.
-      EXPECT_NEAR(1 / pulled.velocities({1, 0, 0})[0], drag, 5e-3 * drag);
+      const double mobility = exact("force").answer.velocities.at(0).real();
+      EXPECT_NEAR(pulled.velocities({1, 0, 0})[0], mobility, 5e-3 * mobility);
       for (const bool axes : {true, false}) {
         auto fluid = fluid_with(24, constraint);
         fluid.boundary = LinearFlow{axes ? std::array<double, 4>{1, 0, 0, -1}
                                          : std::array<double, 4>{0, 1, 1, 0}};
         PlacedFlow strained(fluid, cell, disc);
         strained.velocities();
-        const double exact = axes ? along_axes : along_diagonals;
-        EXPECT_NEAR(strained.solver().quantities().apparent_viscosity, exact, 5e-3 * exact);
+        const double viscosity = 1 + exact(axes ? "axes" : "diagonals").answer.added_dissipation;
+        EXPECT_NEAR(strained.solver().quantities().apparent_viscosity, viscosity, 5e-3 * viscosity);
       }
     }
 }
@@ -208,8 +208,8 @@ TEST(Inertia, AddsToTheResistance) {
   }
 }
 
-// Drag over 6 pi mu r U of a sphere on the axis of a closed cylinder of radius 5 and height 10,
-// bispherical solution plus regular fields that cancel it on side and lid, to 8 digits.
+// Drag over 6 pi mu r U of a sphere on the axis of a closed cylinder of radius 5 and height 10, from
+// data/reference/sphere_in_cylinder.csv.
 const std::map<double, double> kDragAtGap = {{0.1, 11.5022038}, {1, 2.24503189}, {4, 1.68919777}};
 
 TEST(Sphere, InAClosedCylinderHasTheExactDrag) {

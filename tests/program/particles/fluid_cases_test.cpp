@@ -91,18 +91,18 @@ TEST_F(ShippedFluidCase, TheLectureIsPushedToTheFloor) {
   EXPECT_NEAR(last("contacts.csv", 4), -203.5, 2);
 }
 
-// docs/physics.md (6.6): 1 + 2.039074 phi in an infinite channel. That of a cell twice as long as the
-// channel is high differs from it by 2e-4.
+// Exactly 1 + 2.0392276 phi in a cell of 2 H (data/reference/discs.csv, "sheared, 2a/H = 0.1").
 TEST_F(ShippedFluidCase, ADiscInAChannel) {
   auto text = cut("viscosity_channel", 0.01, 1);
   text = replaced_matches(text, "from = \\[-10.0", "from = [-20.0");
   text = replaced_matches(text, "to = \\[10.0", "to = [20.0");
   last_of(text);
   const double phi = std::acos(-1.0) / 800;
-  EXPECT_NEAR((last("steps.csv", kApparentViscosity) - 1) / phi, 2.039074, 1e-3);
+  EXPECT_NEAR((last("steps.csv", kApparentViscosity) - 1) / phi, 2.0392276, 1e-3);
 }
 
-// Square lattices (docs/viscosity.md), exact values 1.263338 and 1.192224.
+// Square lattices of the area fraction 0.1, exact values 1.263338 and 1.192224
+// (data/reference/discs.csv).
 TEST_F(ShippedFluidCase, Lattices) {
   last_of(cut("viscosity_lattice_axes", 0.01, 1));
   EXPECT_NEAR(last("steps.csv", kApparentViscosity), 1.263338, 1e-4);
