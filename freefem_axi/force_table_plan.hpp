@@ -18,7 +18,7 @@ TablePlan force_table_plan(const Tabulation& tabulation);
 FinishedRow finished_row(const lubrication::ForceTableRow& row, const std::string& freefem_version);
 lubrication::ForceTableRow force_row(const FinishedRow& finished);
 
-/// The table of all rows. No row may be missing in the record.
+/// The table of the finished rows. It names the failed ones.
 lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
 
 }  // namespace viscontact::freefem_axi
