@@ -175,6 +175,16 @@ void warn_of_shape(const lubrication::Fit& fit, lubrication::FittedShape shape,
   }
 }
 
+/// The names of the table's failed rows, of many only the first ones.
+std::string names_of_failed_rows(const lubrication::ForceTable& table) {
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> names;
+  for (const auto& [name, reason] : table.failed_rows)
+    if (names.size() < kNamed) names.push_back(name);
+  if (table.failed_rows.size() > kNamed) names.emplace_back("...");
+  return fmt::format("{}", fmt::join(names, "; "));
+}
+
 void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
@@ -223,6 +233,12 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
   if (fit.loss == lubrication::Loss::kSquared)
     d.information_criterion = information_criterion(system, d);
   if (fit.loss != lubrication::Loss::kSquared) d.outliers = outliers(table, system);
+  d.failed_rows = table.failed_rows.size();
+  if (d.failed_rows > 0)
+    d.warnings.push_back(
+        fmt::format("the table lacks {} of {} rows, which could not be computed ({}); the fit is "
+                    "that of the other rows",
+                    d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
   warn_of_coefficients(fit, d, d.warnings);
   // A formula that misses a row by more than a tenth does not describe lubrication theory. The

@@ -60,8 +60,12 @@ void check_gaps(const lubrication::ForceTable& table, const FitSettings& setting
       std::max<std::size_t>(2, settings.basis.terms.size() - (settings.fix_leading ? 1 : 0));
   if (gaps.size() < needed)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("the table has {} different gap(s); the basis {} needs at least {}",
-                            gaps.size(), settings.basis.name, needed));
+                fmt::format("the table has {} different gap(s); the basis {} needs at least {}{}",
+                            gaps.size(), settings.basis.name, needed,
+                            table.failed_rows.empty()
+                                ? ""
+                                : fmt::format("; {} of its rows could not be computed",
+                                              table.failed_rows.size())));
 }
 
 /// The equations of the least-squares problem, with a row for each row of the table.

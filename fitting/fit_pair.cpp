@@ -88,6 +88,7 @@ EntryTable diagonal_entry(const Pair& pair, const MotionTable& table) {
   const auto units = lubrication::action_units(table.motion, pair.viscosity, pair.radius);
   const double unit = slides ? units.force : units.torque;
   EntryTable entry = empty_table(pair);
+  entry.table.failed_rows = table.failed_rows;
   for (const auto& row : table.rows) {
     const double value = unit * (slides ? row.sphere.force : row.sphere.torque);
     add_row(entry, row.gap, value, value,
@@ -134,6 +135,7 @@ void check_symmetry(double gap, const Coupling& slide, const Coupling& roll) {
 EntryTable coupling_entry(const Pair& pair, const PairTables& tables) {
   EntryTable entry = empty_table(pair);
   const auto& first = tables.slide ? *tables.slide : *tables.roll;
+  entry.table.failed_rows = first.failed_rows;
   for (const auto& row : first.rows) {
     const auto one = coupling_of(first, row, pair);
     if (!tables.slide || !tables.roll) {
@@ -185,6 +187,7 @@ lubrication::PairFit fit_pair(const PairTables& tables, const PairFitSettings& s
   std::map<PairEntry, EntryTable> entries;
   if (tables.approach) {
     auto& squeeze = entries.emplace(PairEntry::kSqueeze, empty_table(pair)).first->second;
+    squeeze.table.failed_rows = tables.approach->failed_rows;
     for (const auto& row : tables.approach->rows) {
       const double value = -row.force / row.reference_velocity;
       add_row(squeeze, row.gap, value, value, row.relative_error_estimate);

@@ -5,8 +5,11 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <sstream>
+#include <system_error>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/system/process.hpp"
 
 namespace viscontact::freefem {
 namespace {
@@ -16,6 +19,24 @@ namespace {
 // Debian installs these files.
 constexpr std::string_view kIncludeFolder = "/usr/include/freefem++/idp";
 constexpr std::string_view kLoadFolder = "/usr/lib/freefem++";
+
+/// The file of a program, without symbolic links; nothing if there is none.
+std::optional<std::filesystem::path> path_of_program(const std::string& name) {
+  std::vector<std::filesystem::path> candidates = {name};
+  if (name.find('/') == std::string::npos) {
+    candidates.clear();
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+      candidates.push_back(std::filesystem::path(folder) / name);
+  }
+  for (const auto& candidate : candidates) {
+    std::error_code none;
+    if (std::filesystem::is_regular_file(candidate, none))
+      return std::filesystem::canonical(candidate, none);
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -36,6 +57,26 @@ std::optional<std::chrono::seconds> time_limit_of_user() {
                 fmt::format("{} is '{}'; it must be a whole number of seconds from 1 to {}",
                             kTimeLimit, word, kLongest));
   return std::chrono::seconds(seconds);
+}
+
+std::optional<Package> package_of(const std::string& executable, const StopToken& stop) {
+  // dpkg answers at once; a system on which it hangs is treated as one without it.
+  constexpr std::chrono::seconds kLongest(10);
+  const auto file = path_of_program(executable);
+  if (!file) return {};
+  const auto ask = [&](const std::vector<std::string>& arguments) {
+    const auto result = run_process(arguments, {"LC_ALL=C"}, {}, {}, kLongest, stop);
+    return result.started && result.exit_status == 0 ? result.output : std::string();
+  };
+  // The answer is "PACKAGE: PATH", or "PACKAGE:ARCHITECTURE: PATH".
+  const auto found = ask({"dpkg-query", "--search", file->string()});
+  const auto end = found.find(": " + file->string());
+  if (end == std::string::npos) return {};
+  const auto begin = found.rfind('\n', end) + 1;  // 0 if there is no line before
+  Package package{found.substr(begin, end - begin), {}};
+  package.version = ask({"dpkg-query", "--show", "--showformat=${Version}", package.name});
+  if (package.version.empty()) return {};
+  return package;
 }
 
 std::filesystem::path find_script_folder(std::string_view part, std::string_view script) {

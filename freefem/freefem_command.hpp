@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "viscontact/common/stop_token.hpp"
+
 namespace viscontact::freefem {
 
 /// Name of the environment variable that sets the time limit of FreeFEM.
@@ -37,6 +39,16 @@ struct Command {
 /// those of the script, "-name value".
 Command make_command(const std::string& executable, const std::filesystem::path& script_folder,
                      std::string_view script, const std::vector<std::string>& arguments);
+
+/// A package of Debian.
+struct Package {
+  std::string name, version;
+};
+
+/// The package that has installed an executable, which is a path or a name to look for on PATH.
+/// Nothing if there is none, or if the system has no dpkg. Throws Error(kInterrupted) if `stop`
+/// requests a stop.
+std::optional<Package> package_of(const std::string& executable, const StopToken& stop = {});
 
 /// What to do if FreeFEM cannot be run, for an error message.
 inline constexpr std::string_view kHowToInstall =

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {
@@ -31,17 +33,22 @@ std::vector<RowPoint> grid_of(const Tabulation& tabulation) {
   return grid;
 }
 
-std::optional<std::vector<FinishedRow>> rows_in_table(const std::filesystem::path& path,
-                                                      const std::string& hash) {
+std::string name_of(const RowPoint& point) {
+  return fmt::format("gap {}, velocity {}", format_number(point.at(0)), format_number(point.at(1)));
+}
+
+RowRecord rows_in_table(const std::filesystem::path& path, const Tabulation& tabulation) {
   if (!std::filesystem::is_regular_file(path)) return {};
   try {
     const auto table = lubrication::read_force_table(path);
-    if (table.case_hash != hash) return {};
+    if (table.case_hash != tabulation_hash(tabulation)) return {};
     const auto version = table.versions.find("FreeFEM");
-    std::vector<FinishedRow> rows;
+    RowRecord record;
     for (const auto& row : table.rows)
-      rows.push_back(finished_row(row, version == table.versions.end() ? "" : version->second));
-    return rows;
+      record.finished[{row.gap, row.reference_velocity}] =
+          finished_row(row, version == table.versions.end() ? "" : version->second);
+    record.failed = failed_points(table.failed_rows, grid_of(tabulation), name_of);
+    return record;
   } catch (const Error&) {  // the file is not a table
     return {};
   }
@@ -73,8 +80,11 @@ lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRe
   table.leading_coefficient = leading_coefficient(tabulation);
   table.container = container_in_words(tabulation);
   table.case_hash = tabulation_hash(tabulation);
+  if (tabulation.motions.size() > 1) table.tabulated_motions = tabulation.motions;
   for (const auto& point : grid_of(tabulation))
-    table.rows.push_back(force_row(record.finished.at(point)));
+    if (const auto row = record.finished.find(point); row != record.finished.end())
+      table.rows.push_back(force_row(row->second));
+  table.failed_rows = failed_rows(record, name_of);
   table.versions["FreeFEM"] = freefem_versions(record);
   return table;
 }
@@ -89,17 +99,15 @@ TablePlan force_table_plan(const Tabulation& tabulation) {
   plan.solve = [tabulation](const FreeFem& freefem, const RowPoint& point) {
     return finished_row(solve_row(freefem, tabulation, point.at(0), point.at(1)), "").numbers;
   };
-  plan.read = [hash = plan.hash](const std::filesystem::path& path) {
-    return rows_in_table(path, hash);
+  plan.read = [tabulation](const std::filesystem::path& path) {
+    return rows_in_table(path, tabulation);
   };
   plan.write = [tabulation](const RowRecord& record, const Versions& versions) {
     auto table = assemble_table(tabulation, record);
     table.versions.insert(versions.begin(), versions.end());
     return lubrication::write_force_table(table);
   };
-  plan.name_of = [](const RowPoint& point) {
-    return fmt::format("gap {:.6g}, velocity {:.6g}", point.at(0), point.at(1));
-  };
+  plan.name_of = name_of;
   plan.estimate_of = [](const FinishedRow& row) { return row.numbers.at(kEstimate); };
   plan.seconds_of = [](const FinishedRow& row) { return row.numbers.at(kSeconds); };
   return plan;

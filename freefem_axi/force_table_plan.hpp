@@ -19,7 +19,7 @@ FinishedRow finished_row(const lubrication::ForceTableRow& row, const std::strin
 /// The row of the table that the journal has stored: the inverse of finished_row().
 lubrication::ForceTableRow force_row(const FinishedRow& finished);
 
-/// The table of all rows. No row may be missing in the record.
+/// The table of the finished rows. It names the failed ones.
 lubrication::ForceTable assemble_table(const Tabulation& tabulation, const RowRecord& record);
 
 }  // namespace viscontact::freefem_axi

@@ -98,7 +98,10 @@ std::string freefem_version(const FreeFem& freefem) {
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("{} does not answer as FreeFEM does (exit status {})",
                             freefem.executable, result.exit_status));
-  return version;
+  const auto package = freefem::package_of(freefem.executable, freefem.stop);
+  if (!package) return version;
+  return fmt::format("{} (Debian package {}; FreeFEM says {})", package->version, package->name,
+                     version);
 }
 
 }  // namespace viscontact::freefem_axi

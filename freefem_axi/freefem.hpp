@@ -58,8 +58,10 @@ std::string failure_in_words(const ProcessResult& result, std::chrono::seconds t
 /// does.
 std::string line_after(const std::string& output, std::string_view prefix);
 
-/// The version that FreeFEM prints. Throws Error(kExternalProgram) if FreeFEM does not run or does
-/// not answer within its time limit.
+/// The version of FreeFEM by which others can find the same program: "4.11+dfsg1-3 (Debian package
+/// freefem++; FreeFEM says 4.9)". If no Debian package has installed the executable, it is the
+/// version that FreeFEM states, "4.9", which is not always that of its release. Throws
+/// Error(kExternalProgram) if FreeFEM does not run or does not answer within its time limit.
 std::string freefem_version(const FreeFem& freefem);
 
 }  // namespace viscontact::freefem_axi

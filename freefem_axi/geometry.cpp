@@ -12,6 +12,7 @@
 namespace viscontact::freefem_axi {
 namespace {
 
+using lubrication::MotionKind;
 using Parameters = std::span<const double>;
 
 constexpr std::array kSphereParameters = {
@@ -42,8 +43,7 @@ RequiredSpace space_of_pair(double radius, double gap, Parameters parameters) {
   return {larger, gap + 4 * larger};
 }
 
-double ratio_of_pair(lubrication::MotionKind motion, Parameters parameters) {
-  using lubrication::MotionKind;
+double ratio_of_pair(MotionKind motion, Parameters parameters) {
   return parameters[motion == MotionKind::kRoll || motion == MotionKind::kSpin ? 2 : 1];
 }
 
@@ -67,6 +67,10 @@ double leading_in_cavity(double radius, Parameters parameters) {
   return share * share;
 }
 
+constexpr std::array kAllMotions = {MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll,
+                                    MotionKind::kSpin};
+constexpr std::array kAlongAndAroundTheAxis = {MotionKind::kApproach, MotionKind::kSpin};
+
 double flat(Parameters) { return 0; }
 double curvature_of_sphere(Parameters parameters) { return 1 / parameters[0]; }
 double curvature_of_cavity(Parameters parameters) { return -1 / parameters[0]; }
@@ -82,6 +86,7 @@ constexpr std::array kGeometries = {
              space_above_floor,
              true,
              1,
+             kAllMotions,
              flat},
     Geometry{"free_surface",
              "free_surface.edp",
@@ -92,16 +97,18 @@ constexpr std::array kGeometries = {
              space_above_floor,
              false,
              1,
+             kAllMotions,
              flat,
              true},
     Geometry{"sphere", "sphere.edp", kSphereParameters, true, ratio_of_pair, leading_of_pair,
-             space_of_pair, false, 2.5, curvature_of_sphere},
+             space_of_pair, false, 2.5, kAllMotions, curvature_of_sphere},
     Geometry{"cavity", "cavity.edp", kCavityParameters, false, nullptr, leading_in_cavity,
-             space_in_cavity, false, 1, curvature_of_cavity},
+             space_in_cavity, false, 1, kAllMotions, curvature_of_cavity},
     // k is not known for this geometry, because the ripples under the middle of the film change R
-    // as the gap goes to 0.
+    // as the gap goes to 0. The ripples are circles about the axis, so that a sphere that slides or
+    // rolls has no flow of one azimuthal mode.
     Geometry{"rough_plane", "rough_plane.edp", kRoughPlaneParameters, true, nullptr, nullptr,
-             space_above_ripples},
+             space_above_ripples, false, 1, kAlongAndAroundTheAxis},
 };
 
 }  // namespace
@@ -117,21 +124,14 @@ std::vector<Geometry> geometries_with_exact_drag() {
 const Geometry& default_geometry() { return kGeometries.front(); }
 
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion) {
-  using lubrication::MotionKind;
-  const bool is_across = motion == MotionKind::kSlide || motion == MotionKind::kRoll;
-  return !is_across || geometry.curvature != nullptr;
+  return std::ranges::find(geometry.motions, motion) != geometry.motions.end();
 }
 
 std::vector<lubrication::MotionKind> parse_motions(const std::vector<std::string>& names,
                                                    std::string_view geometry_name) {
   const auto& geometry = find_geometry(geometry_name);
-  std::vector<lubrication::MotionKind> motions;
-  std::string available;
-  for (const auto& [name, motion] : lubrication::all_motions())
-    if (has_motion(geometry, motion)) {
-      motions.push_back(motion);
-      available += (available.empty() ? "" : ", ") + std::string(name);
-    }
+  std::vector<lubrication::MotionKind> motions(geometry.motions.begin(), geometry.motions.end());
+  const std::string available = lubrication::motions_in_words(motions);
   if (names == std::vector<std::string>{"all"}) return motions;
   motions.clear();
   for (const auto& name : names) {

@@ -3,6 +3,7 @@
 // keep names and keys, which case files contain, and flags, which scripts read.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,6 +34,9 @@ struct RequiredSpace {
   double largest_gap = std::numeric_limits<double>::infinity();  ///< largest gap that is allowed
 };
 
+/// The motion of a geometry that declares no others.
+inline constexpr std::array kApproachAlone = {lubrication::MotionKind::kApproach};
+
 /// A kind of neighbour.
 struct Geometry {
   /// The name, which is `kind` in the case file.
@@ -56,8 +60,13 @@ struct Geometry {
   bool has_exact_drag = false;
   /// Computing time of a row over that of a row above a plane [1], for estimates.
   double relative_cost = 1;
-  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. Null: the neighbour is not
-  /// the same along x, so that a sphere can neither slide nor roll beside it (MotionKind).
+  /// The motions for which the script imposes the right conditions on the neighbour, in the order
+  /// of MotionKind. A script that changes a condition changes it for the approach alone
+  /// (axisymmetric_stokes.idp); sideways_stokes.idp and swirl_stokes.idp have conditions of their
+  /// own.
+  std::span<const lubrication::MotionKind> motions = kApproachAlone;
+  /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. It gives theory's leading
+  /// terms of sliding, rolling and spinning. Null: they are not known.
   double (*curvature)(std::span<const double> parameters) = nullptr;
   /// True: no tangential stress on the neighbour.
   bool is_shear_free = false;
@@ -72,7 +81,7 @@ std::vector<Geometry> geometries_with_exact_drag();
 /// The geometry of a case that names none.
 const Geometry& default_geometry();
 
-/// True if the resistance of this motion can be tabulated.
+/// True if the geometry declares this motion.
 bool has_motion(const Geometry& geometry, lubrication::MotionKind motion);
 
 /// The motions with these names, in the order of MotionKind; "all" stands for every motion that the

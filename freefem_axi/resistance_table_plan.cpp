@@ -97,18 +97,17 @@ ResistanceRow row_of(const FinishedRow& finished) {
   return row;
 }
 
-std::optional<std::vector<FinishedRow>> rows_in_resistance_table(const std::filesystem::path& path,
-                                                                 const std::string& hash) {
+RowRecord rows_in_resistance_table(const std::filesystem::path& path, const std::string& hash) {
   if (!std::filesystem::is_regular_file(path)) return {};
   try {
     const auto table = lubrication::read_resistance_table(path);
     if (table.case_hash != hash) return {};
     const auto version = table.versions.find("FreeFEM");
-    std::vector<FinishedRow> rows;
+    RowRecord record;
     for (const auto& row : table.rows)
-      rows.push_back(
-          {row.gaps, numbers_of(row), version == table.versions.end() ? "" : version->second});
-    return rows;
+      record.finished[row.gaps] = {row.gaps, numbers_of(row),
+                                   version == table.versions.end() ? "" : version->second};
+    return record;
   } catch (const Error&) {  // the file is not a table
     return {};
   }
@@ -151,6 +150,7 @@ TablePlan resistance_table_plan(const CollinearSpheres& spheres, const Grid& gri
   plan.shape = {grid.size(), 2 * lubrication::entry_count(spheres.radii.size()) + 3};
   plan.relative_accuracy = spheres.relative_accuracy;
   plan.typical_seconds = typical_seconds_of(spheres);
+  plan.needs_all_rows = true;  // its fit is a polynomial through all of them
   plan.solve = [spheres](const FreeFem& freefem, const RowPoint& gaps) {
     return numbers_of(solve_resistance(freefem, spheres, gaps));
   };
@@ -164,7 +164,7 @@ TablePlan resistance_table_plan(const CollinearSpheres& spheres, const Grid& gri
   };
   plan.name_of = [](const RowPoint& gaps) {
     std::string words = "gaps";
-    for (const double gap : gaps) words += fmt::format(" {:.6g}", gap);
+    for (const double gap : gaps) words += " " + format_number(gap);
     return words;
   };
   plan.estimate_of = [](const FinishedRow& row) { return row_of(row).largest_error_estimate(); };

@@ -22,6 +22,7 @@ constexpr std::size_t kRequiredColumns = 3;
 constexpr std::string_view kVersionPrefix = "version of ";
 const std::string kNeighbourMoves = "neighbour_moves";
 const std::string kLeadingCoefficient = "leading_coefficient";
+const std::string kTabulatedMotions = "motions";
 
 std::string comment_or(const CsvComments& comments, const std::string& key) {
   const auto found = comments.find(key);
@@ -53,6 +54,10 @@ ForceTable read_force_table(const std::filesystem::path& path) {
     table.leading_coefficient = positive_comment(csv.comments, kLeadingCoefficient, file);
   table.container = comment_or(csv.comments, "container");
   table.case_hash = comment_or(csv.comments, "case");
+  table.tabulated_motions = with_place(file + ": # " + kTabulatedMotions, [&] {
+    return parse_motions_in_words(comment_or(csv.comments, kTabulatedMotions));
+  });
+  table.failed_rows = failed_rows_in(csv.comments);
   for (const auto& [key, value] : csv.comments)
     if (key.starts_with(kVersionPrefix)) table.versions[key.substr(kVersionPrefix.size())] = value;
   for (const auto& fields : csv.rows) {
@@ -98,6 +103,9 @@ std::string write_force_table(const ForceTable& table) {
   if (table.leading_coefficient)
     comments[kLeadingCoefficient] = format_number(*table.leading_coefficient);
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
+  if (!table.tabulated_motions.empty())
+    comments[kTabulatedMotions] = motions_in_words(table.tabulated_motions);
+  add_failed_rows(comments, table.failed_rows);
   for (const auto& [program, version] : table.versions)
     comments[std::string(kVersionPrefix) + program] = version;
   std::string text = write_csv_comments(comments);

@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/lubrication/failed_rows.hpp"
+#include "viscontact/lubrication/motions/motion_kind.hpp"
+
 namespace viscontact::lubrication {
 
 /// The result at one gap and one velocity.
@@ -45,7 +48,10 @@ struct ForceTable {
   std::optional<double> leading_coefficient{};
   std::string case_hash;  ///< SHA-256 of the tabulation's inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
-  std::vector<ForceTableRow> rows;              ///< at least one
+  /// The motions of the tabulation, if there were several: each has a table of its own.
+  std::vector<MotionKind> tabulated_motions{};
+  FailedRows failed_rows{};  ///< rows that the table should have and has not
+  std::vector<ForceTableRow> rows{};  ///< at least one
 };
 
 /// Reads a table. The columns gap, reference_velocity and force are required; the others may be

@@ -8,6 +8,8 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
@@ -40,6 +42,32 @@ std::string words_of(const lubrication::NamedEntry& entry, const lubrication::En
   return text;
 }
 
+fs::path table_of(const fs::path& folder, MotionKind motion) {
+  return folder / fmt::format("{}.csv", to_string(motion));
+}
+
+/// Throws Error(kBadInput) if a table of the folder names a motion of its tabulation whose table is
+/// missing: the tabulation was interrupted, or has not ended yet.
+void check_complete(const fs::path& folder, const std::vector<fs::path>& files) {
+  for (const auto& file : files) {
+    auto comments = read_csv_comments(read_file(file));
+    std::vector<std::string> missing;
+    for (const auto motion : with_place(file.string() + ": # motions", [&] {
+           return lubrication::parse_motions_in_words(comments["motions"]);
+         }))
+      if (const auto table = table_of(folder, motion); !fs::exists(table))
+        missing.push_back(table.filename().string());
+    if (!missing.empty())
+      throw_bad_input(
+          {folder.string()},
+          fmt::format("lacks {}, because the tabulation of {} that made {} has not ended; "
+                      "'viscontact rerun {}' completes it, and tables that are named one by one "
+                      "are fitted as they are",
+                      fmt::join(missing, ", "), comments["motions"], file.filename().string(),
+                      shell_word(file.string())));
+  }
+}
+
 }  // namespace
 
 std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
@@ -49,21 +77,25 @@ std::vector<fs::path> pair_table_files(const std::vector<std::string>& paths) {
       files.emplace_back(path);
       continue;
     }
-    const auto before = files.size();
+    std::vector<fs::path> tables;
     for (const auto& motion : lubrication::all_motions())
-      if (const auto file = fs::path(path) / fmt::format("{}.csv", motion.name); fs::exists(file))
-        files.push_back(file);
-    if (files.size() == before)
+      if (const auto file = table_of(path, motion.kind); fs::exists(file)) tables.push_back(file);
+    if (tables.empty())
       throw Error(ErrorKind::kBadInput,
                   fmt::format("{}: has none of the tables approach.csv, slide.csv, roll.csv and "
                               "spin.csv",
                               path));
+    check_complete(path, tables);
+    files.insert(files.end(), tables.begin(), tables.end());
   }
   return files;
 }
 
-bool are_of_pair(const std::vector<fs::path>& files) {
-  return files.size() > 1 || (files.size() == 1 && lubrication::is_motion_table(files.front()));
+bool are_of_pair(const std::vector<std::string>& paths, const std::vector<fs::path>& files) {
+  return files.size() > 1 ||
+         std::ranges::any_of(paths,
+                             [](const std::string& path) { return fs::is_directory(path); }) ||
+         (files.size() == 1 && lubrication::is_motion_table(files.front()));
 }
 
 fitting::PairTables read_pair_tables(const std::vector<fs::path>& files) {

@@ -10,13 +10,15 @@
 
 namespace viscontact::pipeline {
 
-/// The tables that the paths name: files, or folders with approach.csv, slide.csv, roll.csv and
-/// spin.csv, of which some may be missing.
+/// The tables that the paths name: files, or folders with some of approach.csv, slide.csv, roll.csv
+/// and spin.csv. Throws Error(kBadInput) for a folder without any of them, and for one in which a
+/// table names a motion of its tabulation whose table is missing.
 std::vector<std::filesystem::path> pair_table_files(const std::vector<std::string>& paths);
 
-/// True if the tables are to be fitted as those of a pair: there are several of them, or the only
-/// one is a motion table.
-bool are_of_pair(const std::vector<std::filesystem::path>& files);
+/// True if the tables, which pair_table_files() found at these paths, are to be fitted as those of
+/// a pair: a path is a folder, there are several tables, or the only one is a motion table.
+bool are_of_pair(const std::vector<std::string>& paths,
+                 const std::vector<std::filesystem::path>& files);
 
 /// Reads the tables. Throws Error(kBadInput) if two of them are of the same motion.
 fitting::PairTables read_pair_tables(const std::vector<std::filesystem::path>& files);

@@ -78,9 +78,10 @@ void check_outputs_of_run(const results::RunFolder& run, bool writes_fit) {
 }
 
 /// Makes or finds the fit that the case asks for, and returns its path. `given` are the case and
-/// its force files.
+/// its force files. `failure` is set to the rows of its table that failed.
 fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
-                     const std::vector<fs::path>& given, int jobs, const StopToken& stop) {
+                     const std::vector<fs::path>& given, int jobs, RowFailure& failure,
+                     const StopToken& stop) {
   const auto& request = case_file::required_fit(c);
   if (request.file) return *request.file;
   if (request.exact) {
@@ -93,10 +94,12 @@ fs::path provide_fit(const case_file::Case& c, const results::RunFolder& run,
   check_run(c, models);
   warn_of_gaps_outside(c, models, stop);
   results::refuse_other_kind(run.table(), "# case: ", "table");
-  tabulate_stage({case_table(c, run.table())}, jobs, stop);
+  failure = tabulate_stage({case_table(c, run.table())}, jobs, stop);
   stop.throw_if_stop_requested();
-  fit_stage(run.table(), run.fit(), request.settings,
-            results::provenance_of({given, {run.table()}}), stop);
+  with_failure(failure, [&] {
+    fit_stage(run.table(), run.fit(), request.settings,
+              results::provenance_of({given, {run.table()}}), stop);
+  });
   return run.fit();
 }
 
@@ -111,7 +114,8 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
   check_outputs_of_run(run, !request.file);
   auto given = files_of_motion(c);
   if (request.file) given.emplace_back(*request.file);
-  const fs::path fit = provide_fit(c, run, given, jobs, stop);
+  RowFailure rows_failed;
+  const fs::path fit = provide_fit(c, run, given, jobs, rows_failed, stop);
   stop.throw_if_stop_requested();
 
   const auto models = models_to_run(c);
@@ -153,8 +157,11 @@ void run_stages(const case_file::Case& c, const fs::path& folder, int jobs, bool
     stop.throw_if_stop_requested();
     report::write_report(folder, given, stop);
   }
-  // This error is thrown last, so that the results of the other models are complete.
-  if (!failed.empty()) throw results::error_of(failed, models.size() - failed.size(), c.path);
+  // These errors are thrown last, so that everything else is complete.
+  with_failure(rows_failed, [&] {
+    if (!failed.empty()) throw results::error_of(failed, models.size() - failed.size(), c.path);
+  });
+  if (rows_failed) throw Error(*rows_failed);
 }
 
 }  // namespace viscontact::pipeline

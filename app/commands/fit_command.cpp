@@ -75,7 +75,7 @@ void fit_tables_of_pair(const FitOptions& o, const std::vector<std::filesystem::
 
 void fit_table(FitOptions& o) {
   const auto files = pipeline::pair_table_files(o.tables);
-  if (pipeline::are_of_pair(files)) return fit_tables_of_pair(o, files);
+  if (pipeline::are_of_pair(o.tables, files)) return fit_tables_of_pair(o, files);
   o.table = files.front().string();
   fitting::FitSettings settings;
   settings.basis = o.terms_option->count() == 0

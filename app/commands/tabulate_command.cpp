@@ -85,6 +85,7 @@ void tabulate_cases(const TabulateOptions& o) {
     fmt::print("{}", pipeline::dry_run_text(runs, o.jobs, o.json));
     return;
   }
+  pipeline::RowFailure failure;
   if (o.array.is_slurm())
     with_remedy(kRemedyOfSlurm, [&] {
       pipeline::submit_to_slurm(tables, array_request(o.array, o.output, *o.jobs_option, o.jobs),
@@ -92,17 +93,18 @@ void tabulate_cases(const TabulateOptions& o) {
     });
   else if (o.array.gather)
     with_remedy(kRemedyOfGather, [&] {
-      pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
+      failure = pipeline::gather_stage(tables, pipeline::slurm_folder(o.output), interrupt_token());
     });
   else if (!o.array.task.empty())
     pipeline::share_stage(tables, share_of(o.array), o.jobs, interrupt_token());
   else
-    pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
+    failure = pipeline::tabulate_stage(tables, o.jobs, interrupt_token());
   for (std::size_t i = 0; i < pictures.size(); ++i)
     for (const auto& [motion, table] : tables[i].motions)
       pipeline::picture_stage(*tables[i].tabulation, motion, pictures[i],
                               pipeline::picture_folder(table), tables[i].case_path,
                               interrupt_token());
+  if (failure) throw Error(*failure);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/descriptor.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/text/on_one_line.hpp"
 #include "viscontact/freefem_axi/journal/journal_line.hpp"
 #include "viscontact/freefem_axi/journal/row_journal.hpp"
 
@@ -70,8 +71,9 @@ RowRecord read_row_record(const fs::path& table_path, const TablePlan& plan) {
     });
   // The table must be read after the journals, because its writer removes the journals after
   // writing it.
-  if (const auto rows = plan.read(table_path))
-    for (const auto& row : *rows) record.finished.insert({row.point, row});
+  auto in_table = plan.read(table_path);
+  record.finished.merge(in_table.finished);
+  record.failed.merge(in_table.failed);
   std::erase_if(record.failed,
                 [&](const auto& failed) { return record.finished.contains(failed.first); });
   return record;
@@ -82,6 +84,31 @@ std::vector<RowPoint> missing_points(const RowRecord& record, const std::vector<
   std::ranges::copy_if(points, std::back_inserter(missing),
                        [&](const RowPoint& point) { return !record.finished.contains(point); });
   return missing;
+}
+
+std::vector<std::string> failures_of(const RowRecord& record, const std::vector<RowPoint>& points) {
+  std::vector<std::string> reasons;
+  for (const auto& point : points)
+    if (const auto failed = record.failed.find(point); failed != record.failed.end())
+      reasons.push_back(failed->second);
+  return reasons;
+}
+
+lubrication::FailedRows failed_rows(const RowRecord& record,
+                                    const std::function<std::string(const RowPoint&)>& name_of) {
+  lubrication::FailedRows failed;
+  for (const auto& [point, reason] : record.failed) failed[name_of(point)] = on_one_line(reason);
+  return failed;
+}
+
+std::map<RowPoint, std::string> failed_points(
+    const lubrication::FailedRows& failed, const std::vector<RowPoint>& points,
+    const std::function<std::string(const RowPoint&)>& name_of) {
+  std::map<RowPoint, std::string> reasons;
+  for (const auto& point : points)
+    if (const auto row = failed.find(name_of(point)); row != failed.end())
+      reasons[point] = row->second;
+  return reasons;
 }
 
 std::string freefem_versions(const RowRecord& record) {

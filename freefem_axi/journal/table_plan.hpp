@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,13 +65,17 @@ struct TablePlan {
   /// Computes the numbers of one row. Throws Error(kExternalProgram) if FreeFEM fails, and other
   /// errors if no row could be computed.
   std::function<std::vector<double>(const FreeFem&, const RowPoint&)> solve;
-  /// The rows of the table in a file, or nothing if there is none or if it has other inputs.
-  std::function<std::optional<std::vector<FinishedRow>>(const std::filesystem::path&)> read;
-  /// The text of the file with all rows. None may be missing in the record.
+  /// The rows of the table in a file, and those that it names as failed; no rows if there is no
+  /// such file or if it has other inputs.
+  std::function<RowRecord(const std::filesystem::path&)> read;
+  /// The text of the file. It names the failed rows of the record, which it lacks.
   std::function<std::string(const RowRecord&, const Versions&)> write;
+  /// True if the table is of no use without some of its rows. `write` then needs all of them.
+  bool needs_all_rows = false;
   /// Files that are written with the table.
   std::vector<CompanionTable> companions;
-  /// The row in words for messages: "gap 0.1, velocity -1".
+  /// The row in words, for messages and for the line of a failed row: "gap 0.1, velocity -1". No
+  /// two rows have the same words.
   std::function<std::string(const RowPoint&)> name_of;
   std::function<double(const FinishedRow&)> estimate_of;  ///< relative error of the row [1]
   std::function<double(const FinishedRow&)> seconds_of;   ///< time of the row [s]

@@ -53,8 +53,7 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
   const std::string version = version_for(worker, missing, journal_file, plan.hash);
   RowJournal journal(journal_file, plan.hash);
 
-  std::mutex mutex;  // protects the journal, the failures and the report
-  std::vector<std::string> failures;
+  std::mutex mutex;  // protects the journal and the report
   std::exception_ptr fatal;
   std::atomic<std::size_t> next = 0;
   std::size_t finished = 0;
@@ -67,8 +66,6 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
           const auto entry = solve(worker.freefem, version, plan, missing[i]);
           const std::scoped_lock lock(mutex);
           journal.append(entry);
-          if (const auto* failed = std::get_if<FailedRow>(&entry))
-            failures.push_back(failed->reason);
         }
       } catch (...) {
         // The cause is not the row (Ctrl-C, a full disk), so other rows would fail as well.
@@ -93,10 +90,6 @@ void compute_rows(const RowWorker& worker, const TablePlan& plan,
   }
   if (fatal) std::rethrow_exception(fatal);
   worker.freefem.stop.throw_if_stop_requested();
-  if (!failures.empty())
-    throw Error(ErrorKind::kExternalProgram,
-                fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
-                            points.size(), fmt::join(failures, "; ")));
 }
 
 }  // namespace viscontact::freefem_axi

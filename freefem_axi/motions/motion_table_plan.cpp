@@ -9,6 +9,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/lubrication/motions/near_contact.hpp"
 
 namespace viscontact::freefem_axi {
@@ -37,6 +38,12 @@ std::string hash_of(const Tabulation& tabulation, MotionGroup group) {
   return sha256(text);
 }
 
+std::vector<RowPoint> points_of(const Tabulation& tabulation) {
+  std::vector<RowPoint> points;
+  for (const double gap : tabulation.gaps) points.push_back({gap});
+  return points;
+}
+
 std::size_t numbers_of_result(const Tabulation& tabulation) {
   return kOfBody * (neighbour_is_sphere(tabulation) ? 2 : 1) + 1;
 }
@@ -61,6 +68,8 @@ ActionFactors factors_at(const std::vector<double>& numbers, std::size_t at) {
   return {numbers.at(at), numbers.at(at + 1), numbers.at(at + 2), numbers.at(at + 3)};
 }
 
+std::string name_of_gap(const RowPoint& point) { return "gap " + format_number(point.at(0)); }
+
 /// The table of one motion, without rows.
 MotionTable head_of(const Tabulation& tabulation, MotionGroup group, MotionKind motion) {
   const auto& geometry = find_geometry(tabulation.geometry);
@@ -73,6 +82,7 @@ MotionTable head_of(const Tabulation& tabulation, MotionGroup group, MotionKind 
   const double ratio = neighbour_ratio(tabulation, motion);
   table.neighbour_moves = ratio != 0;
   table.case_hash = hash_of(tabulation, group);
+  if (tabulation.motions.size() > 1) table.tabulated_motions = tabulation.motions;
   if (geometry.curvature == nullptr) return table;
   const auto leading = lubrication::leading_factors(
       motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
@@ -92,7 +102,9 @@ MotionTable table_of(const Tabulation& tabulation, MotionGroup group, MotionKind
   const std::size_t size = numbers_of_result(tabulation), first = place * size;
   for (const double velocity : tabulation.reference_velocities)
     for (const double gap : tabulation.gaps) {
-      const auto& numbers = record.finished.at({gap}).numbers;
+      const auto finished = record.finished.find({gap});
+      if (finished == record.finished.end()) continue;
+      const auto& numbers = finished->second.numbers;
       lubrication::MotionTableRow row;
       row.gap = gap;
       row.reference_velocity = velocity;
@@ -103,6 +115,7 @@ MotionTable table_of(const Tabulation& tabulation, MotionGroup group, MotionKind
       row.seconds = numbers.at(motions.size() * size + 1);
       table.rows.push_back(row);
     }
+  table.failed_rows = failed_rows(record, name_of_gap);
   table.versions["FreeFEM"] = freefem_versions(record);
   return table;
 }
@@ -122,19 +135,19 @@ std::optional<MotionTable> finished_table(const std::filesystem::path& path, Mot
 
 /// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks
 /// for them.
-std::optional<std::vector<FinishedRow>> finished_rows(const Tabulation& tabulation,
-                                                      MotionGroup group, const TablePath& path_of) {
+RowRecord finished_rows(const Tabulation& tabulation, MotionGroup group, const TablePath& path_of) {
   const auto motions = motions_of(group);
   const std::string hash = hash_of(tabulation, group);
   const std::size_t size = numbers_of_result(tabulation);
-  std::map<RowPoint, FinishedRow> rows;
+  RowRecord record;
   for (const auto motion : asked_motions(tabulation, group)) {
     const auto table = finished_table(path_of(motion), motion, hash);
     if (!table) return {};
     const auto version = table->versions.find("FreeFEM");
     const auto place = std::ranges::find(motions, motion) - motions.begin();
+    record.failed = failed_points(table->failed_rows, points_of(tabulation), name_of_gap);
     for (const auto& row : table->rows) {
-      auto& finished = rows[{row.gap}];
+      auto& finished = record.finished[{row.gap}];
       finished.point = {row.gap};
       finished.freefem_version = version == table->versions.end() ? "" : version->second;
       finished.numbers.resize(motions.size() * size + kOfRow);
@@ -148,9 +161,7 @@ std::optional<std::vector<FinishedRow>> finished_rows(const Tabulation& tabulati
       finished.numbers[motions.size() * size + 1] = row.seconds;
     }
   }
-  std::vector<FinishedRow> all;
-  for (auto& [point, row] : rows) all.push_back(std::move(row));
-  return all;
+  return record;
 }
 
 /// The time of one row on one core [s], measured as that of force_table_plan.cpp.
@@ -196,7 +207,7 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of) {
   TablePlan plan;
   plan.hash = hash_of(tabulation, group);
-  for (const double gap : tabulation.gaps) plan.points.push_back({gap});
+  plan.points = points_of(tabulation);
   plan.shape = {1, motions_of(group).size() * numbers_of_result(tabulation) + kOfRow};
   plan.relative_accuracy = tabulation.relative_accuracy;
   plan.typical_seconds = typical_seconds_of(tabulation, group);
@@ -217,7 +228,7 @@ TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
   plan.write = write(asked.front());
   for (std::size_t i = 1; i < asked.size(); ++i)
     plan.companions.push_back({path_of(asked[i]), write(asked[i])});
-  plan.name_of = [](const RowPoint& point) { return fmt::format("gap {:.6g}", point.at(0)); };
+  plan.name_of = name_of_gap;
   plan.estimate_of = [tabulation, group](const FinishedRow& row) {
     return estimate_of(tabulation, group, row);
   };

@@ -54,6 +54,8 @@ struct WorstToEstimate {
 /// small.
 struct FitDiagnostics {
   std::size_t rows = 0;
+  /// Rows that the table should have and has not, because they could not be computed.
+  std::size_t failed_rows = 0;
   /// Coefficients that were fitted, not fixed.
   std::size_t free_coefficients = 0;
   /// Gap [L] of the row with the largest relative residual.

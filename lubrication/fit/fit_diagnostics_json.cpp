@@ -52,7 +52,7 @@ std::optional<WorstToEstimate> read_worst_to_estimate(const JsonObject& json) {
 
 FitDiagnostics read_diagnostics(const JsonObject& json) {
   json.allow_only(
-      "rows free_coefficients degrees_of_freedom worst_gap worst_relative_residual "
+      "rows failed_rows free_coefficients degrees_of_freedom worst_gap worst_relative_residual "
       "largest_error_estimate largest_inlier_residual leave_one_out_rms leave_one_out_largest "
       "leave_one_out_gap leave_one_out_inner_largest leave_one_out_inner_gap "
       "leave_one_out_end_largest leave_one_out_end_gap rows_beyond_estimate "
@@ -60,6 +60,7 @@ FitDiagnostics read_diagnostics(const JsonObject& json) {
       "information_criterion outliers warnings");
   FitDiagnostics d;
   d.rows = json.count("rows");
+  if (json.has("failed_rows")) d.failed_rows = json.count("failed_rows");
   d.free_coefficients = json.count("free_coefficients");
   d.degrees_of_freedom = json.count("degrees_of_freedom");
   d.worst_gap = json.number_above("worst_gap", 0, false);
@@ -89,6 +90,7 @@ FitDiagnostics read_diagnostics(const JsonObject& json) {
 Json write_diagnostics(const FitDiagnostics& d) {
   Json json;
   json["rows"] = d.rows;
+  if (d.failed_rows > 0) json["failed_rows"] = d.failed_rows;
   json["free_coefficients"] = d.free_coefficients;
   json["degrees_of_freedom"] = d.degrees_of_freedom;
   json["worst_gap"] = d.worst_gap;

@@ -2,6 +2,7 @@
 #include "viscontact/lubrication/motions/motion_kind.hpp"
 
 #include <array>
+#include <sstream>
 
 #include "viscontact/common/named.hpp"
 
@@ -22,6 +23,21 @@ std::string_view to_string(MotionKind motion) {
 
 MotionKind parse_motion(std::string_view name) {
   return require_named(kMotions, name, "motion").kind;
+}
+
+std::string motions_in_words(const std::vector<MotionKind>& motions) {
+  std::string words;
+  for (const auto motion : motions)
+    words += (words.empty() ? "" : ", ") + std::string(to_string(motion));
+  return words;
+}
+
+std::vector<MotionKind> parse_motions_in_words(const std::string& words) {
+  std::vector<MotionKind> motions;
+  std::istringstream stream(words);
+  for (std::string word; std::getline(stream >> std::ws, word, ',');)
+    motions.push_back(parse_motion(word));
+  return motions;
 }
 
 }  // namespace viscontact::lubrication

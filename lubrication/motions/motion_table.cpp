@@ -146,6 +146,9 @@ MotionTable read_motion_table(const std::filesystem::path& path) {
   table.leading_force_factor = optional_comment(comments, "leading_force_factor", file);
   table.leading_torque_factor = optional_comment(comments, "leading_torque_factor", file);
   table.case_hash = comments["case"];
+  table.tabulated_motions =
+      with_place(file + ": # motions", [&] { return parse_motions_in_words(comments["motions"]); });
+  table.failed_rows = failed_rows_in(comments);
   for (const auto& [key, value] : comments)
     if (key.starts_with(kProgramPrefix)) table.versions[key.substr(kProgramPrefix.size())] = value;
   for (const auto& [fields, line] : lines)
@@ -169,6 +172,9 @@ std::string write_motion_table(const MotionTable& table) {
   if (table.leading_torque_factor)
     comments["leading_torque_factor"] = format_number(*table.leading_torque_factor);
   if (!table.case_hash.empty()) comments["case"] = table.case_hash;
+  if (!table.tabulated_motions.empty())
+    comments["motions"] = motions_in_words(table.tabulated_motions);
+  add_failed_rows(comments, table.failed_rows);
   for (const auto& [program, version] : table.versions)
     comments[std::string(kProgramPrefix) + program] = version;
   const bool has_neighbour = !table.rows.empty() && table.rows.front().neighbour;

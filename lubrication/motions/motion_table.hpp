@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/lubrication/failed_rows.hpp"
 #include "viscontact/lubrication/motions/motion_kind.hpp"
 
 namespace viscontact::lubrication {
@@ -49,6 +50,9 @@ struct MotionTable {
   std::optional<double> leading_force_factor, leading_torque_factor;
   std::string case_hash;  ///< SHA-256 of the inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
+  /// The motions of the tabulation, if there were several: each has a table of its own.
+  std::vector<MotionKind> tabulated_motions;
+  FailedRows failed_rows;  ///< rows that the table should have and has not
   std::vector<MotionTableRow> rows;
 };
 

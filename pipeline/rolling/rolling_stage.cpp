@@ -49,16 +49,19 @@ void check_rolling_files(const RollingFolder& folder) {
   report::check_rolling_report(folder.path);
 }
 
-/// The fit of the case's tables, or the one that it names, for the viscosity of the case.
+/// The fit of the case's tables, or the one that it names, for the viscosity of the case. `failure`
+/// is set to the rows that failed.
 lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder& folder,
-                            const RollingRequest& request) {
+                            const RollingRequest& request, RowFailure& failure) {
   fs::path file = folder.fit();
   if (c.fit) {
     file = *c.fit;
   } else {
     const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
-    tabulate_stage(case_tables(c, path_of), request.jobs, request.stop);
-    fit_pair_stage(pair_table_files({(folder.path / "tables").string()}), file, {}, request.stop);
+    failure = tabulate_stage(case_tables(c, path_of), request.jobs, request.stop);
+    with_failure(failure, [&] {
+      fit_pair_stage(pair_table_files({(folder.path / "tables").string()}), file, {}, request.stop);
+    });
   }
   auto fit = lubrication::read_pair_fit(file);
   if (fit.radius != c.radius)
@@ -163,21 +166,25 @@ void run_rolling(const RollingRequest& request) {
   const RollingFolder folder{request.folder};
   check_rolling_files(folder);
   const LockedFolder lock(folder.path, results::kFolderIsLocked);
-  results.fit = fit_of(results.c, folder, request);
+  RowFailure rows_failed;
+  results.fit = fit_of(results.c, folder, request, rows_failed);
   std::vector<fs::path> given = {results.c.path};
   if (results.c.fit) given.push_back(*results.c.fit);
   const auto provenance = results::provenance_of(
       {given, results.c.fit ? std::vector<fs::path>{} : std::vector{folder.fit()}});
   results.c.motion.stop = request.stop;
-  run_models(results.c, results);
+  with_failure(rows_failed, [&] { run_models(results.c, results); });
   write_trajectories(folder, results, provenance);
   for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
   const auto json = rolling_json(results);
   results::write_output(folder.results(), TextKind::kJson, json, provenance);
   report::write_rolling_report(results, folder.path, provenance, request.stop);
   if (request.json) fmt::print("{}", json);
-  if (!results.failed.empty())
-    throw results::error_of(results.failed, results.trajectories.size(), results.c.path);
+  with_failure(rows_failed, [&] {
+    if (!results.failed.empty())
+      throw results::error_of(results.failed, results.trajectories.size(), results.c.path);
+  });
+  if (rows_failed) throw Error(*rows_failed);
 }
 
 }  // namespace viscontact::pipeline

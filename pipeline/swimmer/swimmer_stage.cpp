@@ -170,7 +170,8 @@ void run_swimmer(const SwimmerRequest& request) {
   given.insert(given.end(), results.c.stroke_files.begin(), results.c.stroke_files.end());
   const auto of_fit = results::provenance_of({given, {}});
 
-  tabulate_stage({case_table(results.c, folder.table())}, request.jobs, request.stop);
+  // A table of matrices is written whole or not at all, so that no failure is returned.
+  (void)tabulate_stage({case_table(results.c, folder.table())}, request.jobs, request.stop);
   request.stop.throw_if_stop_requested();
   results.table = lubrication::read_resistance_table(folder.table());
   results.fit = fit_table(folder, results.table, of_fit);

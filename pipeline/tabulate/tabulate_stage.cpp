@@ -27,35 +27,54 @@ namespace fs = std::filesystem;
 
 void warn_of_unmet_accuracy(const freefem_axi::TablePlan& plan,
                             const freefem_axi::RowRecord& record) {
-  for (const auto& point : plan.points)
-    if (const double estimate = plan.estimate_of(record.finished.at(point));
-        estimate > plan.relative_accuracy)
+  for (const auto& point : plan.points) {
+    const auto row = record.finished.find(point);
+    if (row == record.finished.end()) continue;
+    if (const double estimate = plan.estimate_of(row->second); estimate > plan.relative_accuracy)
       terminal::warn(
           fmt::format("viscontact: warning: {}: relative error estimate {:.2g}, {:.2g} was asked",
                       plan.name_of(point), estimate, plan.relative_accuracy));
+  }
 }
 
-/// True if the table of this case exists; then a message says so, and journals that a process wrote
-/// after the table was finished are removed.
+/// True if the table of this case exists and has all rows; then a message says so, and journals
+/// that a process wrote after the table was finished are removed.
 bool is_up_to_date(const CaseTable& one) {
-  if (!one.plan.read(one.table)) return false;
+  if (!freefem_axi::missing_points(one.plan.read(one.table), one.plan.points).empty()) return false;
   terminal::say(fmt::format("tabulate: {} is up to date", one.table.string()));
   freefem_axi::remove_journals(one.table, one.plan.hash);
   warn_of_unmet_accuracy(one.plan, freefem_axi::read_row_record(one.table, one.plan));
   return true;
 }
 
-/// Writes the table of a record in which no row is missing.
-void write_table(const CaseTable& one, const freefem_axi::RowRecord& record,
-                 const results::Provenance& provenance) {
+/// Writes the table of a record in which no row is missing, or only rows that failed and that the
+/// table can do without. Returns the error that names the failed rows, if there are any, with
+/// `remedy` for them. Throws it if the table cannot be written without them.
+RowFailure finish_table(const CaseTable& one, const freefem_axi::RowRecord& record,
+                        const results::Provenance& provenance, const std::string& remedy) {
+  const auto failures = freefem_axi::failures_of(record, one.plan.points);
+  const auto why = [&](const std::string& result) {
+    return Error(ErrorKind::kExternalProgram,
+                 fmt::format("{} of {} rows failed, {}:\n{}", failures.size(),
+                             one.plan.points.size(), result, fmt::join(failures, "; ")));
+  };
+  if (failures.size() == one.plan.points.size()) throw why("so that there is no table");
+  if (!failures.empty() && one.plan.needs_all_rows)
+    throw why(
+        "the others are kept; this table needs all its rows, because its fit is a polynomial "
+        "through them");
   const freefem_axi::Versions versions = {{"Viscontact", VISCONTACT_VERSION}};
-  results::write_output(one.table, TextKind::kHashComment, one.plan.write(record, versions),
-                        provenance);
-  for (const auto& other : one.plan.companions)
-    results::write_output(other.path, TextKind::kHashComment, other.write(record, versions),
-                          provenance);
+  const auto write = [&](const fs::path& path, const std::string& text) {
+    if (!results::has_content(path, text))
+      results::write_output(path, TextKind::kHashComment, text, provenance);
+  };
+  write(one.table, one.plan.write(record, versions));
+  for (const auto& other : one.plan.companions) write(other.path, other.write(record, versions));
   freefem_axi::remove_journals(one.table, one.plan.hash);
   warn_of_unmet_accuracy(one.plan, record);
+  if (failures.empty()) return {};
+  return why(
+      fmt::format("{} has the others and names the failed ones; {}", one.table.string(), remedy));
 }
 
 void show_rows(const freefem_axi::TabulateProgress& progress) {
@@ -72,8 +91,8 @@ std::string rows_in_words(const CaseTable& one, const std::vector<freefem_axi::R
                      kept > 0 ? fmt::format(" ({} of them already computed)", kept) : "");
 }
 
-void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
-  if (is_up_to_date(one)) return;
+RowFailure tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
+  if (is_up_to_date(one)) return {};
   check_output_file(one.table);
   terminal::say(
       fmt::format("tabulate: {} on {} processes", rows_in_words(one, one.plan.points), jobs));
@@ -81,7 +100,8 @@ void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   freefem_axi::compute_rows({freefem_axi::default_freefem(stop), jobs, ""}, one.plan,
                             one.plan.points, one.table, show_rows);
   terminal::clear_progress();
-  write_table(one, freefem_axi::read_row_record(one.table, one.plan), provenance);
+  return finish_table(one, freefem_axi::read_row_record(one.table, one.plan), provenance,
+                      "the same command tries them again");
 }
 
 [[noreturn]] void throw_missing(const CaseTable& one, const freefem_axi::RowRecord& record,
@@ -92,10 +112,7 @@ void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
   for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
     named.push_back(one.plan.name_of(missing[i]));
   if (missing.size() > kNamed) named.emplace_back("...");
-  std::vector<std::string> reasons;
-  for (const auto& point : missing)
-    if (const auto failed = record.failed.find(point); failed != record.failed.end())
-      reasons.push_back(failed->second);
+  const auto reasons = freefem_axi::failures_of(record, missing);
   std::string text = fmt::format("{} of {} rows are missing ({}); the finished ones are kept",
                                  missing.size(), one.plan.points.size(), fmt::join(named, "; "));
   if (fs::exists(slurm_folder)) text += fmt::format("; logs are in {}", slurm_folder.string());
@@ -107,40 +124,52 @@ void tabulate_one(const CaseTable& one, int jobs, const StopToken& stop) {
               fmt::format("{}:\n{} failed: {}", text, reasons.size(), fmt::join(reasons, "; ")));
 }
 
-void gather_one(const CaseTable& one, const fs::path& slurm_folder) {
-  if (is_up_to_date(one)) return;
+RowFailure gather_one(const CaseTable& one, const fs::path& slurm_folder) {
+  if (is_up_to_date(one)) return {};
   const auto record = freefem_axi::read_row_record(one.table, one.plan);
   const auto missing = freefem_axi::missing_points(record, one.plan.points);
-  if (!missing.empty()) throw_missing(one, record, missing, slurm_folder);
-  write_table(one, record, results::provenance_of({{one.case_path}, {}}));
+  // A row that did not fail may still be computed by a task.
+  if (freefem_axi::failures_of(record, missing).size() < missing.size())
+    throw_missing(one, record, missing, slurm_folder);
+  auto failure = finish_table(one, record, results::provenance_of({{one.case_path}, {}}),
+                              "the same command without --gather tries them again");
   terminal::say(fmt::format("tabulate: {} is gathered", one.table.string()));
+  return failure;
 }
 
 /// Calls `work` for the index of each table. An error of kind kExternalProgram or kNotConverged,
-/// which comes from rows, does not stop the other tables; such errors are thrown together at the
-/// end. Any other error stops the work.
+/// which comes from rows, does not stop the other tables. Such errors are put together and, at the
+/// end, returned if `work` returned them all, because every table is written; otherwise they are
+/// thrown. Any other error stops the work.
 template <class Work>
-void for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop, const Work& work) {
+RowFailure for_each_table(const std::vector<CaseTable>& tables, const StopToken& stop,
+                          const Work& work) {
   if (tables.size() == 1) return work(0);
   // If both kinds occur, the error has the kind kExternalProgram, because it is more serious.
   auto kind = ErrorKind::kNotConverged;
+  bool all_written = true;
   std::vector<std::string> failures;
+  const auto add = [&](std::size_t i, const Error& error) {
+    if (error.kind() == ErrorKind::kExternalProgram) kind = error.kind();
+    failures.push_back(fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
+  };
   for (std::size_t i = 0; i < tables.size(); ++i) {
     stop.throw_if_stop_requested();
     try {
-      work(i);
+      if (const auto failure = work(i)) add(i, *failure);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kExternalProgram && error.kind() != ErrorKind::kNotConverged)
         throw;
       terminal::clear_progress();
-      if (error.kind() == ErrorKind::kExternalProgram) kind = error.kind();
-      failures.push_back(
-          fmt::format("{}: {}", tables[i].table.string(), on_one_line(error.what())));
+      add(i, error);
+      all_written = false;
     }
   }
-  if (!failures.empty())
-    throw Error(kind, fmt::format("{} of {} tables are not finished:\n{}", failures.size(),
-                                  tables.size(), fmt::join(failures, "; ")));
+  if (failures.empty()) return {};
+  Error all(kind, fmt::format("{} of {} tables are not finished:\n{}", failures.size(),
+                              tables.size(), fmt::join(failures, "; ")));
+  if (!all_written) throw all;
+  return all;
 }
 
 /// The tables of all motions of a tabulation.
@@ -254,8 +283,9 @@ std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<Case
   return points;
 }
 
-void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop) {
-  for_each_table(tables, stop, [&](std::size_t i) { tabulate_one(tables[i], jobs, stop); });
+RowFailure tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop) {
+  return for_each_table(tables, stop,
+                        [&](std::size_t i) { return tabulate_one(tables[i], jobs, stop); });
 }
 
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
@@ -263,17 +293,25 @@ void share_stage(const std::vector<CaseTable>& tables, const Share& share, int j
   const freefem_axi::RowWorker worker = {freefem_axi::default_freefem(stop), jobs,
                                          freefem_axi::writer_name(share.number, share.count)};
   const auto points = points_of(tables, share);
-  for_each_table(tables, stop, [&](std::size_t i) {
-    if (points[i].empty()) return;
+  const auto failure = for_each_table(tables, stop, [&](std::size_t i) -> RowFailure {
+    if (points[i].empty()) return {};
     terminal::say(fmt::format("tabulate: {} of {}", rows_in_words(tables[i], points[i]),
                               tables[i].table.string()));
     freefem_axi::compute_rows(worker, tables[i].plan, points[i], tables[i].table, show_rows);
+    const auto failures = freefem_axi::failures_of(
+        freefem_axi::read_row_record(tables[i].table, tables[i].plan), points[i]);
+    if (failures.empty()) return {};
+    return Error(ErrorKind::kExternalProgram,
+                 fmt::format("{} of {} rows failed, the others are kept:\n{}", failures.size(),
+                             points[i].size(), fmt::join(failures, "; ")));
   });
+  if (failure) throw Error(*failure);
 }
 
-void gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_folder,
-                  const StopToken& stop) {
-  for_each_table(tables, stop, [&](std::size_t i) { gather_one(tables[i], slurm_folder); });
+RowFailure gather_stage(const std::vector<CaseTable>& tables, const fs::path& slurm_folder,
+                        const StopToken& stop) {
+  return for_each_table(tables, stop,
+                        [&](std::size_t i) { return gather_one(tables[i], slurm_folder); });
 }
 
 }  // namespace viscontact::pipeline

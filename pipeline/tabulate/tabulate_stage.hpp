@@ -12,6 +12,7 @@
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/case_file/rolling/rolling_case.hpp"
 #include "viscontact/case_file/swimmer/swimmer_case.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
 #include "viscontact/pipeline/array_job.hpp"
@@ -59,21 +60,41 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
 std::vector<std::vector<freefem_axi::RowPoint>> points_of(const std::vector<CaseTable>& tables,
                                                           const Share& share);
 
+/// The error that names rows which failed although every table is written without them. The caller
+/// throws it when everything that can be made from the other rows is made.
+using RowFailure = std::optional<Error>;
+
+/// Calls `call`. If rows have failed, an Error that it throws is thrown with the kind and the
+/// message of their failure first, because they may be its cause. kInterrupted is left as it is.
+template <class Call>
+void with_failure(const RowFailure& failure, const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    if (!failure || error.kind() == ErrorKind::kInterrupted) throw;
+    throw Error(failure->kind(), std::string(failure->what()) + "; " + error.what());
+  }
+}
+
 /// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
 /// tables. A table that was already made from the same inputs is left as it is. A row that fails
-/// stops neither the other rows nor the other tables; Error(kExternalProgram) at the end names the
+/// stops neither the other rows nor the other tables. Its table is written without it, unless no row is left or TablePlan::needs_all_rows: then Error(kExternalProgram) at the end names the
 /// rows that failed. Throws Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
-void tabulate_stage(const std::vector<CaseTable>& tables, int jobs, const StopToken& stop);
+/// Rows that an earlier call wrote as failed are computed again.
+[[nodiscard]] RowFailure tabulate_stage(const std::vector<CaseTable>& tables, int jobs,
+                                        const StopToken& stop);
 
 /// Computes the missing rows of a share and writes them into journals of its own, but no table.
-/// Throws as tabulate_stage does.
+/// Throws Error(kExternalProgram) at the end if rows failed.
 void share_stage(const std::vector<CaseTable>& tables, const Share& share, int jobs,
                  const StopToken& stop);
 
-/// Writes the tables from finished rows and computes none. If rows are missing, throws at the end
-/// an error that names them: Error(kExternalProgram) if some of them failed, else
-/// Error(kNotConverged). `slurm_folder` contains logs and submitted cases (array_job.hpp).
-void gather_stage(const std::vector<CaseTable>& tables, const std::filesystem::path& slurm_folder,
-                  const StopToken& stop);
+/// Writes the tables from finished rows and computes none. A table whose other rows have all failed
+/// is written as by tabulate_stage. If further rows are missing, throws at the end an error that
+/// names them: Error(kExternalProgram) if some of them failed, else Error(kNotConverged).
+/// `slurm_folder` contains logs and submitted cases (array_job.hpp).
+[[nodiscard]] RowFailure gather_stage(const std::vector<CaseTable>& tables,
+                                      const std::filesystem::path& slurm_folder,
+                                      const StopToken& stop);
 
 }  // namespace viscontact::pipeline

@@ -83,6 +83,32 @@ TEST(ExtendedGeometry, DragInAFilmAsThickAsTheSlipLengthIsThatOfLubricationTheor
   EXPECT_NEAR(table.rows.at(0).drag_factor / brenner_drag_factor(1e-4), f, 5e-4);
 }
 
+// The script of the page changes the boundary condition of the approach alone. All motions that the
+// geometry has are computed, and those that it has not are refused before FreeFEM is asked.
+TEST(ExtendedGeometry, HasTheMotionsThatItDeclaresAndNoOthers) {
+  const TemporaryFolder folder;
+  write_case(folder.path() / "slip.toml",
+             {{"gaps", "[0.5]"},
+              {"container", "\"unbounded\""},
+              {"relative_accuracy", "1e-3"},
+              {"geometry", "{ kind = \"slip_plane\", slip_length = 0.1 }"}});
+  const auto tabulate = [&](const std::string& motion) {
+    return run_process({VISCONTACT_EXTENDED, "tabulate", (folder.path() / "slip.toml").string(),
+                        "--motion", motion, "-o", (folder.path() / (motion + ".csv")).string()});
+  };
+  const auto all = tabulate("all");
+  EXPECT_EQ(all.exit_status, 0) << all.output;
+  EXPECT_EQ(lubrication::read_force_table(folder.path() / "all.csv").rows.size(), 1U);
+  for (const std::string motion : {"slide", "roll", "spin"}) {
+    const auto refused = tabulate(motion);
+    EXPECT_EQ(refused.exit_status, 3);
+    EXPECT_THAT(refused.output, HasSubstr("--motion: is " + motion +
+                                          "; beside a slip_plane a sphere has the motions "
+                                          "approach"));
+    EXPECT_FALSE(fs::exists(folder.path() / (motion + ".csv")));
+  }
+}
+
 // The page's own commands: a table of slip length 1e-4, its fit, and what 1/q^2 says of it.
 TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   const ReadersFolder folder(VISCONTACT_EXTENDED);

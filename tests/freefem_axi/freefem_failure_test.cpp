@@ -8,6 +8,7 @@
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
+#include "viscontact/common/system/process.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {
@@ -16,6 +17,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
 
@@ -34,6 +36,18 @@ TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
   const FreeFem text{(scratch.path() / "text").string(), scratch.path()};
   expect_error([&] { (void)solve_row(text, kTabulation, 0.25, -1); }, ErrorKind::kExternalProgram,
                HasSubstr("text"));
+}
+
+TEST(FreeFemVersion, IsThatOfTheDebianPackageIfItHasInstalledTheProgram) {
+  const auto result = run_process(
+      {"dpkg-query", "--show", "--showformat=${Version} (Debian package ${Package}; ", "freefem++"});
+  if (result.exit_status != 0) GTEST_SKIP() << "FreeFEM is not from a package";
+  EXPECT_THAT(freefem_version(default_freefem()), StartsWith(result.output + "FreeFEM says "));
+}
+
+TEST(FreeFemVersion, IsWhatFreeFemStatesIfNoPackageHasInstalledIt) {
+  const TemporaryFolder scratch;
+  EXPECT_EQ(freefem_version(FakeFreeFem(scratch.path()).freefem()), "0-fake");
 }
 
 TEST(FakeFreeFem, AnswersAsARowOfTheTable) {

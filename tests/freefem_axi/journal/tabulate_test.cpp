@@ -23,6 +23,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
 void no_report(const TabulateProgress&) {}
@@ -102,15 +103,24 @@ TEST_F(Tabulate, ProgressCountsUpToAllRows) {
   EXPECT_THAT(done, ElementsAre(1U, 2U, 3U, 4U));
 }
 
-TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
+TEST_F(Tabulate, FailingRowIsNamedInTheTableTheOthersAreKeptAndNotComputedAgain) {
   const FakeFreeFem fake(
       scratch_.path(),
       "[ $gap = 0.25 ] && [ ! -e \"$folder/mended\" ] && { echo no luck; exit 4; }\n");
-  expect_error(
-      [&] { (void)tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report); },
-      ErrorKind::kExternalProgram,
-      AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck"), Not(HasSubstr("gap 0.5"))));
+  const auto without = tabulate(fake.freefem(), tabulation_, 2, table_path(), no_report);
+  EXPECT_EQ(without.rows.size(), 3U);
+  EXPECT_THAT(without.failed_rows,
+              ElementsAre(Pair("gap 0.25, velocity -1",
+                               AllOf(HasSubstr("gap 0.25, velocity -1"), HasSubstr("no luck")))));
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1"));
+  // The file names the row, too, and whoever reads the record of the table learns of it.
+  put_text(table_path(), lubrication::write_force_table(without));
+  std::filesystem::remove(journal_path(table_path()));
+  EXPECT_EQ(lubrication::read_force_table(table_path()).failed_rows, without.failed_rows);
+  const auto plan = force_table_plan(tabulation_);
+  const auto record = read_row_record(table_path(), plan);
+  EXPECT_EQ(record.finished.size(), 3U);
+  EXPECT_THAT(failures_of(record, plan.points), ElementsAre(HasSubstr("no luck")));
 
   put_text(scratch_.path() / "mended", "");
   std::vector<std::size_t> done;
@@ -118,6 +128,7 @@ TEST_F(Tabulate, FailingRowIsNamedTheOthersAreKeptAndNotComputedAgain) {
       tabulate(fake.freefem(), tabulation_, 2, table_path(),
                [&](const TabulateProgress& progress) { done.push_back(progress.rows_done); });
   EXPECT_EQ(table.rows.size(), 4U);
+  EXPECT_TRUE(table.failed_rows.empty());
   EXPECT_THAT(done, ElementsAre(4U));  // three were there
   EXPECT_THAT(fake.answered(), UnorderedElementsAre("0.125 -1", "0.5 -1", "1 -1", "0.25 -1"));
 }

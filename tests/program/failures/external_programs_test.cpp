@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/program/program.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ExternalPrograms : public ::testing::Test {
  protected:
@@ -56,16 +59,67 @@ TEST_F(ExternalPrograms, MissingFreeFemIsSaidWithWhatToDo) {
   }
 }
 
-TEST_F(ExternalPrograms, RowThatFreeFemCannotSolveIsNamedAndTheOthersAreKept) {
+TEST_F(ExternalPrograms, RowThatFreeFemCannotSolveIsNamedAndTheTableHasTheOthers) {
   const freefem_axi::FakeFreeFem fake(
       scratch_.path(), "[ $gap = 1.5 ] && { echo 'viscontact-error no solution'; exit 4; }\n");
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"tabulate", path("case.toml"), "-o", path("table.csv")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
   expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
-  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("no solution")));
-  EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
-  EXPECT_TRUE(std::filesystem::exists(path("table.csv.rows")));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("no solution"),
+                                   HasSubstr("the same command tries them again")));
+  EXPECT_THAT(read_file(path("table.csv")),
+              AllOf(HasSubstr("# rows: 5\n"), HasSubstr("# failed row, gap 1.5, velocity -1: ")));
+  EXPECT_FALSE(std::filesystem::exists(path("table.csv.rows")));
+}
+
+// The main job from end to end: what a row that failed for good leaves, and what mends it.
+TEST_F(ExternalPrograms, RunGoesOnWithoutARowThatFailedAndTriesItAgain) {
+  const freefem_axi::FakeFreeFem fake(
+      scratch_.path(),
+      "[ $gap = 0.2 ] && [ ! -e \"$folder/mended\" ] && { echo tried >> \"$folder/tries\"; "
+      "echo 'viscontact-error no solution'; exit 4; }\n");
+  put_text(path("case.toml"),
+           replaced(gentle_case_text(), "{ from = 0.05, to = 1.5, count = 6, spacing = \"log\" }",
+                    "[0.05, 0.1, 0.2, 0.4, 0.8, 1.2, 1.5]"));
+  const auto run = [&] {
+    return run_viscontact({"run", path("case.toml"), "-o", path("out")},
+                          {"VISCONTACT_FREEFEM=" + fake.executable()});
+  };
+  const auto first = run();
+  expect_refusal(first, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
+  EXPECT_THAT(first.errors, HasSubstr("fit: warning: the table lacks 1 of 7 rows, which could not "
+                                      "be computed (gap 0.2, velocity -1)"));
+  const auto diagnostics = nlohmann::json::parse(read_file(path("out/fit.json"))).at("diagnostics");
+  EXPECT_EQ(diagnostics.at("rows"), 6);
+  EXPECT_EQ(diagnostics.at("failed_rows"), 1);
+  EXPECT_THAT(read_file(path("out/report.html")), HasSubstr("the table lacks 1 of 7 rows"));
+  // The same command: the row is tried again, nothing else is made again, and the exit code stays.
+  const auto before = files_below(path("out"));
+  const auto second = run();
+  expect_refusal(second, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
+  EXPECT_THAT(second.errors, AllOf(HasSubstr("fit.json is up to date"),
+                                   HasSubstr("trajectories are up to date")));
+  EXPECT_EQ(files_below(path("out")), before);
+  EXPECT_EQ(read_file(path("tries")), "tried\ntried\n");
+  // With FreeFEM mended, it completes the table and makes all that depends on it again.
+  put_text(path("mended"), "");
+  expect_done(run());
+  EXPECT_THAT(read_file(path("out/table.csv")),
+              AllOf(HasSubstr("# rows: 7\n"), Not(HasSubstr("failed row"))));
+  EXPECT_THAT(read_file(path("out/fit.json")), Not(HasSubstr("failed_rows")));
+}
+
+TEST_F(ExternalPrograms, TooFewRowsThatAreLeftAreSaidWithTheRowsThatFailed) {
+  const freefem_axi::FakeFreeFem fake(
+      scratch_.path(), "[ $gap = 1.5 ] || { echo 'viscontact-error no solution'; exit 4; }\n");
+  put_text(path("case.toml"), gentle_case_text());
+  const auto result = run_viscontact({"run", path("case.toml"), "-o", path("out")},
+                                     {"VISCONTACT_FREEFEM=" + fake.executable()});
+  expect_refusal(result, ErrorKind::kExternalProgram,
+                 AllOf(HasSubstr("5 of 6 rows failed"), HasSubstr("1 different gap(s)"),
+                       HasSubstr("5 of its rows could not be computed")));
+  EXPECT_FALSE(std::filesystem::exists(path("out/fit.json")));
 }
 
 TEST_F(ExternalPrograms, ManyRowsThatFailAreStillOneOrTwoLines) {
@@ -116,7 +170,7 @@ TEST_F(ExternalPrograms, RowAtWhichFreeFemHangsIsNamedAndTheOthersAreKept) {
   expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("1 of 6 rows failed"));
   EXPECT_THAT(result.errors, AllOf(HasSubstr("gap 1.5"), HasSubstr("not ended after 5 s"),
                                    HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT")));
-  EXPECT_TRUE(std::filesystem::exists(path("table.csv.rows")));
+  EXPECT_THAT(read_file(path("table.csv")), HasSubstr("# rows: 5\n"));
 }
 
 TEST_F(ExternalPrograms, FreeFemThatTooLittleMemoryMakesHangIsStopped) {

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/lubrication/force_table.hpp"
 #include "viscontact/lubrication/motions/motion_table.hpp"
 
 namespace viscontact {
@@ -143,6 +145,82 @@ TEST_F(MotionsCommand, FitsAndExportsAPair) {
                  ErrorKind::kWrongUsage, HasSubstr("tables of a pair take --basis"));
   expect_refusal(run_viscontact({"fit", path(""), "-o", path("x.json")}), ErrorKind::kBadInput,
                  HasSubstr("has none of the tables approach.csv"));
+}
+
+// An interrupted tabulation leaves the tables of some motions: FreeFEM is killed while it computes
+// the second table.
+TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeftOut) {
+  const auto file = small_case("motion = \"all\"");
+  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
+case "$*" in
+  *version.edp*) exec FreeFem++-nw "$@" ;;
+  *-motion*) kill -INT $PPID; exec sleep 60 ;;
+  *) exec FreeFem++-nw "$@" ;;
+esac
+)sh");
+  make_executable(freefem);
+  const auto interrupted = run_viscontact({"tabulate", file, "-o", path("out")},
+                                          {"VISCONTACT_FREEFEM=" + freefem.string()});
+  EXPECT_EQ(interrupted.exit_status, 130) << interrupted.errors;
+  EXPECT_EQ(lubrication::read_force_table(path("out/approach.csv")).tabulated_motions.size(), 4U);
+  const auto fit = [&] { return run_viscontact({"fit", path("out"), "-o", path("pair.json")}); };
+  expect_refusal(fit(), ErrorKind::kBadInput,
+                 AllOf(HasSubstr("out: lacks slide.csv, roll.csv, spin.csv, because the tabulation "
+                                 "of approach, slide, roll, spin that made approach.csv"),
+                       HasSubstr("'viscontact rerun " + path("out/approach.csv") + "'")));
+  EXPECT_FALSE(fs::exists(path("pair.json")));
+  // The command of the message completes the folder.
+  expect_done(run_viscontact({"rerun", path("out/approach.csv")}));
+  for (const char* motion : {"approach", "slide", "roll", "spin"}) {
+    EXPECT_TRUE(fs::exists(path("out/") + motion + ".csv"));
+    EXPECT_THAT(read_file(path("out/") + motion + ".csv"),
+                HasSubstr("# motions: approach, slide, roll, spin\n"));
+  }
+}
+
+// A table that is alone in a folder is fitted in the basis of pairs, as the others of its folder.
+TEST_F(MotionsCommand, FitOfAFolderIsThatOfAPairWhateverTablesItHas) {
+  fs::create_directory(path("pair"));
+  fs::copy(kData + "tables/pairs/plane/approach.csv", path("pair/approach.csv"));
+  // Another program wrote it: it does not name the motions of a tabulation.
+  put_text(path("pair/approach.csv"),
+           std::regex_replace(read_file(path("pair/approach.csv")),
+                              std::regex("# motions: [^\n]*\n"), ""));
+  expect_done(run_viscontact({"fit", path("pair"), "-o", path("pair.json")}));
+  const auto json = nlohmann::json::parse(read_file(path("pair.json")));
+  EXPECT_EQ(json.at("kind"), "pair fit");
+  EXPECT_EQ(json.at("entries").at("squeeze").at("basis"), "asymptotic_cubic");
+}
+
+// Sliding and rolling share their rows, so that both tables lack a row that failed.
+TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGoesOn) {
+  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
+case "$*" in
+  *"-gap 0.1 "*"-motion 1"*) echo 'viscontact-error no solution'; exit 4 ;;
+  *) exec FreeFem++-nw "$@" ;;
+esac
+)sh");
+  make_executable(freefem);
+  const auto file = small_case("motion = [\"slide\", \"roll\"]");
+  put_text(file, std::regex_replace(read_file(file), std::regex("gaps = .*"),
+                                    "gaps = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5]"));
+  const auto failed = run_viscontact({"tabulate", file, "-o", path("out")},
+                                     {"VISCONTACT_FREEFEM=" + freefem.string()});
+  expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
+  for (const char* motion : {"slide", "roll"}) {
+    const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
+    EXPECT_EQ(table.rows.size(), 12U);
+    EXPECT_EQ(table.failed_rows.count("gap 0.1"), 1U);
+  }
+  const auto fit = run_viscontact(
+      {"fit", path("out"), "--basis", "asymptotic", "-o", path("pair.json")});
+  expect_done(fit);
+  EXPECT_THAT(fit.errors, HasSubstr("fit: warning: slide_roll: the table lacks 1 of 13 rows"));
+  const auto entries = nlohmann::json::parse(read_file(path("pair.json"))).at("entries");
+  for (const char* entry : {"slide", "roll", "slide_roll"})
+    EXPECT_EQ(entries.at(entry).at("diagnostics").at("failed_rows"), 1) << entry;
+  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
+  EXPECT_EQ(lubrication::read_motion_table(path("out/roll.csv")).rows.size(), 14U);
 }
 
 TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {

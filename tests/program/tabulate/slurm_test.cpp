@@ -152,7 +152,7 @@ TEST_F(NodeThatDies, ItsTasksGoOnElsewhereByThemselves) {
   expect_tables_of_a_local_run(fake_.executable());
 }
 
-TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
+TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndASecondJobComputesItAlone) {
   const freefem_axi::FakeFreeFem fake(scratch_.path(), R"sh(
 [ $gap = 1.5 ] && [ $velocity = 2 ] && [ ! -e "$folder/mended" ] && { echo out of luck; exit 4; }
 )sh");
@@ -161,10 +161,18 @@ TEST_F(Slurm, RowThatFailsIsNamedWhenGatheredAndTheRestCanBeComputedHere) {
   const auto failed = tabulate("out", {"--gather"}, fake.executable());
   expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("2 of 2 tables are not finished"));
   EXPECT_THAT(failed.errors,
-              AllOf(HasSubstr("1 of 12 rows are missing (gap 1.5, velocity 2)"),
+              AllOf(HasSubstr("thin.csv: 1 of 12 rows failed"),
+                    HasSubstr("the same command without --gather tries them again"),
                     HasSubstr("FreeFEM failed at gap 1.5, velocity 2"), HasSubstr("out of luck")));
+  // The tables are there without that row, and a second job has its two tasks alone.
+  EXPECT_EQ(files_in("out"), 2U);
+  EXPECT_THAT(read_file(path("out/thin.csv")),
+              AllOf(HasSubstr("# rows: 11\n"), HasSubstr("# failed row, gap 1.5, velocity 2: ")));
   put_text(path("mended"), "");
-  expect_done(tabulate("out", {}, fake.executable()));
+  EXPECT_THAT(tabulate("out", {"--launcher", "slurm"}, fake.executable()).errors,
+              HasSubstr("2 tasks"));
+  wait_for_the_job();
+  expect_done(tabulate("out", {"--gather"}, "no-such-freefem"));
   EXPECT_THAT(fake.answered(), SizeIs(24));
   expect_tables_of_a_local_run(fake.executable());
 }
