@@ -19,6 +19,9 @@ using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy over
 /// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
 constexpr double kLeastGapOfMesh = 1e-3;
 
+/// Gap at which the solids of rough particles touch [L]; 0 for smooth ones.
+double gap_of_solids(const ParticlesCase& c) { return 2 * c.setting.law.roughness.value_or(0); }
+
 /// True if each side of the domain is open or periodic, and at least one is open.
 bool has_only_open_sides(const ParticlesCase& c) {
   const auto* box = std::get_if<particles::BoxDomain>(&c.setting.domain);
@@ -150,6 +153,11 @@ void check_arrangement(const TomlSection& root, const ParticlesCase& c) {
               fmt::format("is {}; it must be at least fluid.threshold_gap, {}, at which contact is "
                           "made",
                           gap, fluid.threshold_gap));
+  if (const double solid = gap_of_solids(c); gap < solid)
+    root.section("arrangement")
+        .fail("smallest_gap", fmt::format("is {}; it must be at least twice "
+                                          "viscous_contact.roughness, {}, at which the solids touch",
+                                          gap, solid));
   if (fluid.mesh == particles::FluidMesh::kFitted && gap < least)
     root.section("arrangement")
         .fail("smallest_gap", fmt::format("is {}; it must be at least a thousandth of the radius, "
@@ -179,9 +187,10 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
     throw_bad_input(
         names.at(j),
         fmt::format("{} and {} have a gap of {:.3g} at the start, less than fluid.threshold_gap, "
-                    "{:.3g}, at which contact is made; the gap must be larger or "
-                    "fluid.threshold_gap smaller",
-                    other, names(j), at.gap, fluid.threshold_gap));
+                    "{:.3g}, at which contact is made; the gap must be larger or {} smaller",
+                    other, names(j), at.gap, fluid.threshold_gap,
+                    fluid.threshold_gap > gap_of_solids(c) ? "fluid.threshold_gap"
+                                                           : "viscous_contact.roughness"));
 }
 
 /// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
@@ -205,7 +214,7 @@ void set_default_threshold_gap(ParticlesCase& c) {
       threshold = std::min(threshold, (period - 2 * std::ranges::max(c.particles.radii)) / 2);
   for (const auto& at : gaps_at_start(c, limit_within_periods(c, 2 * longest)))
     threshold = std::min(threshold, std::max(0.0, at.gap) / 2);
-  c.setting.fluid->threshold_gap = threshold;
+  c.setting.fluid->threshold_gap = std::max(threshold, gap_of_solids(c));
 }
 
 void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
@@ -217,6 +226,12 @@ void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
         "makes each side open that is not periodic, so that nothing balances the forces on the "
         "particles; at least one side must be a wall, or the motion of a particle must be given");
   check_mean_flow(root, c);
+  if (const double solid = gap_of_solids(c); c.setting.fluid->threshold_gap < solid)
+    root.section("fluid").fail(
+        "threshold_gap",
+        fmt::format("is {}; it must be at least twice viscous_contact.roughness, {}, because the "
+                    "solids touch at that gap",
+                    c.setting.fluid->threshold_gap, solid));
   check_arrangement(root, c);
   check_bodies(root, c, names);
   check_masses(root, c, names);

@@ -12,6 +12,17 @@
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+/// Radius of the first body of a pair [L]: infinite for a plane, < 0 for a round wall, which is
+/// around the particle.
+double radius_of_first(const Particles& p, const Pair& pair, const std::vector<Plane>& obstacles) {
+  if (pair.first >= 0) return p.radii[index_of(pair.first)];
+  const auto& place = obstacles[pair.plane()].start;
+  return place.is_curved() ? -place.radius : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 /// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
 void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
@@ -46,8 +57,11 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
                         setting_.solver, mean_radius_, error_of_answers(*setting_.fluid))
           .impulse_errors;
-  const auto radius = [&](std::int32_t k) {
-    return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
+  const auto shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
+  const auto lowest_gamma = [&](const Pair& pair) {
+    return setting_.law.lower_bound_in_fluid(shape, p.radii[index_of(pair.second)],
+                                             radius_of_first(p, pair, obstacles_),
+                                             setting_.fluid->threshold_gap);
   };
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
@@ -56,8 +70,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       pair.impulse = contact.impulse;
       if (contact.w > 0) {
         ++report.contacts;
-        absorb_impulse(pair, errors[c],
-                       setting_.law.lower_bound(radius(pair.second), radius(pair.first)));
+        absorb_impulse(pair, errors[c], lowest_gamma(pair));
       }
       if (pair.gamma < 0) ++report.glued;
       ++c;
