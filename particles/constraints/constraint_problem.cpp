@@ -37,6 +37,13 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
+FrictionCone FrictionCone::nearest(double mu_s, double s, double length, double w_n, double w_t) {
+  if (length <= mu_s * s) return {Part::kInside, s, 1};
+  const double load = (w_n * s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);
+  if (!(load > 0)) return {Part::kApex, 0, 0};
+  return {Part::kSurface, load, mu_s * load / length};
+}
+
 BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
                           const double* p, const double* w) {
   BlockResidual residual;
@@ -45,17 +52,24 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
       residual.normal = std::max(residual.normal, std::abs(v[k] + block.compliance * p[k]));
     return residual;
   }
-  double slip = 0, square = 0;
+  double square = 0;
   const double bound = block.bound(p[0]);
   std::array<double, 2> wanted{};
   for (std::size_t k = 1; k < block.rows; ++k) {
-    slip += v[k] * v[k];
     wanted[k - 1] = p[k] - v[k] / w[k];
     square += wanted[k - 1] * wanted[k - 1];
   }
-  const double lift = lifts_sliding && bound > 0 ? block.friction * std::sqrt(slip) : 0;
-  residual.normal = std::abs(std::min(v[0] - lift, w[0] * (p[0] - block.lowest)));
-  const double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
+  residual.normal = std::abs(std::min(v[0], w[0] * (p[0] - block.lowest)));
+  double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
+  if (is_in_cone(block, lifts_sliding, p[0])) {
+    const auto cone = FrictionCone::nearest(block.friction, p[0] - v[0] / w[0] - block.capacity,
+                                            std::sqrt(square), w[0], w[1]);
+    // At the apex nothing is left to the solids, and the condition of the film is the one that
+    // counts.
+    if (cone.part != FrictionCone::Part::kApex || block.capacity <= block.lowest)
+      residual.normal = w[0] * std::abs(p[0] - block.capacity - cone.load);
+    factor = cone.tangential;
+  }
   double off = 0;
   for (std::size_t k = 1; k < block.rows; ++k) {
     const double difference = w[k] * (p[k] - factor * wanted[k - 1]);

@@ -101,8 +101,29 @@ struct ConstraintProblem {
   std::vector<ConstraintRow<D>> rows;
   std::vector<ConstraintBlock> blocks;
   std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
-  /// Whether sliding contacts open by h mu_s |v_t|, which makes the problem convex (5.9).
+  /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
+  /// impulses in friction_cone(), and a sliding contact opens by h mu_s |v_t|.
   bool lifts_sliding = false;
+};
+
+/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load or
+/// it has no film. Otherwise its film carries the impulse, and there is no friction.
+inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
+  return lifts_sliding && block.is_contact && block.rows > 1 &&
+         (p_n > block.capacity || block.capacity <= block.lowest);
+}
+
+/// A point of the cone |p_t| <= mu_s s, s = p_n - capacity, the set of allowed impulses in (5.9).
+struct FrictionCone {
+  enum class Part { kApex, kInside, kSurface };
+  Part part = Part::kApex;
+  double load = 0;        ///< s >= 0 [M L/T]
+  double tangential = 1;  ///< factor by which p_t was shortened
+
+  /// Point of the cone nearest to impulses with the load `s` and |p_t| = `length` in the norm
+  /// w_n s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
+  /// mobilities of the rows.
+  static FrictionCone nearest(double mu_s, double s, double length, double w_n, double w_t);
 };
 
 /// Value of a row without its offset.
@@ -140,7 +161,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a bilateral constraint the largest |v +
+/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a contact in the cone of (5.9) those of w |p -
+/// P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
   double normal = 0, tangential = 0;

@@ -30,10 +30,7 @@ template <int D>
 class Iteration {
  public:
   explicit Iteration(ConstraintProblem<D>& problem)
-      : problem_(problem),
-        w_(scales_of_rows(problem)),
-        sweeps_(problem),
-        lifts_(problem.blocks.size(), 0.0) {
+      : problem_(problem), w_(scales_of_rows(problem)), sweeps_(problem) {
     for (const auto& block : problem.blocks)
       if (block.is_contact)
         problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
@@ -80,7 +77,7 @@ class Iteration {
     const auto center = problem_.impulses;
     const double before = residual_;
     const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
-    const int taken = proximal_->solve(center, motions_, lifts_, most);
+    const int taken = proximal_->solve(center, motions_, most);
     best_.result.iterations += taken;
     problem_.impulses = proximal_->impulses();
     update();
@@ -104,18 +101,14 @@ class Iteration {
     for (std::size_t b = 0; b < problem_.blocks.size(); ++b) {
       const auto& block = problem_.blocks[b];
       std::array<double, kMostRows> v{};
-      double slip = 0;
       for (std::size_t k = 0; k < block.rows; ++k) {
         const auto& row = problem_.rows[block.row + k];
         v[k] = row.offset + product<D>(row, motions_);
-        if (k > 0) slip += v[k] * v[k];
       }
       const double* p = &problem_.impulses[block.row];
       residuals_[b] = residual_of(block, problem_.lifts_sliding, v.data(), p, &w_[block.row]);
       const double share = residuals_[b].share(block);
       residual_ = share <= residual_ ? residual_ : share;  // keeps what is not a number
-      if (problem_.lifts_sliding && block.is_contact)
-        lifts_[b] = block.bound(p[0]) > 0 ? block.friction * std::sqrt(slip) : 0;
     }
     if (!(residual_ < best_.result.residual)) return;
     best_.result.residual = residual_;
@@ -135,7 +128,7 @@ class Iteration {
   std::vector<double> w_;
   ContactSweeps<D> sweeps_;
   std::optional<ProximalStep<D>> proximal_;
-  std::vector<double> lifts_, best_impulses_;
+  std::vector<double> best_impulses_;
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;

@@ -11,7 +11,7 @@ namespace viscontact::particles {
 
 /// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
 /// each block in turn gets the impulses that solve it while all others keep theirs, with Coulomb's
-/// law. Every other sweep goes backwards. Sweeps converge in practice always, but slowly in large
+/// law or in the cone of the convex relaxation (5.9). Every other sweep goes backwards. Sweeps converge in practice always, but slowly in large
 /// packings; a few of them give the solver a good start.
 template <int D>
 class ContactSweeps {
@@ -24,6 +24,7 @@ class ContactSweeps {
 
  private:
   void solve_block(const ConstraintBlock& block, const double* w);
+  void solve_in_cone(const ConstraintBlock& block, const double* w);
   double wanted(std::size_t row, double w) const;
   void change(std::size_t row, double impulse);
 

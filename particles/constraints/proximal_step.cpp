@@ -41,7 +41,6 @@ void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
     const auto r = block.row + k;
     q[k] = center_[r] - rho_[r] * (values_[r] + t * changes_[r]);
   }
-  q[0] += rho_[block.row] * lifts_[b];
 }
 
 template <int D>
@@ -54,6 +53,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
       p[k] = q[k] / (1 + rho_[block.row + k] * block.compliance);
     return {true, Friction::kSticks};
   }
+  if (problem_.lifts_sliding && block.rows > 1) return project_relaxed(b, q, p);
   Branch branch{q[0] > block.lowest};
   p[0] = branch.is_closed ? q[0] : block.lowest;
   const double bound = block.bound(p[0]);
@@ -67,6 +67,34 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
                       : q[1] < 0 ? Friction::kSlipsBack
                                  : Friction::kSlips;
   return branch;
+}
+
+/// The projection of the convex relaxation (5.9). Whether the solids carry load is decided by the
+/// impulses before the step, because the film and the cone together are not a convex set.
+template <int D>
+typename ProximalStep<D>::Branch ProximalStep<D>::project_relaxed(std::size_t b, const double* q,
+                                                                  double* p) const {
+  const auto& block = problem_.blocks[b];
+  if (!is_in_cone(block, true, center_[block.row])) {
+    p[0] = std::max(q[0], block.lowest);
+    std::fill_n(p + 1, block.rows - 1, 0.0);
+    return {q[0] > block.lowest};
+  }
+  double square = 0;
+  for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
+  const auto cone = FrictionCone::nearest(block.friction, q[0] - block.capacity, std::sqrt(square),
+                                          w_[block.row], w_[block.row + 1]);
+  p[0] = block.capacity + cone.load;
+  for (std::size_t k = 1; k < block.rows; ++k) p[k] = cone.tangential * q[k];
+  switch (cone.part) {
+    case FrictionCone::Part::kApex:
+      return {};
+    case FrictionCone::Part::kInside:
+      return {true, Friction::kSticks};
+    case FrictionCone::Part::kSurface:
+      return {true, q[1] < 0 ? Friction::kSlipsBack : Friction::kSlips};
+  }
+  return {};
 }
 
 /// Error J^T P - M/h (y - y*) after a step `t` along the direction, in the norm of the inverse
@@ -128,7 +156,9 @@ void ProximalStep<D>::add_block(std::size_t b) {
       add_product(b, rows[k], rows[k], rho[k] / (1 + rho[k] * block.compliance));
     return;
   }
-  if (branch.is_closed) add_product(b, rows[0], rows[0], rho[0]);
+  const bool is_on_cone = problem_.lifts_sliding && (branch.friction == Friction::kSlips ||
+                                                     branch.friction == Friction::kSlipsBack);
+  if (branch.is_closed && !is_on_cone) add_product(b, rows[0], rows[0], rho[0]);
   if (branch.friction == Friction::kNone) return;
   if (branch.friction == Friction::kSticks) {
     for (std::size_t k = 1; k < block.rows; ++k) add_product(b, rows[k], rows[k], rho[k]);
@@ -140,9 +170,18 @@ void ProximalStep<D>::add_block(std::size_t b) {
   double square = 0;
   for (std::size_t k = 1; k < block.rows; ++k) square += q[k] * q[k];
   const double length = std::sqrt(square);
-  if (branch.is_closed)
+  if (is_on_cone) {
+    // On the surface of the cone p moves along its generator (1, mu_s q_t/|q_t|).
+    std::array<double, kMostRows> generator{1};
+    for (std::size_t k = 1; k < block.rows; ++k) generator[k] = block.friction * q[k] / length;
+    const double weight = 1 / (1 / rho[0] + block.friction * block.friction / rho[1]);
+    for (std::size_t k = 0; k < block.rows; ++k)
+      for (std::size_t l = 0; l < block.rows; ++l)
+        add_product(b, rows[k], rows[l], weight * generator[k] * generator[l]);
+  } else if (branch.is_closed) {
     for (std::size_t k = 1; k < block.rows; ++k)
       add_product(b, rows[k], rows[0], rho[0] * block.friction * q[k] / length);
+  }
   if (block.rows < 3) return;
   const double factor = rho[1] * block.bound(projected_[block.row]) / length;
   for (std::size_t k = 1; k < 3; ++k)
@@ -210,10 +249,9 @@ double ProximalStep<D>::rounding_error() const {
 
 template <int D>
 int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
-                           const std::vector<double>& lifts, int max_iterations) {
+                           int max_iterations) {
   constexpr double kExact = 1e-10;
   center_ = center;
-  lifts_ = lifts;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
     values_[r] = problem_.rows[r].offset + product<D>(problem_.rows[r], y_);

@@ -31,11 +31,10 @@ class ProximalStep {
 
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
-  /// Solves from `center` and the motions `start`. `lifts` are what each block is opened by [L].
-  /// Returns the number of factorisations and solutions with factors. Sets failed() if Newton's
+  /// Solves from `center` and the motions `start`. Returns the number of factorisations and solutions with factors. Sets failed() if Newton's
   /// method made no progress.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
-            const std::vector<double>& lifts, int max_iterations);
+            int max_iterations);
 
   bool failed() const { return failed_; }
   const std::vector<double>& impulses() const { return projected_; }
@@ -53,6 +52,7 @@ class ProximalStep {
 
   void unprojected(std::size_t b, double t, double* q) const;
   Branch project(std::size_t b, const double* q, double* p) const;
+  Branch project_relaxed(std::size_t b, const double* q, double* p) const;
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
@@ -64,7 +64,7 @@ class ProximalStep {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  std::vector<double> rho_, center_, lifts_;
+  std::vector<double> rho_, center_;
   std::vector<double> values_, changes_;  // v + J y of the rows, and J of the direction
   std::vector<double> projected_;
   std::vector<Branch> branches_, factored_;
