@@ -46,8 +46,9 @@ TEST(Citation, HasReferencesThatCanBeFound) {
     SCOPED_TRACE(reference);
     auto keys = matches_in(reference, "\n    ([a-z-]+):", 1);
     EXPECT_THAT(keys, IsSupersetOf({"title", "authors", "year", "notes"}));
-    if (reference.starts_with("\n  - type: article"))
+    if (reference.starts_with("\n  - type: article")) {
       EXPECT_THAT(keys, IsSupersetOf({"journal", "volume", "start", "end", "doi"}));
+    }
     const auto authors = matches_in(reference, "family-names: ([^\n]+)", 1);
     const auto years = matches_in(reference, "\n    year: ([0-9]{4})", 1);
     ASSERT_TRUE(!authors.empty() && years.size() == 1);

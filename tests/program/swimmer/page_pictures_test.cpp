@@ -28,7 +28,7 @@ class PagePictures : public ::testing::Test {
   void SetUp() override {
     fs::create_directories(path("swimmer"));
     fs::copy_file(kData + "tables/three_spheres.csv", path("swimmer/table.csv"));
-    for (const std::vector<std::string> arguments :
+    for (const auto& arguments :
          {std::vector<std::string>{"swimmer", kData + "cases/swimmer/three_spheres.toml", "-o",
                                    path("swimmer")},
           {"rolling", kData + "cases/rolling/incline.toml", "-o", path("incline")}})
