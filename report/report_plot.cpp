@@ -61,8 +61,7 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
       fmt::format("set yrange [{}:{}]", bound(panel.y.low), bound(panel.y.high)),
       panel.key == KeyPlace::kTopRight      ? "set key top right"
       : panel.key == KeyPlace::kBottomRight ? "set key bottom right"
-                                            : "set key below Left reverse noopaque\n"
-                                              "set xlabel offset 0,0.9"};
+                                            : kLegendBelow};
   if (panel.x.logarithmic) settings.emplace_back("set format x '1e%T'");
   if (panel.y.logarithmic) settings.emplace_back("set format y '1e%T'");
   if (!panel.rows.empty()) {
@@ -70,7 +69,7 @@ std::vector<std::string> gnuplot_settings(const PlotPanel& panel) {
     for (std::size_t i = 0; i < panel.rows.size(); ++i)
       ticks += fmt::format("{}{} {}", i == 0 ? "" : ", ",
                            quoted_for_gnuplot(doubled_percent(panel.rows[i])), i + 1);
-    settings.push_back("set ytics (" + ticks + ")\nset lmargin 38\nset xlabel offset 0,0.2");
+    settings.push_back("set ytics (" + ticks + ")\nset lmargin 38");
   }
   return settings;
 }

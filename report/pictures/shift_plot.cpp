@@ -43,8 +43,7 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
                   "relative difference of drag",
                   true,
                   true,
-                  {"set yrange [*:*]", "set key below Left reverse noopaque", "set format x '1e%T'",
-                   "set format y '1e%T'"},
+                  {"set yrange [*:*]", kLegendBelow, "set format x '1e%T'", "set format y '1e%T'"},
                   {}};
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);

@@ -113,7 +113,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   constexpr std::array kColours = {kBlue,   kVermilion, kBluishGreen, kReddishPurple,
                                    kOrange, kSkyBlue,   kBlack};
   Panel panel{"",    plot.x, plot.columns.size() == 1 ? plot.columns[0] : "",
-              false, false,  {"set key below Left reverse noopaque"},
+              false, false,  {kLegendBelow},
               {}};
   for (std::size_t i = 0; i < places.size(); ++i)
     panel.curves.push_back(

@@ -26,14 +26,20 @@ using reduced_model::SolidContact;
 constexpr auto kRollingPictures =
     std::to_array<std::string_view>({"gap", "velocity", "rotation", "slip", "friction"});
 
+/// Place of a model's colour: its place among all models, so that it does not depend on which of
+/// them were run.
+std::size_t place_of(const std::string& model) {
+  const auto& models = reduced_model::rolling_models();
+  const auto found = std::ranges::find(models, model, [](const auto& m) { return m.name; });
+  return static_cast<std::size_t>(found - models.begin());
+}
+
 template <class Value>
 Plot plot_of(const RollingResults& results, const std::string& name, const std::string& title,
              const std::string& label, bool logarithmic, const Value& value) {
-  constexpr std::array<const char*, 3> kColours = {kBlue, kVermilion, kBluishGreen};
   PlotPanel panel{title, {"time"}, {label, logarithmic}, {}};
-  for (std::size_t i = 0; i < results.trajectories.size(); ++i) {
-    const auto& [model, rows] = results.trajectories[i];
-    PlotCurve curve{model, {kColours.at(i)}, {}};
+  for (const auto& [model, rows] : results.trajectories) {
+    PlotCurve curve{model, {curve_colour(place_of(model))}, {}};
     for (const auto& row : rows) curve.points.emplace_back(row.time, value(row));
     panel.curves.push_back(curve);
   }

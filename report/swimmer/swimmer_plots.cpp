@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "viscontact/report/pictures/colours.hpp"
@@ -16,10 +16,15 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-/// The colours of spheres and arms, in their order.
-constexpr std::array<const char*, 10> kColours = {
-    kBlue,          kVermilion, kBluishGreen, kOrange,   kSkyBlue,
-    kReddishPurple, kBlack,     "#7F7F7F",    "#8C564B", "#17BECF"};
+// Places of the curves of the page in kCurveColours: the two strokes, the arms, the spheres, and
+// what belongs to none of them. There is one arm less than spheres.
+constexpr std::size_t kStroke = 0, kOptimalStroke = 1, kFirstArm = 2;
+std::size_t first_sphere(const SwimmerResults& results) {
+  return kFirstArm + results.c.spheres.radii.size() - 1;
+}
+std::size_t place_after_spheres(const SwimmerResults& results) {
+  return first_sphere(results) + results.c.spheres.radii.size();
+}
 
 /// log10 of the displacement per area on the whole table.
 ColourField curl_field(const reduced_model::Swimmer& swimmer) {
@@ -43,11 +48,18 @@ Points loop_of(const StrokeResult& stroke) {
   return points;
 }
 
-/// The strokes with their names.
-std::vector<std::pair<std::string, const StrokeResult*>> strokes_of(const SwimmerResults& results) {
-  std::vector<std::pair<std::string, const StrokeResult*>> strokes;
-  if (results.stroke) strokes.emplace_back("stroke", &*results.stroke);
-  if (results.optimal) strokes.emplace_back("optimal stroke", &*results.optimal);
+/// A stroke as the page shows it.
+struct ShownStroke {
+  std::string name;
+  const char* colour;
+  const StrokeResult* result;
+};
+
+std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
+  std::vector<ShownStroke> strokes;
+  if (results.stroke) strokes.push_back({"stroke", curve_colour(kStroke), &*results.stroke});
+  if (results.optimal)
+    strokes.push_back({"optimal stroke", curve_colour(kOptimalStroke), &*results.optimal});
   return strokes;
 }
 
@@ -56,10 +68,8 @@ template <class Value>
 PlotPanel panel_of_strokes(const SwimmerResults& results, const std::string& title,
                            const std::string& label, const Value& value) {
   PlotPanel panel{title, {"time / period"}, {label}, {}};
-  const std::array<const char*, 2> colours = {kBlue, kVermilion};
-  std::size_t number = 0;
-  for (const auto& [name, stroke] : strokes_of(results)) {
-    PlotCurve curve{name, {colours[number++]}, {}};
+  for (const auto& [name, colour, stroke] : strokes_of(results)) {
+    PlotCurve curve{name, {colour}, {}};
     for (const auto& row : stroke->rows)
       curve.points.emplace_back(row.time / stroke->period, value(row));
     panel.curves.push_back(curve);
@@ -67,18 +77,21 @@ PlotPanel panel_of_strokes(const SwimmerResults& results, const std::string& tit
   return panel;
 }
 
-/// Panels with a curve for each component of a vector, one panel for each stroke.
+/// Panels with a curve for each component of a vector, one panel for each stroke. `place` is the
+/// place of the first component's colour.
 template <class Values>
 Plot plot_of_components(const SwimmerResults& results, const std::string& name,
                         const std::string& title, const std::string& label,
-                        const std::string& component, const Values& values) {
+                        const std::string& component, std::size_t place, const Values& values) {
   Plot plot{name, 360, {}};
-  for (const auto& [stroke_name, stroke] : strokes_of(results)) {
-    PlotPanel panel{fmt::format("{} of the {}", title, stroke_name), {"time"}, {label}, {}};
+  for (const auto& shown : strokes_of(results)) {
+    const auto* stroke = shown.result;
+    PlotPanel panel{fmt::format("{} of the {}", title, shown.name), {"time"}, {label}, {}};
     const auto count = values(stroke->rows.front()).size();
     for (Eigen::Index i = 0; i < count; ++i) {
-      PlotCurve curve{
-          fmt::format("{} {}", component, i + 1), {kColours[static_cast<std::size_t>(i)]}, {}};
+      PlotCurve curve{fmt::format("{} {}", component, i + 1),
+                      {curve_colour(place + static_cast<std::size_t>(i))},
+                      {}};
       for (const auto& row : stroke->rows) curve.points.emplace_back(row.time, values(row)[i]);
       panel.curves.push_back(curve);
     }
@@ -89,15 +102,17 @@ Plot plot_of_components(const SwimmerResults& results, const std::string& name,
 }
 
 /// What the energies with fewer polynomials exceed the last one by, and Euler and Lagrange's
-/// residuals.
-Plot plot_convergence(const reduced_model::OptimalStroke& search) {
+/// residuals. `place` is the place of the first curve's colour.
+Plot plot_convergence(const reduced_model::OptimalStroke& search, std::size_t place) {
   PlotPanel panel{"Convergence of the optimal stroke",
                   {"polynomials for each arm"},
                   {"relative difference", true},
                   {}};
-  PlotCurve energy{"energy, less that with all polynomials", {kBlue, 2, {}, PointKind::kDisc}, {}};
-  PlotCurve residual{
-      "residual of Euler and Lagrange's equation", {kVermilion, 2, {}, PointKind::kDisc}, {}};
+  PlotCurve energy{
+      "energy, less that with all polynomials", {curve_colour(place), 2, {}, PointKind::kDisc}, {}};
+  PlotCurve residual{"residual of Euler and Lagrange's equation",
+                     {curve_colour(place + 1), 2, {}, PointKind::kDisc},
+                     {}};
   for (const auto& step : search.convergence) {
     const double excess = step.energy / search.convergence.back().energy - 1;
     const auto count = static_cast<double>(step.polynomials);
@@ -132,8 +147,7 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
               {"set size ratio -1",
                ("set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78',"
                 " 0.75 '#bcae6c', 1 '#fee838')"),
-               "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", "set key below spacing 1.3",
-               "set xlabel offset 0,0.6"},
+               "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", kLegendBelow},
               {}};
   panel.field = curl_field(swimmer);
   panel.settings.push_back(
@@ -142,13 +156,10 @@ std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
   panel.settings.push_back(fmt::format("set xtics {0}; set ytics {0}", step));
   panel.settings.push_back(
       fmt::format("set yrange [{}:{}]", panel.field->bottom, panel.field->top));
-  const std::array<const char*, 2> colours = {kSkyBlue, kVermilion};
-  std::size_t number = 0;
-  for (const auto& [name, stroke] : strokes_of(results)) {
-    const auto style = fmt::format("lines linewidth 2.5 linecolor rgb '{}'", colours[number++]);
+  for (const auto& [name, colour, stroke] : strokes_of(results)) {
+    const auto style = fmt::format("lines linewidth 2.5 linecolor rgb '{}'", colour);
     panel.curves.push_back({name, style, loop_of(*stroke)});
-    const auto start =
-        fmt::format("points pointtype 7 pointsize 1 linecolor rgb '{}'", colours[number - 1]);
+    const auto start = fmt::format("points pointtype 7 pointsize 1 linecolor rgb '{}'", colour);
     panel.curves.push_back({"", start, {loop_of(*stroke).front()}});
   }
   return draw_svg({panel}, 760, 700, stop);
@@ -166,11 +177,13 @@ std::vector<Plot> swimmer_plots(const SwimmerResults& results) {
       panel_of_strokes(results, "Power", "power", [](const SwimRow& row) { return row.power; });
   power.y.low = 0;
   plots.push_back({"power", 400, {power}});
-  plots.push_back(plot_of_components(results, "arms", "Arms", "distance of centres", "x",
+  plots.push_back(plot_of_components(results, "arms", "Arms", "distance of centres", "x", kFirstArm,
                                      [](const SwimRow& row) { return row.arms; }));
   plots.push_back(plot_of_components(results, "forces", "Forces on the fluid", "force", "sphere",
+                                     first_sphere(results),
                                      [](const SwimRow& row) { return row.forces; }));
-  if (results.search) plots.push_back(plot_convergence(*results.search));
+  if (results.search)
+    plots.push_back(plot_convergence(*results.search, place_after_spheres(results)));
   return plots;
 }
 
