@@ -1,5 +1,5 @@
 // The value gamma_min of a pair at which its film gives way to solid contact, docs/physics.md
-// (5.5), after Vinogradova & Yakubov 2006. Units are any one consistent system.
+// (5.5), after Maury 2007 and Lefebvre 2008. Units are any one consistent system.
 #pragma once
 
 #include <algorithm>
