@@ -23,7 +23,7 @@ struct ForceTableRow {
   /// F_lub(q, u0) [M L/T^2] along the outward normal. Its sign is opposite to that of u0, unless
   /// the neighbour moves and pulls the sphere along.
   double force = 0;
-  /// lambda = -F_lub/(6 pi mu r u0) [1].
+  /// K = -F_lub/(6 pi mu r u0) [1].
   double drag_factor = 0;
   /// Estimate of the relative error of `force` [1], >= 0; 0 if the table has none.
   double relative_error_estimate = 0;

@@ -1,4 +1,4 @@
-// Three expansions of the drag factor lambda of plane_drag.hpp in eps = gap/radius, all without
+// Three expansions of the drag factor K of plane_drag.hpp in eps = gap/radius, all without
 // dimension: near contact, far away, and in the range between. The constants are computed from
 // Brenner's series and belong together: change none of them by hand.
 #include "viscontact/lubrication/plane_drag.hpp"
@@ -11,10 +11,10 @@
 namespace viscontact::lubrication {
 namespace {
 
-// All five functions come from R = lambda - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
+// All five functions come from R = K - 1/eps. With x = ln eps and S(eps) = int_0^eps R,
 //
-//     lambda = 1/eps + R,   d lambda/dx = -1/eps + dR/dx,
-//     int_1^eps lambda = x + S(eps) - S(1).
+//     K = 1/eps + R,   d K/dx = -1/eps + dR/dx,
+//     int_1^eps K = x + S(eps) - S(1).
 //
 // All terms of a sum have the same sign, except S(1). R, dR/dx and the mean M = S/eps of R vary
 // slowly with x, so that polynomials represent them well.
@@ -102,7 +102,7 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 // clang-format on
 
 // Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. As 1/eps = h + h^2 + ..., the
-// coefficients of lambda are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are dyadic
+// coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are dyadic
 // fractions, from the expansion of Brenner's series in exp(-alpha), cosh(alpha) = 1/h, in rational
 // arithmetic.
 // clang-format off

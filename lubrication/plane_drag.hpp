@@ -5,7 +5,7 @@
 
 namespace viscontact::lubrication {
 
-// The argument is eps = gap/radius > 0, and lambda = drag/(6 pi mu r |u|):
+// The argument is eps = gap/radius > 0, and K = drag/(6 pi mu r |u|):
 // 1/eps - (1/5) ln eps + 0.97 + ... near contact, 1 + (9/8)/(1 + eps) + ... far away.
 //
 // Relative errors are below 1e-15 for 1e-300 <= eps <= 1e300. The largest error that was found is
@@ -13,20 +13,20 @@ namespace viscontact::lubrication {
 // check nothing and throw nothing: eps < 0 and NaN give NaN; 0 and infinity give what the
 // arithmetic gives. Each call takes one logarithm and one polynomial, and allocates no memory.
 
-/// lambda, > 1.
+/// K, > 1.
 double plane_drag_factor(double eps);
 
-/// d lambda/d ln eps = eps d lambda/d eps, < 0.
+/// d K/d ln eps = eps d K/d eps, < 0.
 double plane_drag_factor_log_slope(double eps);
 
-/// lambda - 1/eps, > 1: the part that grows only as -(1/5) ln eps + 0.97 + ... near contact.
+/// K - 1/eps, > 1: the part that grows only as -(1/5) ln eps + 0.97 + ... near contact.
 double plane_drag_factor_regular(double eps);
 
-/// int_1^eps lambda(s) ds, which has the sign of ln eps. Its absolute error is below
+/// int_1^eps K(s) ds, which has the sign of ln eps. Its absolute error is below
 /// 1e-15 max(1, |value|), because the value is 0 at eps = 1.
 double plane_drag_integral(double eps);
 
-/// int_0^eps (lambda(s) - 1/s) ds, > 0.
+/// int_0^eps (K(s) - 1/s) ds, > 0.
 double plane_drag_regular_integral(double eps);
 
 }  // namespace viscontact::lubrication

@@ -81,8 +81,8 @@ struct ConstraintBlock {
   /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
   /// [T/M], >= 0.
   double compliance = 0;
-  /// Bound mu_s s of the tangential impulse [M L/T], where s is the part of the normal impulse that
-  /// the solids carry, docs/physics.md (5.7).
+  /// Bound mu_s p_s of the tangential impulse [M L/T], where p_s is the part of the normal impulse
+  /// that the solids carry, docs/physics.md (5.7).
   double bound(double normal_impulse) const {
     const double carried = normal_impulse - capacity;
     return carried > 0 ? friction * carried : 0;
@@ -161,7 +161,7 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s s; of a contact in the cone of (5.9) those of w |p -
+/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of w |p -
 /// P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {

@@ -14,9 +14,9 @@ namespace viscontact::particles {
 ///
 ///     M/h (y - y*) = J^T P(c - rho (v + J y)),   rho = 1/(epsilon w),
 ///
-/// where w is the mobility of a row and P projects on the allowed impulses: first the normal one on
-/// p_n >= lowest, then the tangential one on |p_t| <= mu_s s with s from p_n, so that Coulomb's law
-/// holds at the fixed point. The new impulses are P(...). The smaller epsilon is, the nearer they
+/// where w is the mobility of a row (W_rr of docs/physics.md (5.8)) and P projects on the allowed
+/// impulses: first the normal one on p_n >= lowest, then the tangential one on |p_t| <= mu_s p_s with
+/// p_s from p_n, so that Coulomb's law holds at the fixed point. The new impulses are P(...). The smaller epsilon is, the nearer they
 /// are to the solution, and the harder the equation is to solve; redundant contacts do no harm.
 ///
 /// Newton's method has a block of its matrix for each unit and two for each pair of units in

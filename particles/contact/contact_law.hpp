@@ -1,5 +1,5 @@
-// The value gamma_min of a pair at which its film gives way to solid contact: docs/physics.md (5.5)
-// without a fluid and (6.8) in one. Units are any one consistent system.
+// The value gamma_min of a pair at which its film gives way to solid contact (Maury 2007, Lefebvre
+// 2008): docs/physics.md (5.5) without a fluid and (6.8) in one. Units are any one consistent system.
 #pragma once
 
 #include <algorithm>

@@ -56,7 +56,7 @@ struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double density = 0;    ///< rho_f; 0: Stokes flow, the only possibility so far
   RigidConstraint constraint = RigidConstraint::kPenalty;
-  double penalty = 1e-7;  ///< epsilon mu, > 0; used by kPenalty only
+  double penalty = 1e-7;  ///< > 0, docs/physics.md (6.1); used by kPenalty only
   FluidMesh mesh = FluidMesh::kFitted;
   int edges_per_particle = 24;  ///< on the circumference of the smallest particle, >= 6
   Coupling coupling = Coupling::kConstrained;

@@ -26,8 +26,8 @@ struct FluidSimulation::Motion {
 };
 
 /// Relative rounding error of the velocities that a fluid solver answers. With a penalty they are
-/// rounded like numbers 1/(eps mu) times as large: answers were seen to differ from linearity by
-/// 2.4e-10 with eps mu = 1e-6.
+/// rounded like numbers 1/penalty times as large: answers were seen to differ from linearity by
+/// 2.4e-10 with a penalty of 1e-6.
 inline double error_of_answers(const Fluid& fluid) {
   constexpr double kError = 1e-9, kErrorByPenalty = 1e-15;
   if (fluid.constraint != RigidConstraint::kPenalty) return kError;

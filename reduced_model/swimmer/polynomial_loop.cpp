@@ -128,7 +128,7 @@ PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shap
   return {through, basis.householderQr().solve(target).transpose()};
 }
 
-double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double lambda) {
+double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta) {
   const auto& c = loop.coefficients;
   const auto rule = gauss_rule(static_cast<int>(2 * c.cols() + 24));
   double left_over = 0, scale = 0;
@@ -141,8 +141,8 @@ double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loo
     for (Index k = 0; k < rate.size(); ++k) {
       const auto& metric_slope = mechanics.metric_slopes[static_cast<std::size_t>(k)];
       const auto& form_slope = mechanics.displacement_form_slopes[static_cast<std::size_t>(k)];
-      rest += 2 * rate[k] * metric_slope * rate - lambda * rate[k] * form_slope.transpose();
-      rest[k] += lambda * form_slope.dot(rate) - rate.dot(metric_slope * rate);
+      rest += 2 * rate[k] * metric_slope * rate - eta * rate[k] * form_slope.transpose();
+      rest[k] += eta * form_slope.dot(rate) - rate.dot(metric_slope * rate);
     }
     left_over += rule.weights[q] * rest.squaredNorm();
     scale += rule.weights[q] * inertial.squaredNorm();

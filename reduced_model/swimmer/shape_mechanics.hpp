@@ -19,10 +19,10 @@
 
 namespace viscontact::reduced_model {
 
-/// A and G at one shape.
+/// A and Phi at one shape.
 struct ShapeMechanics {
   Eigen::RowVectorXd displacement_form;  ///< A [1]: velocity of the middle sphere per arm velocity
-  Eigen::MatrixXd metric;                ///< G [M/T], symmetric and positive definite
+  Eigen::MatrixXd metric;                ///< Phi [M/T], symmetric and positive definite
   /// U = motion * dx/dt: velocities of all spheres per arm velocity [1].
   Eigen::MatrixXd motion;
   Eigen::MatrixXd resistance;  ///< R [M/T]

@@ -1,6 +1,6 @@
 // One time step of viscous contact (physics.md (4.5) to (4.7)), which all contact models share.
 // Lengths, masses and times are in any one consistent system of units. A change must keep the
-// balance m u + G(D) + gamma = int f to round-off while no solid carries load.
+// balance m u + Gamma_res(D) + gamma = int f to round-off while no solid carries load.
 #pragma once
 
 #include <algorithm>
@@ -38,20 +38,20 @@ struct ContactStep {
 /// The resolved drag of problem (P), which is 0. It shows the functions that contact_step() needs.
 struct NoDrag {
   static constexpr bool kResolved = false;
-  /// The velocity v with m v + G(D + h v) - G(D) = momentum, where D + h v >= 0. G is the impulse
-  /// of the drag, so dG/dD is its resistance.
+  /// The velocity v with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum, where D + h v >= 0.
+  /// Gamma_res is the impulse of the drag, so dGamma_res/dD is its resistance.
   static double velocity(const ContactSetting& setting, double, double momentum) {
     return momentum * setting.per_mass;
   }
-  /// G(to) - G(from) [M L/T].
+  /// Gamma_res(to) - Gamma_res(from) [M L/T].
   static double impulse(double, double) { return 0; }
 };
 
 /// One step of viscous contact (Maury 2007, "A gluey particle model"; Lefebvre 2009, "Numerical
 /// simulation of gluey particles"). `push` = h f^n is the impulse of the external force in the
-/// step, and G(D) the impulse of the resolved drag, which is 0 in problem (P):
+/// step, and Gamma_res(D) the impulse of the resolved drag, which is 0 in problem (P):
 ///
-///     m (u^{n+1} - u^n) = h f^n - (G(D^{n+1}) - G(D^n)) + h lambda,
+///     m (u^{n+1} - u^n) = h f^n - (Gamma_res(D^{n+1}) - Gamma_res(D^n)) + h lambda,
 ///     D^{n+1} = D^n + h u^{n+1},   gamma^{n+1} = gamma^n - h lambda,
 ///     D^{n+1} >= 0, lambda >= 0, D^{n+1} lambda = 0   if gamma^n = 0,
 ///     D^{n+1} = 0                                     if gamma^n < 0.
@@ -62,8 +62,8 @@ struct NoDrag {
 ///                                                  D^n + h v  = 0 if gamma^n < 0 }.
 ///
 /// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
-/// release is exact for every step length: the balance m u + G(D) + gamma = int f is exact to
-/// round-off as long as no solid carries load. A step that would raise gamma above 0 releases the
+/// release is exact for every step length: the balance m u + Gamma_res(D) + gamma = int f is exact
+/// to round-off as long as no solid carries load. A step that would raise gamma above 0 releases the
 /// sphere with the momentum that remains. A step that would lower gamma below `gamma_min` sets it
 /// to `gamma_min`, and the solid carries the rest.
 template <class Drag>
@@ -71,7 +71,7 @@ ContactStep contact_step(const ContactState& state, double push, const ContactSe
                          const Drag& drag) {
   const double momentum = setting.mass * state.velocity + push;
   // Impulse that the drag took in the step. It is computed from the momentum and not as a
-  // difference of two values of G, whose rounding would be that of a gap.
+  // difference of two values of Gamma_res, whose rounding would be that of a gap.
   const auto drag_impulse_of_step = [&](double velocity, double before) {
     return Drag::kResolved ? setting.mass * velocity - before : 0.0;
   };

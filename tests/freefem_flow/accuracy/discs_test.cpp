@@ -132,7 +132,7 @@ TEST(Disc, MidwayInAChannelHasTheExactDragAndSpin) {
 }
 
 TEST(Penalty, HasTheErrorOfTheExactLaw) {
-  // The extrapolated error of the mesh, 1e-5, is within 5 % of the law. lambda = 1 + 1/(epsilon mu).
+  // The extrapolated error of the mesh, 1e-5, is within 5 % of the law. The ratio is 1 + 1/penalty.
   EXPECT_NEAR(penalty_law(5, 101), 6.085e-3, 1e-6);  // as docs/physics.md section 6 prints it
   for (const double penalty : {1e-2, 1e-3}) {
     const double law = penalty_law(5, 1 + 1 / penalty);

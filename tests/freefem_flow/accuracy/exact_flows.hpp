@@ -19,12 +19,12 @@ inline double concentric_rotational_mobility(double b, double a = 1) {
   return (1 / (a * a) - 1 / (b * b)) / (4 * std::numbers::pi);
 }
 
-/// Relative error of the mean velocity that a disc of viscosity lambda has in place of a rigid one,
-/// docs/physics.md section 6.
-inline double penalty_law(double b, double lambda, double a = 1) {
+/// Relative error of the mean velocity that a disc of the viscosity `ratio` (Lambda in
+/// docs/physics.md section 6) has in place of a rigid one.
+inline double penalty_law(double b, double ratio, double a = 1) {
   const double a2 = a * a, b2 = b * b, a4 = a2 * a2, b4 = b2 * b2;
   return std::pow(b2 - a2, 3) /
-         (2 * (lambda * (b4 - a4) + a4 + b4) * ((a2 + b2) * std::log(b / a) - (b2 - a2)));
+         (2 * (ratio * (b4 - a4) + a4 + b4) * ((a2 + b2) * std::log(b / a) - (b2 - a2)));
 }
 
 /// Drag of a disc of radius 1 whose centre is `distance` from a plane, in unbounded fluid (Jeffrey &
