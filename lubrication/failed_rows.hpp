@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "viscontact/common/text/csv.hpp"
-
 namespace viscontact::lubrication {
 
 /// The rows by their names, "gap 0.01, velocity -1" with all digits, and the reason of each.
@@ -15,13 +13,14 @@ using FailedRows = std::map<std::string, std::string>;
 
 inline constexpr std::string_view kFailedRow = "failed row, ";
 
-/// Adds the lines of these rows to those of a table.
-inline void add_failed_rows(CsvComments& comments, const FailedRows& failed) {
+/// Adds the lines of these rows to `comments`, the lines "# key: value" of a table by their keys.
+inline void add_failed_rows(std::map<std::string, std::string>& comments,
+                            const FailedRows& failed) {
   for (const auto& [name, reason] : failed) comments[std::string(kFailedRow) + name] = reason;
 }
 
 /// The rows that the lines of a table name.
-inline FailedRows failed_rows_in(const CsvComments& comments) {
+inline FailedRows failed_rows_in(const std::map<std::string, std::string>& comments) {
   FailedRows failed;
   for (const auto& [key, value] : comments)
     if (key.starts_with(kFailedRow)) failed[key.substr(kFailedRow.size())] = value;

@@ -39,8 +39,9 @@ TEST(MissingFreeFem, FileThatIsNoProgramIsAnError) {
 }
 
 TEST(FreeFemVersion, IsThatOfTheDebianPackageIfItHasInstalledTheProgram) {
-  const auto result = run_process(
-      {"dpkg-query", "--show", "--showformat=${Version} (Debian package ${Package}; ", "freefem++"});
+  const auto result =
+      run_process({"dpkg-query", "--show", "--showformat=${Version} (Debian package ${Package}; ",
+                   "freefem++"});
   if (result.exit_status != 0) GTEST_SKIP() << "FreeFEM is not from a package";
   EXPECT_THAT(freefem_version(default_freefem()), StartsWith(result.output + "FreeFEM says "));
 }

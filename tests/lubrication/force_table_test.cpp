@@ -41,6 +41,9 @@ TEST(ForceTable, RoundTripsToTheBit) {
   table.container = "cylinder, radius 40, height: 80";
   table.case_hash = sha256("case");
   table.versions = {{"FreeFEM", "4.11"}, {"viscontact", "0.1.0"}};
+  table.tabulated_motions = {MotionKind::kApproach, MotionKind::kSpin};
+  table.failed_rows = {{"gap 0.1, velocity -1", "no solution: 100 unknowns"},
+                       {"gap 0.1, velocity 2", "it had not ended after 1800 s"}};
   for (int i = 0; i < 300; ++i) {
     ForceTableRow row;
     row.gap = random_positive(random);
@@ -64,6 +67,8 @@ TEST(ForceTable, RoundTripsToTheBit) {
   EXPECT_EQ(back.container, table.container);
   EXPECT_EQ(back.case_hash, table.case_hash);
   EXPECT_EQ(back.versions, table.versions);
+  EXPECT_EQ(back.tabulated_motions, table.tabulated_motions);
+  EXPECT_EQ(back.failed_rows, table.failed_rows);
   ASSERT_EQ(back.rows.size(), table.rows.size());
   for (std::size_t i = 0; i < back.rows.size(); ++i) {
     EXPECT_EQ(back.rows[i].gap, table.rows[i].gap);

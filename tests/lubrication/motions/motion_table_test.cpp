@@ -26,6 +26,8 @@ MotionTable table_of_a_pair() {
   table.leading_torque_factor = -0.2;
   table.case_hash = "abc";
   table.versions["FreeFEM"] = "4.9";
+  table.tabulated_motions = {MotionKind::kApproach, MotionKind::kRoll};
+  table.failed_rows = {{"gap 0.15", "no solution: 100 unknowns"}};
   MotionTableRow row;
   row.gap = 0.1;
   row.reference_velocity = -3;
@@ -65,6 +67,8 @@ TEST_F(MotionTableFile, IsReadAsItWasWritten) {
   EXPECT_EQ(again.rows[0].sphere.torque, 2. / 3);
   EXPECT_EQ(again.rows[0].neighbour->torque_error_estimate, 4e-7);
   EXPECT_EQ(again.leading_force_factor, 1. / 3);
+  EXPECT_EQ(again.tabulated_motions, table.tabulated_motions);
+  EXPECT_EQ(again.failed_rows, table.failed_rows);
   // torque = -8 pi mu r^3 w0 * factor
   EXPECT_THAT(text, HasSubstr(fmt::format(",{},", 8 * std::numbers::pi * 0.3 * 8 * 3 * (2. / 3))));
 }

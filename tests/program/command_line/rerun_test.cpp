@@ -98,8 +98,8 @@ TEST_F(Rerun, GoesToTheFolderInWhichTheFileAndItsInputsAreNow) {
 std::vector<std::string> shipped_results() {
   std::vector<std::string> files;
   for (const char* part : {"tables", "fits"})
-    for (const auto& entry : fs::recursive_directory_iterator(
-             fs::path(VISCONTACT_SOURCE_FOLDER) / "data" / part))
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(VISCONTACT_SOURCE_FOLDER) / "data" / part))
       if (entry.is_regular_file() && entry.path().filename() != "limit.json" &&
           entry.path().filename() != "leading_term.json")
         files.push_back(entry.path().lexically_relative(VISCONTACT_SOURCE_FOLDER).string());
@@ -120,8 +120,8 @@ TEST_F(Rerun, WorksOnEveryShippedTableAndFit) {
     SCOPED_TRACE(file);
     // A file that others get names no folder of the machine on which it was made.
     EXPECT_EQ(provenance_of(clone + "/" + file).at("folder"), "");
-    const auto again = run_viscontact({"rerun", clone + "/" + file},
-                                      {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
+    const auto again =
+        run_viscontact({"rerun", clone + "/" + file}, {"VISCONTACT_FREEFEM=no-freefem-is-needed"});
     expect_done(again);
     EXPECT_THAT(again.errors, HasSubstr("is up to date"));
   }

@@ -98,8 +98,8 @@ TEST_F(ExternalPrograms, RunGoesOnWithoutARowThatFailedAndTriesItAgain) {
   const auto before = files_below(path("out"));
   const auto second = run();
   expect_refusal(second, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
-  EXPECT_THAT(second.errors, AllOf(HasSubstr("fit.json is up to date"),
-                                   HasSubstr("trajectories are up to date")));
+  EXPECT_THAT(second.errors,
+              AllOf(HasSubstr("fit.json is up to date"), HasSubstr("trajectories are up to date")));
   EXPECT_EQ(files_below(path("out")), before);
   EXPECT_EQ(read_file(path("tries")), "tried\ntried\n");
   // With FreeFEM mended, it completes the table and makes all that depends on it again.

@@ -183,9 +183,8 @@ TEST_F(MotionsCommand, FitOfAFolderIsThatOfAPairWhateverTablesItHas) {
   fs::create_directory(path("pair"));
   fs::copy(kData + "tables/pairs/plane/approach.csv", path("pair/approach.csv"));
   // Another program wrote it: it does not name the motions of a tabulation.
-  put_text(path("pair/approach.csv"),
-           std::regex_replace(read_file(path("pair/approach.csv")),
-                              std::regex("# motions: [^\n]*\n"), ""));
+  put_text(path("pair/approach.csv"), std::regex_replace(read_file(path("pair/approach.csv")),
+                                                         std::regex("# motions: [^\n]*\n"), ""));
   expect_done(run_viscontact({"fit", path("pair"), "-o", path("pair.json")}));
   const auto json = nlohmann::json::parse(read_file(path("pair.json")));
   EXPECT_EQ(json.at("kind"), "pair fit");
@@ -212,8 +211,8 @@ esac
     EXPECT_EQ(table.rows.size(), 12U);
     EXPECT_EQ(table.failed_rows.count("gap 0.1"), 1U);
   }
-  const auto fit = run_viscontact(
-      {"fit", path("out"), "--basis", "asymptotic", "-o", path("pair.json")});
+  const auto fit =
+      run_viscontact({"fit", path("out"), "--basis", "asymptotic", "-o", path("pair.json")});
   expect_done(fit);
   EXPECT_THAT(fit.errors, HasSubstr("fit: warning: slide_roll: the table lacks 1 of 13 rows"));
   const auto entries = nlohmann::json::parse(read_file(path("pair.json"))).at("entries");

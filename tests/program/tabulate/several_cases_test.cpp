@@ -99,9 +99,8 @@ TEST_F(Sweep, GatherTellsWhyARowFailedAndWritesTheTablesWithoutIt) {
   for (const auto* share : {"0/2", "1/2"}) (void)tabulate("out", {"--task", share});
   const auto failed = tabulate("out", {"--gather"});
   expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 2 tables are not finished"));
-  EXPECT_THAT(failed.errors,
-              AllOf(HasSubstr("thin.csv: 1 of 6 rows failed"),
-                    HasSubstr("FreeFEM failed at gap 1.5"), HasSubstr("no luck")));
+  EXPECT_THAT(failed.errors, AllOf(HasSubstr("thin.csv: 1 of 6 rows failed"),
+                                   HasSubstr("FreeFEM failed at gap 1.5"), HasSubstr("no luck")));
   EXPECT_TRUE(std::filesystem::exists(path("out/thick.csv")));
   EXPECT_THAT(read_file(path("out/thin.csv")),
               AllOf(HasSubstr("# rows: 5\n"), HasSubstr("# failed row, gap 1.5, velocity -1: ")));
