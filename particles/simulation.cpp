@@ -14,6 +14,7 @@
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/contact/film.hpp"
 #include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 #include "viscontact/particles/rotation.hpp"
@@ -143,6 +144,32 @@ ProjectionResult Simulation::project(double h, double next) {
   }
 }
 
+/// Adds the works of the arms in a part of length h, whose displacements are known. Their impulses
+/// change the velocities, so that each does its work at the mean of the rates before and after.
+void Simulation::add_works_of_arms(double h) {
+  const auto& p = state_.particles;
+  const auto before = [&](std::int32_t particle) -> UnitMotion {
+    const auto b = p.bodies.body_of(particle);
+    if (b < 0) return {p.velocity(index_of(particle)), {}};
+    const auto& body = p.bodies.bodies[index_of(b)];
+    return {body.velocity, body.angular_velocity};
+  };
+  const auto after = [&](std::int32_t particle) -> UnitMotion {
+    const auto b = p.bodies.body_of(particle);
+    if (b < 0) return {1 / h * point_of(displacements_.data(), index_of(particle), p.dimension), {}};
+    const auto& step = body_steps_[index_of(b)];
+    return {1 / h * step.displacement, 1 / h * step.turn};
+  };
+  for (std::size_t k = 0; k < arm_works_.size(); ++k) {
+    const auto& arm = setting_.links.arms[k];
+    const double impulse =
+        kick_length(h) * link_forces_[setting_.links.place_of_arm(k, p.dimension)];
+    arm_works_[k] += impulse / 2 *
+                     (rate_of_arm(arm, p, before(arm.first), before(arm.second)) +
+                      rate_of_arm(arm, p, after(arm.first), after(arm.second)));
+  }
+}
+
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
   report.glued = remember(state_.particles, projected, setting_.law);
@@ -150,6 +177,7 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   for (std::size_t k = 0; k < link_forces_.size(); ++k) link_impulses_[k] += kick * link_forces_[k];
   link_time_ += kick;
   state_.link_forces = link_forces_;
+  add_works_of_arms(h);
   move(h);
   state_.time = next;
   if (setting_.scheme == Scheme::kLeapfrog) state_.velocity_lag = h / 2;
@@ -230,6 +258,7 @@ StepReport Simulation::step(double end) {
   StepReport report{.time = next};
   link_impulses_.assign(setting_.links.force_count(state_.particles.dimension), 0.0);
   link_time_ = 0;
+  arm_works_.assign(setting_.links.arms.size(), 0.0);
   if (state_.particles.dimension == 2)
     advance_whole<2>(h, next, report);
   else
@@ -246,6 +275,8 @@ StepReport Simulation::step(double end) {
   }
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
+  state_.arm_powers = arm_works_;
+  for (auto& power : state_.arm_powers) power /= h;
   wrap_into_cell(state_);
   ++state_.steps;
   if (cut || is_off_grid) {

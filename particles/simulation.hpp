@@ -148,6 +148,7 @@ class Simulation {
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
+  void add_works_of_arms(double h);
   template <class Visit>
   void for_pairs(const Visit& visit) {
     for (auto* pairs : {&state_.pairs, &state_.walls})
@@ -186,6 +187,7 @@ class Simulation {
   // that are done [M L/T, M L^2/T], with the sum of the times for which they act.
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
+  std::vector<double> arm_works_;   // of the arms in the parts of a step that are done [M L^2/T^2]
   std::vector<double> jump_times_;  // of forces and torques [T]
   std::vector<Plane> obstacles_;    // walls of the domain, then planes
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both

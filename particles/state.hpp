@@ -60,6 +60,8 @@ struct State {
   /// Forces and torques of the links in the last step, in the order of Links::force_count()
   /// [M L/T^2, M L^2/T^2]: the first guess of the next step. Empty before the first step.
   std::vector<double> link_forces;
+  /// Work of each arm in the last step over its length [M L^2/T^3]; empty before the first step.
+  std::vector<double> arm_powers;
   // What time stepping in a fluid needs of the step before.
   /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
   std::vector<double> earlier_velocities;

@@ -88,6 +88,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   }
   move_bodies(motion, h, next);
   state_.link_forces = std::move(motion.link_forces);
+  state_.arm_powers = std::move(motion.arm_powers);
   state_.earlier_velocities = std::move(motion.flow);
   state_.earlier_forces = std::move(motion.drag);
   state_.earlier_step = h;

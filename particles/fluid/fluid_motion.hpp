@@ -17,7 +17,7 @@ struct FluidSimulation::Motion {
   std::vector<double> free;    ///< U^+ without contact
   std::vector<double> moved;   ///< velocities with which the particles move: U^+ with contact
   std::vector<double> linear;  ///< `moved` without the finite turns of rigid bodies
-  std::vector<double> link_forces;
+  std::vector<double> link_forces, arm_powers;
   std::vector<double> at_end;    ///< u^{n+1}
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
   StepContacts contact;

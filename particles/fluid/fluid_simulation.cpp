@@ -183,6 +183,16 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
   if (is_estimated) estimate(equation, forces, motion);
   motion.quantities = solver_->quantities();
+  if (held && !setting_.links.arms.empty()) {
+    auto drag = motion.quantities.fluid_forces;
+    for (auto& force : drag) force = -force;
+    const auto working = equation.velocities_of_work(motion.flow, drag);
+    const auto& links = setting_.links;
+    for (std::size_t k = 0; k < links.arms.size(); ++k)
+      motion.arm_powers.push_back(
+          motion.link_forces[links.place_of_arm(k, state_.particles.dimension)] *
+          held->rate_of_arm(k, working));
+  }
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -158,6 +158,13 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
   }
 }
 
+double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
+  const auto& arm = links_.arms[k];
+  return particles::rate_of_arm(arm, particles_, motion_of(arm.first, velocities),
+                                motion_of(arm.second, velocities)) /
+         times_.h;
+}
+
 std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {
   std::vector<double> forces(links_.force_count(particles_.dimension), 0.0);
   std::size_t r = body_rows_;

@@ -38,6 +38,9 @@ class HeldMotion {
   /// offsets cancel in the first.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
+  /// Rate at which the length of arm `k` grows with these velocities [L/T].
+  double rate_of_arm(std::size_t k, std::span<const double> velocities) const;
+
   /// The forces of the links in the order of State::link_forces, from those of the rows.
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 

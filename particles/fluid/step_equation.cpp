@@ -178,6 +178,20 @@ std::vector<double> StepEquation::velocities_at_end(std::span<const double> moti
   return velocities;
 }
 
+std::vector<double> StepEquation::velocities_of_work(std::span<const double> flow,
+                                                     std::span<const double> drag) const {
+  std::vector<double> velocities(flow.begin(), flow.end());
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    const auto k = i / layout_.components;
+    if (inertia_[i] == 0 || is_driven(static_cast<std::int32_t>(k))) continue;
+    const double change = flow[i] - velocity(k, i % layout_.components);
+    const double accelerating = inertia_[i] * change, all = accelerating + drag[i];
+    const double share = all != 0 ? std::clamp(accelerating / all, 0.0, 1.0) : 0;
+    velocities[i] -= share * (1 - 0.5 / thetas_[i]) * change;
+  }
+  return velocities;
+}
+
 bool StepEquation::put_in_contact(std::span<const FluidContact> contacts) {
   const auto before = thetas_;
   for (const auto& contact : contacts) {

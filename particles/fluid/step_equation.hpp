@@ -46,6 +46,13 @@ class StepEquation {
   std::vector<double> velocities_at_end(std::span<const double> motions,
                                         std::span<const double> flow) const;
 
+  /// The velocities at which the forces on the particles do their work in the step, for the
+  /// velocities `flow` = U and the forces `drag` of the particles on the fluid: U for the part of the
+  /// forces that the fluid resists, (u^n + u^{n+1})/2 for the part that accelerates. Work at U alone
+  /// would contain the energy that a step with theta > 1/2 loses where the velocity jumps.
+  std::vector<double> velocities_of_work(std::span<const double> flow,
+                                         std::span<const double> drag) const;
+
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 

@@ -79,14 +79,11 @@ std::string spring_rows(const Setting& setting, const State& state) {
 std::string arm_rows(const Setting& setting, const State& state) {
   std::string text;
   const auto& arms = setting.links.arms;
-  const double h = std::min(setting.time_step, state.time);
   for (std::size_t k = 0; k < arms.size(); ++k) {
     const double force = force_of(state, setting.links.place_of_arm(k, state.particles.dimension));
-    const double change =
-        length_at(arms[k].length, state.time) - length_at(arms[k].length, state.time - h);
     text += row(state.time, k,
                 {distance(state.particles, arms[k].first, arms[k].second), force,
-                 h > 0 ? force * change / h + 0.0 : 0});
+                 state.arm_powers.empty() ? 0 : state.arm_powers[k]});
   }
   return text;
 }

@@ -28,8 +28,8 @@ struct TimeTable {
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
 /// forces of springs and arms are positive where they push the ends apart. Forces are those of the
-/// step that ended at the time, 0 before the first one. The power is what an arm does: its force
-/// times the mean rate of its length in a time step.
+/// step that ended at the time, 0 before the first one. The power is the work of an arm in this
+/// step over the length of the step.
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles);
 
 }  // namespace viscontact::particles

@@ -1,4 +1,4 @@
-// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 4 must stay
+// Writes and reads the binary restart file (restart.hpp). Files of versions 1 to 5 must stay
 // readable; a change of the fields of State or Pair needs a new version.
 #include "viscontact/particles/io/restart.hpp"
 
@@ -18,7 +18,7 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -80,6 +80,8 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(arrays.carried);
   field(arrays.bodies);
   field(state.link_forces);
+  if (version < 6) return;
+  field(state.arm_powers);
 }
 
 class Writer {

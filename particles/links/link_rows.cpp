@@ -193,6 +193,15 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
   return {row.value + part(row.first, first) + part(row.second, second)};
 }
 
+double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
+                   const UnitMotion& second) {
+  const auto row = arm_equations(arm, particles, {}).rows.front();
+  const auto rate = [](const RowPart& of, const UnitMotion& by) {
+    return dot(of.direction, by.displacement + cross(by.turn, of.arm));
+  };
+  return rate(row.first, first) + rate(row.second, second);
+}
+
 std::string name_of(const LinkEquations& equations, const Links& links,
                     const Particles& particles) {
   const auto k = equations.number;

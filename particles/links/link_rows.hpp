@@ -66,6 +66,11 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
                                  const Particles& particles, const LinkTimes& times,
                                  const UnitMotion& first, const UnitMotion& second);
 
+/// Rate at which the length of an arm grows, to first order, in the direction of the beginning of a
+/// step [L/T]. `first` and `second` are velocities and angular velocities of the units of its ends.
+double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
+                   const UnitMotion& second);
+
 /// "arm 2 (particles 3 and 4)": the name of a link in messages, with the ids of its particles and
 /// numbers from 1 on.
 std::string name_of(const LinkEquations& equations, const Links& links, const Particles& particles);

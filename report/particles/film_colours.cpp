@@ -19,6 +19,15 @@ double lowest_gamma(const particles::Playback& playback) {
   return lowest;
 }
 
+const char* film_words(const particles::Playback& playback) {
+  const bool are_discs_in_fluid =
+      playback.dimension == 2 &&
+      std::ranges::any_of(playback.frames, [](const auto& frame) { return !frame.flow.empty(); });
+  return are_discs_in_fluid
+             ? "gamma: minus the impulse per length that the film has absorbed [mass/time]"
+             : "gamma: minus the impulse that the film has absorbed [mass × length/time]";
+}
+
 bool has_contact_without_film(const particles::Frame& frame) {
   return std::ranges::any_of(frame.contacts, [](const auto& c) { return !(c.gamma < 0); });
 }

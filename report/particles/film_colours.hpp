@@ -1,5 +1,6 @@
 // Colours for gamma, and the numbers on the scale of these colours, for the picture and the page of
-// a motion of particles. gamma [M L/T] is minus the impulse that a film has absorbed.
+// a motion of particles. gamma is minus the impulse that a film has
+// absorbed [M L/T], of discs in a fluid per length [M/T].
 #pragma once
 
 #include <string>
@@ -27,8 +28,8 @@ std::string film_colour(int level, int levels);
 std::vector<double> film_ticks(double lowest);
 std::string film_tick_text(double tick);
 
-inline constexpr const char* kFilmWords =
-    "gamma: minus the impulse that the film has absorbed [mass × length/time]";
+/// What the scale of gamma shows, with its dimension.
+const char* film_words(const particles::Playback& playback);
 inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
 inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts that slide
 

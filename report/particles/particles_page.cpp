@@ -81,7 +81,7 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
-std::string legend(double lowest, bool touching, bool sliding, const FlowOfPage& flow) {
+std::string legend(double lowest, const char* words, bool touching, bool sliding, const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (lowest < 0) {
     std::vector<std::string> colours;
@@ -89,7 +89,7 @@ std::string legend(double lowest, bool touching, bool sliding, const FlowOfPage&
     std::vector<std::pair<double, std::string>> ticks;
     for (const double tick : film_ticks(lowest))
       ticks.emplace_back(1 - tick / lowest, film_tick_text(tick));
-    text += scale_html(kFilmWords, colours, ticks);
+    text += scale_html(words, colours, ticks);
   }
   if (touching)
     text += fmt::format(
@@ -153,7 +153,7 @@ std::string particles_page(const Playback& original, const std::string& title) {
       "by one frame; Home and End go to the first and the last frame. {} Point at a particle to "
       "see "
       "its values.</p>\n",
-      escaped(words), flow.controls, legend(lowest, touching, sliding, flow),
+      escaped(words), flow.controls, legend(lowest, film_words(original), touching, sliding, flow),
       flat ? "Drag to move the picture; use the wheel or pinch to zoom."
            : "Drag to turn the picture, or with Shift or two fingers to move it; use the wheel or "
              "pinch to zoom.");

@@ -73,12 +73,12 @@ struct ColourBar {
   std::string words;
 };
 
-ColourBar film_bar(double lowest, bool touching) {
+ColourBar film_bar(double lowest, const std::string& words, bool touching) {
   ColourBar bar;
   for (int c = kContactColours; c-- > 0;) bar.colours.push_back(film_colour(c, kContactColours));
   for (const double tick : film_ticks(lowest))
     bar.ticks.emplace_back(1 - tick / lowest, film_tick_text(tick));
-  bar.words = kFilmWords + std::string(touching ? "; thin and grey: touching, no film" : "");
+  bar.words = words + std::string(touching ? "; thin and grey: touching, no film" : "");
   return bar;
 }
 
@@ -210,7 +210,7 @@ std::string particles_picture(const Playback& original, const std::string& title
   std::vector<ColourBar> bars;
   if (flows.top_speed > 0) bars.push_back(speed_bar(flows.top_speed));
   if (panel.lowest < 0)
-    bars.push_back(film_bar(panel.lowest, std::ranges::any_of(chosen, [&](std::size_t f) {
+    bars.push_back(film_bar(panel.lowest, film_words(original), std::ranges::any_of(chosen, [&](std::size_t f) {
                               return has_contact_without_film(playback.frames[f]);
                             })));
   const bool slides = std::ranges::any_of(

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+
+#include "viscontact/particles/io/link_file.hpp"
 
 namespace viscontact::particles {
 
@@ -92,6 +96,16 @@ Vector angular_momentum(const Particles& particles) {
   for (std::size_t k = 0; k < particles.count(); ++k)
     sum = sum + particles.masses[k] * cross(particles.position(k), particles.velocity(k));
   return sum;
+}
+
+double power_of_arm(const Setting& setting, const State& state) {
+  for (const auto& table : time_tables(setting, state.particles))
+    if (table.name == "arms.csv") {
+      const auto rows = table.rows(setting, state);
+      const auto first = rows.substr(0, rows.find('\n'));
+      return std::stod(first.substr(first.rfind(',') + 1));
+    }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 double kinetic_energy(const Particles& particles) {

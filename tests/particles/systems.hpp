@@ -63,6 +63,9 @@ Vector momentum(const Particles& particles);
 Vector angular_momentum(const Particles& particles);
 double kinetic_energy(const Particles& particles);
 
+/// The power of arm 0 in arms.csv.
+double power_of_arm(const Setting& setting, const State& state);
+
 /// Takes `steps` steps, each of which must converge. Returns the most iterations of a step.
 int take_steps(Simulation& simulation, int steps);
 

@@ -263,6 +263,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "radius = 8.0 }",
                 "[[particle]]\ncentre = [3.0",
                 "have a gap of 1.5 at the start, less than fluid.threshold_gap, 1.6"},
+        Refusal{"RoughBelowThreshold", kDiscsInDisc, "end_time = 1.0",
+                "end_time = 1.0\nroughness = 0.8", "[[particle]]\ncentre = [3.0",
+                "less than fluid.threshold_gap, 1.6, at which contact is made; the gap must be "
+                "larger or viscous_contact.roughness smaller"},
         Refusal{"OutsideCylinder", kSpheresOnAxis, "[6.0]", "[11.0]", "[[particle]]\ncentre = [11",
                 "z of its centre must be between 0 and 10"},
         Refusal{"InLid", kSpheresOnAxis, "[6.0]", "[9.75]", "[[particle]]\ncentre = [9.75",
@@ -285,6 +289,15 @@ TEST(RefusedFluidTest, ImageOfAParticleOverlapsAnother) {
                       "[0.5, 1.0]", "[0.5, 0.2]"),
               "[1.2, 3.0]", "[0.5, 5.8]");
   expect_refused_at(text, "[[particle]]\ncentre = [0.5, 5.8]", "overlap by 0.1 at the start");
+}
+
+TEST(RefusedFluidTest, ThresholdGapBelowTheGapAtWhichTheSolidsTouch) {
+  const auto text =
+      changed(changed(kDiscsInDisc, "viscosity = 2.0", "viscosity = 2.0\nthreshold_gap = 0.1"),
+              "end_time = 1.0", "end_time = 1.0\nroughness = 0.06");
+  expect_refused_at(text, "threshold_gap",
+                    "fluid.threshold_gap is 0.1; it must be at least twice "
+                    "viscous_contact.roughness, 0.12, because the solids touch at that gap");
 }
 
 TEST(RefusedFluidTest, PlaneAcrossAPeriod) {

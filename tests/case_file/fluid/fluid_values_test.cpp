@@ -160,6 +160,16 @@ TEST(FluidCase, DefaultThresholdGapIsAtMostHalfOfTheSmallestGap) {
   EXPECT_NEAR(period.setting.fluid->threshold_gap, 0.002, 1e-12);
 }
 
+TEST(FluidCase, DefaultThresholdGapIsAtLeastTheGapAtWhichTheSolidsTouch) {
+  const auto rough = [](const char* roughness) {
+    return read_particles_text(changed(kDiscsInDisc, "end_time = 1.0",
+                                       std::string("end_time = 1.0\nroughness = ") + roughness))
+        .setting.fluid->threshold_gap;
+  };
+  EXPECT_EQ(rough("0.01"), 0.025);
+  EXPECT_EQ(rough("0.05"), 0.1);
+}
+
 TEST(FluidCase, PairMayStartInContactAtTheThresholdGap) {
   const auto c = read_particles_text(
       changed(changed(kDiscsInDisc, "viscosity = 2.0", "viscosity = 2.0\nthreshold_gap = 0.1"),

@@ -108,6 +108,11 @@ TEST(ArrangementSection, GapInAFluidIsJudgedWithoutTheSeed) {
   expect_refused_at(
       text("threshold_gap = 0.1", "0.05"), "smallest_gap",
       "arrangement.smallest_gap is 0.05; it must be at least fluid.threshold_gap, 0.1");
+  expect_refused_at(
+      changed(text("", "0.05"), "end_time = 1.0", "end_time = 1.0\nroughness = 0.04"),
+      "smallest_gap",
+      "it must be at least twice viscous_contact.roughness, 0.08, at which the solids "
+      "touch");
   expect_refused_at(text("", "1e-4"), "smallest_gap", "a thousandth of the radius, 0.0002");
   EXPECT_EQ(read_particles_text(text("threshold_gap = 0.05", "0.05")).particles.count(), 2U);
 }

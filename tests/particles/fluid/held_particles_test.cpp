@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -111,6 +113,27 @@ TEST(HeldInFluid, AnArmKeepsItsLengthAndItsForceBalancesTheDrag) {
     const double h = 0.05, t = simulation.state().time;
     const double rate = (length_at(length, t) - length_at(length, t - h)) / h;
     EXPECT_NEAR(simulation.state().link_forces[0], drag * rate / 2, 1e-9);
+  }
+}
+
+TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
+  // At rest at the start, then with kinks of the length at the times 0, 0.5 and 1.
+  const double h = 0.01;
+  for (const double mass : {0.0, 1e-3, 1.0, 30.0}) {
+    SCOPED_TRACE(mass);
+    auto system = in_fluid(1, 100, h, 0.01);
+    add_pushed(system, {40, 0, 0}, 0.5, mass, {});
+    add_pushed(system, {44, 0, 0}, 0.5, 2 * mass, {});
+    system.setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 4}, {0.5, 3.5}, {1, 5}}}}};
+    auto simulation = system.simulation(constant_drag(2));
+    double work = 0, dissipated = 0;
+    while (simulation.state().time < 1.5 - h / 2) {
+      dissipated += h * simulation.step(1.5).fluid.dissipation;
+      work += h * power_of_arm(system.setting, simulation.state());
+      const auto& v = simulation.state().particles.velocities;
+      if (std::getenv("SEE")) std::printf("m %g t %g v %g %g l %g W %g D %g K %g\n", mass, simulation.state().time, v[0], v[1], simulation.state().link_forces[0], work, dissipated, mass / 2 * v[0] * v[0] + mass * v[1] * v[1]);
+      EXPECT_NEAR(work, dissipated + mass / 2 * v[0] * v[0] + mass * v[1] * v[1], 1e-6);
+    }
   }
 }
 

@@ -53,13 +53,13 @@ std::string of_version(int version, const State& state,
   const auto first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   auto bytes = text.substr(second);
   // Version 3 added the lengths of six lists, which are empty here, and a number; version 4 the
-  // lengths of two more, and a number; version 5 the lengths of three more.
-  const std::size_t added = version == 4 ? 24 : version == 3 ? 48 : 104;
+  // lengths of two more, and a number; version 5 the lengths of three more; version 6 one more.
+  const std::size_t added = version == 4 ? 32 : version == 3 ? 56 : 112;
   EXPECT_EQ(bytes.substr(bytes.size() - added), std::string(added, '\0'));
   bytes.erase(bytes.size() - added);
   change(bytes);
   auto head = text.substr(0, first);
-  head.replace(head.find("version 5"), 9, "version " + std::to_string(version));
+  head.replace(head.find("version 6"), 9, "version " + std::to_string(version));
   return head + "# sha256 of the rest: " + sha256(bytes) + "\n" + bytes;
 }
 
@@ -178,8 +178,8 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
   auto text = write_restart(disc_on_plane(-0.5));
-  text.replace(text.find("version 5"), 9, "version 6");
-  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 5 can be read"));
+  text.replace(text.find("version 6"), 9, "version 7");
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 6 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

@@ -184,6 +184,46 @@ TEST(Arms, ARotatingArmThatShortensTurnsFasterByItsAngularMomentum) {
   EXPECT_NEAR(norm(apart), 1, 1e-10);
 }
 
+TEST(Arms, TheirPowerAddsUpToTheEnergyThatTheyGive) {
+  // The length has a kink at the start, and two more; the pair turns, and one end is a member of a
+  // body that turns about its centre.
+  for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
+    for (const bool is_body : {false, true}) {
+      const double h = 0.01;
+      auto setting = setting_of(h, scheme);
+      setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 2}, {0.5, 1.5}, {1, 3}}}}};
+      auto state = two_particles(2, 2, {0, 1, 0});
+      if (is_body) {
+        state = no_particles(2);
+        add_particle(state, {}, 0.1, 2);
+        add_particle(state, {2, 0, 0}, 0.1, 3);
+        add_particle(state, {3, 1, 0}, 0.1, 1);
+        add_rotation(state.particles);
+        add_rigid_body(state.particles, {{1, 2}});
+      }
+      const auto energy = [&](const State& of) {
+        const auto& p = of.particles;
+        if (!is_body) return kinetic_energy(p);
+        const auto& body = p.bodies.bodies[0];
+        return p.masses[0] / 2 * dot(p.velocity(0), p.velocity(0)) +
+               body.mass / 2 * dot(body.velocity, body.velocity) +
+               body.inertia[8] / 2 * body.angular_velocity[2] * body.angular_velocity[2];
+      };
+      Simulation simulation(setting, state, 1);
+      const double before = energy(simulation.state());
+      double work = 0, largest = 0, time = 0;
+      run(simulation, 1.5, [&](const StepReport& report) {
+        expect_converged(report);
+        work += power_of_arm(setting, simulation.state()) * (report.time - time);
+        time = report.time;
+        largest = std::max(largest, energy(simulation.state()));
+        // The tolerance of the gaps, 1e-10, over h is one of the velocities.
+        EXPECT_NEAR(energy(simulation.state()) - before, work, 1e-7) << report.time;
+      });
+      EXPECT_GT(largest - before, 5);
+    }
+}
+
 TEST(Arms, ThreeArmsThatBreakTheTriangleInequalityAreNamed) {
   auto setting = setting_of(0.01);
   setting.solver.tolerance = 1e-6;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -89,6 +90,23 @@ TEST_F(ShippedFluidCase, TheLectureIsPushedToTheFloor) {
   last_of(text);
   EXPECT_NEAR(last("motion.csv", 2), 1.1, 1e-6);  // the centre: D_c and the radius
   EXPECT_NEAR(last("contacts.csv", 4), -203.5, 2);
+}
+
+// docs/physics.md (6.8): the film of 3.2e-3 that the smooth sphere has at t = 2 is thinner than twice
+// the roughness, so that the solids touch, and the sphere comes off before t = 3.
+TEST_F(ShippedFluidCase, TheLecturesSphereTouchesTheFloorIfItIsRough) {
+  auto text = cut("lecture", 0.05, 54);
+  text = replaced_matches(text, "edges_per_particle = 24", "edges_per_particle = 12");
+  text = replaced_matches(text, "time_step = ", "roughness = 0.005\ntime_step = ");
+  last_of(text + "[output]\nevery = 0.1\n");
+  const auto gammas = matches_in(content(out() / "contacts.csv"), ",([^,\n]+)\n", 1);
+  std::vector<double> of_film;
+  for (const auto& gamma : gammas)
+    if (gamma.starts_with("-")) of_film.push_back(std::stod(gamma));
+  EXPECT_NEAR(*std::ranges::min_element(of_film), 18 * std::acos(-1.0) * std::log(0.01 / 0.1),
+              1e-9);
+  EXPECT_GT(last("motion.csv", 2), 1.1);
+  EXPECT_EQ(content(out() / "final_contacts.csv"), "i,j,gap,gamma,gamma_error\n");
 }
 
 // Exactly 1 + 2.0392276 phi in a cell of 2 H (data/reference/discs.csv, "sheared, 2a/H = 0.1").
