@@ -44,7 +44,8 @@ class Iteration {
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
     while (residual_ > 1 && best_.result.iterations < max_iterations)
-      take_proximal_step(max_iterations);
+      problem_.lifts_sliding ? take_convex_step(max_iterations)
+                             : take_proximal_step(max_iterations);
     return finish();
   }
 
@@ -93,6 +94,32 @@ class Iteration {
     }
   }
 
+  /// Takes a proximal step for the convex relaxation (5.9). Each step leads nearer to the solution
+  /// but for rounding errors, which are those of the gaps divided by epsilon. Therefore epsilon
+  /// falls until the impulses between jammed particles have grown as far as they must, then rises
+  /// until the errors are gone, and falls again if that was not far enough.
+  void take_convex_step(int max_iterations) {
+    constexpr int kMostIterations = 50;
+    constexpr double kLeastEpsilon = 1e-8, kFactor = 10;
+    const auto center = problem_.impulses;
+    const int most = std::clamp(max_iterations - best_.result.iterations, 1, kMostIterations);
+    const int taken = proximal_->solve(center, motions_, most);
+    best_.result.iterations += taken;
+    problem_.impulses = proximal_->impulses();
+    update();
+    const bool is_solved = !proximal_->failed() && taken < most;
+    const bool is_largest = epsilon_ >= kFirstEpsilon, is_least = epsilon_ <= kLeastEpsilon;
+    if (!is_solved) {
+      problem_.impulses = center;
+      update();
+      if (is_largest) sweep();
+    }
+    is_rising_ = !is_largest && (is_rising_ || is_least || !is_solved);
+    epsilon_ = is_rising_ ? std::min(kFirstEpsilon, kFactor * epsilon_)
+                          : std::max(kLeastEpsilon, epsilon_ / kFactor);
+    proximal_->set_epsilon(epsilon_);
+  }
+
   /// Computes motions and residuals, and keeps the solution if it is the best so far.
   void update() {
     motions_ = motions<D>(problem_, problem_.impulses);
@@ -132,6 +159,7 @@ class Iteration {
   std::vector<Motion<D>> motions_;
   std::vector<BlockResidual> residuals_;
   ConstraintSolution<D> best_;
+  bool is_rising_ = false;
   double residual_ = 0, epsilon_ = kFirstEpsilon;
 };
 

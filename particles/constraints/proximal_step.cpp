@@ -224,12 +224,41 @@ void ProximalStep<D>::find_direction() {
 /// Length of a step that makes the error fall.
 template <int D>
 double ProximalStep<D>::length_of_step(double before) {
+  if (problem_.lifts_sliding) return length_to_minimum();
   // A step is shortened until the error falls by a share of what it promises.
   constexpr double kPromised = 0.1;
   constexpr int kMostHalvings = 8;
   double length = 1;
   for (int n = 0; n < kMostHalvings; ++n, length /= 2)
     if (error_at(length, false) <= (1 - kPromised * length) * before) break;
+  return length;
+}
+
+/// Length of a step that ends near the minimum of the convex function whose gradient is the negative
+/// error. Its derivative along the direction rises with the length.
+template <int D>
+double ProximalStep<D>::length_to_minimum() {
+  constexpr double kReached = 0.1;
+  constexpr int kMostTrials = 20;
+  const auto derivative = [&](double t) {
+    error_at(t, false);
+    double sum = 0;
+    for (std::size_t u = 0; u < error_.size(); ++u)
+      for (std::size_t k = 0; k < error_[u].size(); ++k) sum -= error_[u][k] * direction_[u][k];
+    return sum;
+  };
+  const double first = derivative(0);
+  double low = 0, high = 1, at_low = first, at_high = derivative(1);
+  if (!(first < 0) || at_high <= -kReached * first) return 1;
+  double length = 1;
+  for (int n = 0; n < kMostTrials; ++n) {
+    // Bisection takes turns with the secant, which a kink near one end can make slow.
+    length = n % 2 == 0 ? low + (high - low) * at_low / (at_low - at_high) : (low + high) / 2;
+    const double here = derivative(length);
+    if (std::abs(here) <= -kReached * first) break;
+    (here < 0 ? low : high) = length;
+    (here < 0 ? at_low : at_high) = here;
+  }
   return length;
 }
 
@@ -277,7 +306,7 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
     // without a change ends at the solution, within rounding errors.
     const bool is_linear = D == 2 || here <= kExact * first || here > before / 2;
     if (here == 0 || (length == 1 && last == branches_ && is_linear)) break;
-    if (!(here < before)) {
+    if (problem_.lifts_sliding ? here <= rounding_error() : !(here < before)) {
       failed_ = !(here <= rounding_error());
       break;
     }

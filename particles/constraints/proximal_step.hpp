@@ -59,6 +59,7 @@ class ProximalStep {
   void add_product(std::size_t b, const ConstraintRow<D>& row, const ConstraintRow<D>& other,
                    double weight);
   void find_direction();
+  double length_to_minimum();
   double rounding_error() const;
   double length_of_step(double before);
 
