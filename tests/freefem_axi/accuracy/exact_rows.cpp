@@ -83,6 +83,23 @@ ExactRow draw_cylinder(Random& random, double accuracy) {
   return row;
 }
 
+Tabulation in_units(const Tabulation& tabulation, double radius, double viscosity, double speed) {
+  auto changed = tabulation;
+  changed.radius *= radius;
+  changed.viscosity *= viscosity;
+  for (double& gap : changed.gaps) gap *= radius;
+  for (double& velocity : changed.reference_velocities) velocity *= speed;
+  if (changed.container) {
+    changed.container->radius *= radius;
+    changed.container->height *= radius;
+  }
+  // The further parameters of a sphere are ratios of velocities.
+  auto& parameters = changed.geometry_parameters;
+  const std::size_t lengths = changed.geometry == "sphere" ? 1 : parameters.size();
+  for (std::size_t i = 0; i < lengths; ++i) parameters[i] *= radius;
+  return changed;
+}
+
 std::span<const ExactRows> exact_rows() { return kAll; }
 
 std::string SolvedRow::in_words() const {

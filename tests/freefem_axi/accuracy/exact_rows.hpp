@@ -48,6 +48,10 @@ ExactRow draw_cavity(Random& random, double accuracy);
 /// Closed cylinders from 3 x 6 to 80 x 160 radii, gaps from 1e-4 to mid-height.
 ExactRow draw_cylinder(Random& random, double accuracy);
 
+/// The same row in other units: `radius`, `viscosity` and `speed` are what is 1 in `tabulation`,
+/// all > 0. The drag factor, a number, stays.
+Tabulation in_units(const Tabulation& tabulation, double radius, double viscosity, double speed);
+
 struct ExactRows {
   const char* name;
   ExactRow (*draw)(Random& random, double accuracy);
