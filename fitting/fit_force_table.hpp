@@ -30,7 +30,7 @@ struct FitSettings {
   /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2];
   /// empty: the forces.
   std::vector<double> row_scales{};
-  /// What the fitted function must be like; a fit that is not is refused.
+  /// What is known of the fitted resistance; FitDiagnostics says where the fit is not like that.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
