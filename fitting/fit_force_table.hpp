@@ -30,7 +30,7 @@ struct FitSettings {
   /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2];
   /// empty: the forces.
   std::vector<double> row_scales{};
-  /// What is known of the fitted resistance; FitDiagnostics says where the fit is not like that.
+  /// What is known of the fitted resistance. A fit that is not like that gets a warning.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 
