@@ -15,10 +15,12 @@ namespace viscontact::fitting {
 
 /// The choices of a fit.
 struct FitSettings {
-  lubrication::Basis basis =
-      lubrication::default_basis();  ///< terms that are combined, at least one
-  lubrication::Weights weights = lubrication::Weights::kRelative;  ///< what each residual counts
-  lubrication::Loss loss = lubrication::Loss::kSquared;            ///< how large residuals count
+  /// The terms that are combined, at least one.
+  lubrication::Basis basis = lubrication::default_basis();
+  /// How strongly the residual of each row counts.
+  lubrication::Weights weights = lubrication::Weights::kRelative;
+  /// How strongly large residuals count.
+  lubrication::Loss loss = lubrication::Loss::kSquared;
   /// True: the coefficient of 1/q is fixed. Its value is `leading_value`, or else that of theory
   /// (ForceTable::leading_coefficient).
   bool fix_leading = false;
@@ -28,7 +30,7 @@ struct FitSettings {
   /// What the residual of each row is relative to, in place of its force, each > 0 [M L/T^2];
   /// empty: the forces.
   std::vector<double> row_scales{};
-  /// What the fitted function must be like; a fit that is not is refused.
+  /// What is known of the fitted resistance. A fit that is not like that gets a warning.
   lubrication::FittedShape shape = lubrication::FittedShape::kDrag;
 };
 

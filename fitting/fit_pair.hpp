@@ -23,7 +23,7 @@ struct PairTables {
 /// The choices of the fits of a pair, the same for all entries.
 struct PairFitSettings {
   std::string basis{lubrication::kDefaultPairBasis};     ///< one of pair_bases()
-  lubrication::Loss loss = lubrication::Loss::kSquared;  ///< how large residuals count
+  lubrication::Loss loss = lubrication::Loss::kSquared;  ///< how strongly large residuals count
 };
 
 /// Fits the entries that the tables contain. Residuals of slide_roll are relative to the geometric

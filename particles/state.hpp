@@ -33,7 +33,7 @@ struct Pair {
   double carried = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
-  /// True if all members are equal, bit for bit.
+  /// True if all members are equal.
   bool operator==(const Pair&) const = default;
 };
 
