@@ -78,9 +78,10 @@ void with_failure(const RowFailure& failure, const Call& call) {
 
 /// Computes the missing rows, one table after the other, `jobs` rows at once, and writes the
 /// tables. A table that was already made from the same inputs is left as it is. A row that fails
-/// stops neither the other rows nor the other tables. Its table is written without it, unless no row is left or TablePlan::needs_all_rows: then Error(kExternalProgram) at the end names the
-/// rows that failed. Throws Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
-/// Rows that an earlier call wrote as failed are computed again.
+/// stops neither the other rows nor the other tables. Its table is written without it, unless no
+/// row is left or the table needs all of them (TablePlan): then Error(kExternalProgram) at the end
+/// names the rows that failed. Rows that an earlier call wrote as failed are computed again. Throws
+/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
 [[nodiscard]] RowFailure tabulate_stage(const std::vector<CaseTable>& tables, int jobs,
                                         const StopToken& stop);
 

@@ -42,7 +42,8 @@ void expect_refusal(const ProgramResult& result, ErrorKind kind,
   EXPECT_LE(lines.end() - error, 2) << result.errors;
   for (auto line = lines.begin(); line != error; ++line)
     EXPECT_THAT(*line, ::testing::MatchesRegex(
-                           "(tabulate|fit|simulate|compare|report|particles|rolling): .*"));
+                           "(tabulate|fit|simulate|compare|report|compare, report|particles|"
+                           "rolling): .*"));
 }
 
 std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {

@@ -28,12 +28,13 @@ Json schema() {
       read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs" / "fit.schema.json"));
 }
 
-/// A fit that has everything a fit file may hold: a held term, an outlier, a warning.
+/// A fit that has everything a fit file may hold: a held term, an outlier, a failed row, a warning.
 Json good_file() {
   auto table = fitting::exact_drag_table(fitting::fifty_gaps(), {-1}, 3, 1);
   table.geometry = "plane";
   table.leading_coefficient = 50;
   table.rows[20].force *= 2;
+  table.failed_rows = {{"gap 0.5, velocity -1", "no solution"}};
   for (auto& row : table.rows) row.relative_error_estimate = 1e-5;
   fitting::FitSettings settings;
   settings.loss = Loss::kHuber;

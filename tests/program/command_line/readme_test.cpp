@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -42,12 +43,12 @@ void interrupt_tabulation() {
   const auto lecture =
       case_file::read_case(fs::path(VISCONTACT_SOURCE_FOLDER) / "data/cases/lecture.toml");
   const auto plan = freefem_axi::force_table_plan(*lecture.tabulation);
-  const auto rows = plan.read(out / "lecture/table.csv");
-  ASSERT_TRUE(rows) << "scripts/run has made no table of its case";
+  const auto rows = plan.read(out / "lecture/table.csv").finished;
+  ASSERT_GT(rows.size(), 2U) << "scripts/run has made no table of its case";
   fs::remove(out / "table.csv");
   fs::remove(freefem_axi::journal_path(out / "table.csv"));
   freefem_axi::RowJournal journal(freefem_axi::journal_path(out / "table.csv"), plan.hash);
-  for (std::size_t i = 0; i + 2 < rows->size(); ++i) journal.append(rows->at(i));
+  for (auto row = rows.begin(); row != std::prev(rows.end(), 2); ++row) journal.append(row->second);
 }
 
 TEST(Readme, EveryCommandThatItShowsSucceedsInItsOrder) {

@@ -116,9 +116,9 @@ TEST_F(ExternalPrograms, TooFewRowsThatAreLeftAreSaidWithTheRowsThatFailed) {
   put_text(path("case.toml"), gentle_case_text());
   const auto result = run_viscontact({"run", path("case.toml"), "-o", path("out")},
                                      {"VISCONTACT_FREEFEM=" + fake.executable()});
-  expect_refusal(result, ErrorKind::kExternalProgram,
-                 AllOf(HasSubstr("5 of 6 rows failed"), HasSubstr("1 different gap(s)"),
-                       HasSubstr("5 of its rows could not be computed")));
+  expect_refusal(result, ErrorKind::kExternalProgram, HasSubstr("5 of 6 rows failed"));
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("1 different gap(s)"),
+                                   HasSubstr("5 of its rows could not be computed")));
   EXPECT_FALSE(std::filesystem::exists(path("out/fit.json")));
 }
 

@@ -147,35 +147,53 @@ TEST_F(MotionsCommand, FitsAndExportsAPair) {
                  HasSubstr("has none of the tables approach.csv"));
 }
 
-// An interrupted tabulation leaves the tables of some motions: FreeFEM is killed while it computes
-// the second table.
+/// A shell script in FreeFEM's place beside a plane, which answers every motion at once: forces and
+/// torques are sums of the leading terms of theory and constants, and the matrix is symmetric.
+/// `before` is shell text that runs before a row is answered, with $gap and $motion (empty for the
+/// approach) set, unless the file `mended` is in the folder.
+std::string fake_motions(const TemporaryFolder& folder, const std::string& before) {
+  const auto file = folder.file("freefem", R"sh(#!/bin/sh
+case $4 in *version.edp) echo "viscontact-version 0-fake"; exit 0 ;; esac
+for word in "$@"; do
+  case $previous in -gap) gap=$word ;; -velocity) velocity=$word ;; -motion) motion=$word ;; esac
+  previous=$word
+done
+[ -e ')sh" + (folder.path() / "mended").string() +
+                                               "' ] || {\n" + before + R"sh(
+:; }
+awk "BEGIN { l = log($gap)
+  if (\"$motion\" == \"1\") {
+    printf \"viscontact-action 0 0 %.17g %.17g 1e-6 1e-6 4\\n\", -20 + 10 * l, 3 + 2 * l
+    printf \"viscontact-action 1 0 %.17g %.17g 1e-6 1e-6 4\\n\", 3 + 2 * l, -20 + 10 * l
+  } else if (\"$motion\" == \"2\")
+    printf \"viscontact-action 0 0 0 %.17g 1e-6 1e-6 4\\n\", -25 + 6 * $gap * l
+  printf \"viscontact-result %.17g 1e-6 1000 4\\n\", -($velocity) * (1 / $gap + 1) }"
+)sh");
+  make_executable(file);
+  return "VISCONTACT_FREEFEM=" + file.string();
+}
+
+// An interrupted tabulation leaves the tables of some motions: the user types Ctrl-C during the
+// second table.
 TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeftOut) {
   const auto file = small_case("motion = \"all\"");
-  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
-case "$*" in
-  *version.edp*) exec FreeFem++-nw "$@" ;;
-  *-motion*) kill -INT $PPID; exec sleep 60 ;;
-  *) exec FreeFem++-nw "$@" ;;
-esac
-)sh");
-  make_executable(freefem);
-  const auto interrupted = run_viscontact({"tabulate", file, "-o", path("out")},
-                                          {"VISCONTACT_FREEFEM=" + freefem.string()});
+  const auto freefem =
+      fake_motions(scratch_, "[ \"$motion\" ] && { kill -INT $PPID; exec sleep 60; }");
+  const auto interrupted = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
   EXPECT_EQ(interrupted.exit_status, 130) << interrupted.errors;
   EXPECT_EQ(lubrication::read_force_table(path("out/approach.csv")).tabulated_motions.size(), 4U);
-  const auto fit = [&] { return run_viscontact({"fit", path("out"), "-o", path("pair.json")}); };
-  expect_refusal(fit(), ErrorKind::kBadInput,
+  expect_refusal(run_viscontact({"fit", path("out"), "-o", path("pair.json")}),
+                 ErrorKind::kBadInput,
                  AllOf(HasSubstr("out: lacks slide.csv, roll.csv, spin.csv, because the tabulation "
                                  "of approach, slide, roll, spin that made approach.csv"),
                        HasSubstr("'viscontact rerun " + path("out/approach.csv") + "'")));
   EXPECT_FALSE(fs::exists(path("pair.json")));
   // The command of the message completes the folder.
-  expect_done(run_viscontact({"rerun", path("out/approach.csv")}));
-  for (const char* motion : {"approach", "slide", "roll", "spin"}) {
-    EXPECT_TRUE(fs::exists(path("out/") + motion + ".csv"));
-    EXPECT_THAT(read_file(path("out/") + motion + ".csv"),
+  put_text(path("mended"), "");
+  expect_done(run_viscontact({"rerun", path("out/approach.csv")}, {freefem}));
+  for (const std::string motion : {"approach", "slide", "roll", "spin"})
+    EXPECT_THAT(read_file(path("out/" + motion + ".csv")),
                 HasSubstr("# motions: approach, slide, roll, spin\n"));
-  }
 }
 
 // A table that is alone in a folder is fitted in the basis of pairs, as the others of its folder.
@@ -193,18 +211,12 @@ TEST_F(MotionsCommand, FitOfAFolderIsThatOfAPairWhateverTablesItHas) {
 
 // Sliding and rolling share their rows, so that both tables lack a row that failed.
 TEST_F(MotionsCommand, ARowThatFailedIsMissingInTheTablesOfItsMotionsAndTheFitGoesOn) {
-  const auto freefem = scratch_.file("freefem", R"sh(#!/bin/sh
-case "$*" in
-  *"-gap 0.1 "*"-motion 1"*) echo 'viscontact-error no solution'; exit 4 ;;
-  *) exec FreeFem++-nw "$@" ;;
-esac
-)sh");
-  make_executable(freefem);
+  const auto freefem =
+      fake_motions(scratch_, "[ $gap = 0.1 ] && { echo viscontact-error no solution; exit 4; }");
   const auto file = small_case("motion = [\"slide\", \"roll\"]");
   put_text(file, std::regex_replace(read_file(file), std::regex("gaps = .*"),
                                     "gaps = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5]"));
-  const auto failed = run_viscontact({"tabulate", file, "-o", path("out")},
-                                     {"VISCONTACT_FREEFEM=" + freefem.string()});
+  const auto failed = run_viscontact({"tabulate", file, "-o", path("out")}, {freefem});
   expect_refusal(failed, ErrorKind::kExternalProgram, HasSubstr("1 of 7 rows failed"));
   for (const char* motion : {"slide", "roll"}) {
     const auto table = lubrication::read_motion_table(path("out/") + motion + ".csv");
@@ -218,7 +230,8 @@ esac
   const auto entries = nlohmann::json::parse(read_file(path("pair.json"))).at("entries");
   for (const char* entry : {"slide", "roll", "slide_roll"})
     EXPECT_EQ(entries.at(entry).at("diagnostics").at("failed_rows"), 1) << entry;
-  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}));
+  put_text(path("mended"), "");
+  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}, {freefem}));
   EXPECT_EQ(lubrication::read_motion_table(path("out/roll.csv")).rows.size(), 14U);
 }
 
