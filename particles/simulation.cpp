@@ -156,7 +156,8 @@ void Simulation::add_works_of_arms(double h) {
   };
   const auto after = [&](std::int32_t particle) -> UnitMotion {
     const auto b = p.bodies.body_of(particle);
-    if (b < 0) return {1 / h * point_of(displacements_.data(), index_of(particle), p.dimension), {}};
+    if (b < 0)
+      return {1 / h * point_of(displacements_.data(), index_of(particle), p.dimension), {}};
     const auto& step = body_steps_[index_of(b)];
     return {1 / h * step.displacement, 1 / h * step.turn};
   };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 namespace viscontact::particles {
 namespace {
@@ -52,6 +53,17 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   return forces;
 }
 
+/// Whether the length of an arm has a kink between the times `from` and `to` [T], not at `to`.
+bool has_kink(const Arm& arm, double from, double to) {
+  const auto* length = std::get_if<PiecewiseLinearLength>(&arm.length);
+  if (length == nullptr) return false;
+  return std::ranges::any_of(length->points, [&](const auto& point) {
+    double time = point[0];
+    if (length->period > 0) time += length->period * std::ceil((from - time) / length->period);
+    return time >= from && time < to;
+  });
+}
+
 }  // namespace
 
 StepEquation::StepEquation(const Setting& setting, const State& state, double h, double next)
@@ -70,6 +82,10 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
+  // Where the length of an arm has a kink, the velocities of its ends jump as in a contact.
+  for (const auto& arm : setting.links.arms)
+    if (has_kink(arm, state.time - state.earlier_step, next))
+      in_contact_[index_of(arm.first)] = in_contact_[index_of(arm.second)] = 1;
   spread_contact();
   add_inertia();
 }
@@ -213,6 +229,8 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
 
 bool StepEquation::drives_as_before(double earlier_step) const {
   const double before = std::max(0.0, state_.time - earlier_step);
+  for (const auto& arm : setting_.links.arms)
+    if (has_kink(arm, state_.time - earlier_step, state_.time + h_)) return false;
   for (const auto& [particle, motion] : setting_.given_motions) {
     const auto earlier = given_motion(motion, before, state_.time);
     const auto& now = driven_.at(particle);

@@ -81,7 +81,8 @@ std::string words_for(const Playback& playback, const PageData& data) {
   return words;
 }
 
-std::string legend(double lowest, const char* words, bool touching, bool sliding, const FlowOfPage& flow) {
+std::string legend(double lowest, const char* words, bool touching, bool sliding,
+                   const FlowOfPage& flow) {
   std::string text = flow.legend;
   if (lowest < 0) {
     std::vector<std::string> colours;

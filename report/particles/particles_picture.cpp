@@ -210,7 +210,8 @@ std::string particles_picture(const Playback& original, const std::string& title
   std::vector<ColourBar> bars;
   if (flows.top_speed > 0) bars.push_back(speed_bar(flows.top_speed));
   if (panel.lowest < 0)
-    bars.push_back(film_bar(panel.lowest, film_words(original), std::ranges::any_of(chosen, [&](std::size_t f) {
+    bars.push_back(film_bar(panel.lowest, film_words(original),
+                            std::ranges::any_of(chosen, [&](std::size_t f) {
                               return has_contact_without_film(playback.frames[f]);
                             })));
   const bool slides = std::ranges::any_of(

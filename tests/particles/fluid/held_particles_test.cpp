@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -131,8 +129,13 @@ TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
       dissipated += h * simulation.step(1.5).fluid.dissipation;
       work += h * power_of_arm(system.setting, simulation.state());
       const auto& v = simulation.state().particles.velocities;
-      if (std::getenv("SEE")) std::printf("m %g t %g v %g %g l %g W %g D %g K %g\n", mass, simulation.state().time, v[0], v[1], simulation.state().link_forces[0], work, dissipated, mass / 2 * v[0] * v[0] + mass * v[1] * v[1]);
-      EXPECT_NEAR(work, dissipated + mass / 2 * v[0] * v[0] + mass * v[1] * v[1], 1e-6);
+      // The velocities that move the particles, U^+, differ from U by the second order of the step.
+      EXPECT_NEAR(work, dissipated + mass / 2 * v[0] * v[0] + mass * v[1] * v[1],
+                  1e-4 * (1 + mass));
+      // A kink causes no oscillation: the velocity is that of the length in each step but the one in
+      // which the kink lies.
+      const double t = simulation.state().time;
+      EXPECT_NEAR(v[1] - v[0], t < 0.505 ? -1 : t < 1.005 ? 3 : 0, 0.01) << t;
     }
   }
 }
