@@ -1,5 +1,5 @@
 // The arguments of a row, the call of FreeFEM, and the result. Units are those of the case, except
-// that FreeFEM computes in those of solve_scale().
+// that FreeFEM writes in those of solve_scale().
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@
 namespace viscontact::freefem_axi {
 namespace {
 
-// Revision of the scripts. Raise it when a change of the scripts changes their results: tables of
-// another revision are then computed again.
+// Revision of the scripts. Raise it when a change of the scripts alters results by more than their
+// error estimates: tables of another revision are then computed again.
 constexpr int kDragMethod = 3;
 
 /// The first numbers of the script's line "viscontact-result".
@@ -116,7 +116,6 @@ std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
 }
 
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity) {
-  // This range is well within 1e-12..1e20, where the solver's penalty gives correct forces.
   constexpr double kLeast = 1e-9, kMost = 1e9;
   const double speed = std::abs(reference_velocity);
   const auto is_ordinary = [](double value) { return value >= kLeast && value <= kMost; };

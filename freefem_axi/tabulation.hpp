@@ -60,17 +60,15 @@ std::string tabulation_hash(const Tabulation& tabulation);
 std::vector<std::string> row_arguments(const Tabulation& tabulation, double gap,
                                        double reference_velocity);
 
-/// The units of viscosity and speed in which FreeFEM solves. Stokes flow is linear in both, so that
-/// FreeFEM can solve with both equal to 1 if its arithmetic would fail otherwise. The force in
-/// these units is then multiplied by both.
+/// The units of viscosity and speed in which FreeFEM writes the force. Stokes flow is linear in
+/// both; the force in these units is multiplied by both.
 struct SolveScale {
   double viscosity = 1;  ///< [M/(L T)], > 0
   double speed = 1;      ///< [L/T], > 0
 };
 
-/// Returns 1 for both if viscosity and velocity are within 1e-9..1e9, so that such rows are solved
-/// as they are; otherwise the viscosity and the absolute velocity. Below 1e-12 and above 1e20 the
-/// penalty of the solver, 1e30, would give wrong forces without an error.
+/// Returns 1 for both if viscosity and velocity are within 1e-9..1e9; otherwise the viscosity and
+/// the absolute velocity, so that no product of theirs is outside the range of a double.
 SolveScale solve_scale(const Tabulation& tabulation, double reference_velocity);
 
 /// Solves one row (q, u0) in a FreeFEM process. `further_arguments` are added to its command line.
