@@ -202,7 +202,11 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     if (inertia_[i] == 0 || is_driven(static_cast<std::int32_t>(k))) continue;
     const double change = flow[i] - velocity(k, i % layout_.components);
     const double accelerating = inertia_[i] * change, all = accelerating + drag[i];
-    const double share = all != 0 ? std::clamp(accelerating / all, 0.0, 1.0) : 0;
+    // Where drag and acceleration nearly balance, several links may exert forces that cancel, of
+    // which no share is meaningful.
+    constexpr double kLargestShare = 10;
+    const double share =
+        all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
     velocities[i] -= share * (1 - 0.5 / thetas_[i]) * change;
   }
   return velocities;

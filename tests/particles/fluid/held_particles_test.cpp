@@ -129,9 +129,10 @@ TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
       dissipated += h * simulation.step(1.5).fluid.dissipation;
       work += h * power_of_arm(system.setting, simulation.state());
       const auto& v = simulation.state().particles.velocities;
-      // The velocities that move the particles, U^+, differ from U by the second order of the step.
+      // U^+, which moves the particles, differs from U by the second order of the step. Work at U
+      // alone would be too large by 0.33 mass at the start.
       EXPECT_NEAR(work, dissipated + mass / 2 * v[0] * v[0] + mass * v[1] * v[1],
-                  1e-4 * (1 + mass));
+                  1e-3 * (1 + mass));
       // A kink causes no oscillation: the velocity is that of the length in each step but the one in
       // which the kink lies.
       const double t = simulation.state().time;
