@@ -37,11 +37,13 @@ std::vector<std::string> with_files_apart(std::vector<std::string> arguments) {
   };
   for (const auto& option : options) {
     if (arguments.empty() || arguments[0] != option.command) continue;
-    const auto at = std::ranges::find(arguments, option.name);
-    if (at == arguments.end() || at + 1 == arguments.end()) continue;
+    // Words behind -- are files, even if one has the name of an option.
+    const auto end = std::ranges::find(arguments, "--");
+    const auto at = std::find(arguments.begin(), end, option.name);
+    if (at == end || at + 1 == end) continue;
     if (option.is_value(at[1]) || !is_file(at[1])) continue;
     // At its new place, no word follows the option that it could take as its value.
-    std::rotate(at, at + 1, std::ranges::find(arguments, "--"));
+    std::rotate(at, at + 1, end);
   }
   return arguments;
 }

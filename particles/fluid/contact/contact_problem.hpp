@@ -42,9 +42,10 @@ class ContactProblem {
 
   /// Finds the impulses and the `w` of all contacts. Further contacts may be added after it, and
   /// their solution begins at the impulses found. A rough solution serves only to see which other
-  /// contacts take part, and saves products where there are many. May throw what the mobility
-  /// throws.
-  void solve(bool is_rough);
+  /// contacts take part, and saves products where there are many. Returns whether the residuals of
+  /// all contacts reached the tolerances (of a rough solution, the wide ones). May throw what the
+  /// mobility throws.
+  [[nodiscard]] bool solve(bool is_rough);
 
   const std::vector<FluidContact>& contacts() const { return contacts_; }
   /// Velocities of the particles with the impulses found [L/T, 1/T].

@@ -31,7 +31,7 @@ StepContacts solve_listed(StepContacts step, std::span<const double> free_veloci
     }
     const bool has_joined = chosen.size() > before;
     if (!has_joined && !problem.is_rough()) break;
-    problem.solve(has_joined && problem.iterations() < most);
+    step.is_solved = problem.solve(has_joined && problem.iterations() < most);
   }
   for (auto& contact : step.contacts) contact.impulse = 0;
   for (std::size_t i = 0; i < chosen.size(); ++i) step.contacts[chosen[i]] = problem.contacts()[i];

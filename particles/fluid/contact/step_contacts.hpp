@@ -36,6 +36,7 @@ struct StepContacts {
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
   int iterations = 0;
+  bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
 };
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts

@@ -1,0 +1,46 @@
+// The contact problem of a step in a fluid says whether it is solved.
+#include "viscontact/particles/fluid/contact/contact_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace viscontact::particles {
+namespace {
+
+/// A row of discs of radius 1 that touch and move towards its middle, each with the drag 1.
+struct Row {
+  explicit Row(std::size_t count) : free(2 * count) {
+    for (std::size_t k = 0; k < count; ++k)
+      free[2 * k] = static_cast<double>(count) / 2 - static_cast<double>(k);
+  }
+  bool solve(int max_iterations) {
+    SolverSettings settings;
+    settings.max_iterations = max_iterations;
+    const Mobility mobility = [](std::span<const double> forces) {
+      return std::vector<double>(forces.begin(), forces.end());
+    };
+    ContactProblem problem(free, 0.1, mobility, {2}, settings, 1, 0);
+    for (std::size_t k = 0; k + 1 < free.size() / 2; ++k) {
+      FluidContact contact;
+      contact.first = static_cast<std::int32_t>(k);
+      contact.second = contact.first + 1;
+      contact.normal = {1, 0, 0};
+      problem.add(contact);
+    }
+    return problem.solve(false);
+  }
+  std::vector<double> free;
+};
+
+TEST(ContactProblem, SaysWhetherItIsSolved) {
+  // 60 contacts are more than the 24 of the dense matrix. The ends of the row know of each other
+  // after as many products as there are contacts, so that 8 cannot do.
+  EXPECT_TRUE(Row(61).solve(10000));
+  EXPECT_FALSE(Row(61).solve(8));
+  EXPECT_TRUE(Row(5).solve(10000));
+}
+
+}  // namespace
+}  // namespace viscontact::particles
