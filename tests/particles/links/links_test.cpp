@@ -203,7 +203,7 @@ TEST(Arms, ThreeArmsThatBreakTheTriangleInequalityAreNamed) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
     for (const auto* name :
-         {"arm 1 (particles 0 and 1)", "arm 2 (particles 1 and 2)", "arm 3 (particles 2 and 0)"})
+         {"arm 0 (particles 0 and 1)", "arm 1 (particles 1 and 2)", "arm 2 (particles 2 and 0)"})
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     EXPECT_NEAR(simulation.state().time, 0.207, 0.02);
   }
