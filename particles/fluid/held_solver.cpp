@@ -88,8 +88,9 @@ void HeldSolver::factorise() {
   constexpr double kAboveErrors = 10;
   const double noise = kAboveErrors * relative_error_;
   factor_.setThreshold(noise);
-  factor_.compute(fixed_matrix_);
+  if (!fixed_.empty()) factor_.compute(fixed_matrix_);
   coupling_ = scaled(fixed_, springs_);
+  if (springs_.empty()) return;
   spring_responses_ = solve_fixed(coupling_);
   spring_matrix_ = scaled(springs_, springs_) - coupling_.transpose() * spring_responses_;
   // Where the other rows leave no motion, a stiff spring must not see the errors of the answers.
@@ -138,9 +139,10 @@ Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_spring
 void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
+  // What the forces of all rows add may cancel, up to the errors of the answers.
+  const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
-  for (const Index r : fixed_)
-    largest = std::max(largest, std::abs(scaled[r]) + std::abs(added[r]));
+  for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
   constexpr double kBroken = 1e-4;
   std::string names;
   for (const Index r : fixed_) {
