@@ -12,8 +12,7 @@ namespace {
 /// The mean flow and its rotation where the particles are; 0 but in a sheared cell.
 Eigen::VectorXd mean_flow(const Particles& p) {
   const auto components = motion_components(p.dimension);
-  Eigen::VectorXd flow =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.count() * components));
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.count() * components));
   if (!p.cell.is_sheared()) return flow;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const Vector u = mean_velocity(p.cell, p.position(k));

@@ -129,8 +129,10 @@ TEST(Stiffness, OfTwoSpringsSideBySide) {
                    second = other * theta_of(h * other * 2 / kDrag) * h;
       // The forces at rest, -k and other/2, without the rate that both add, in which they cancel.
       const double together = 1 + mobility * (first + second), at_rest = 0.5 * other;
-      const double of_first = -(k * (1 + mobility * second) + at_rest * mobility * first) / together;
-      const double of_second = (at_rest * (1 + mobility * first) + k * mobility * second) / together;
+      const double of_first =
+          -(k * (1 + mobility * second) + at_rest * mobility * first) / together;
+      const double of_second =
+          (at_rest * (1 + mobility * first) + k * mobility * second) / together;
       const auto forces = forces_after_step(system);
       const double largest = std::max(-of_first, of_second);
       EXPECT_NEAR(forces[0], of_first, kAllowed * largest);
