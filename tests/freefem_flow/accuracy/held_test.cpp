@@ -28,11 +28,12 @@ struct CellOfDiscs {
   RigidConstraint constraint = RigidConstraint::kPenalty;
   std::array<double, 4> gradient{};
   Vector middle{};
-  std::vector<Vector> discs;
-  std::vector<std::int32_t> body;  ///< discs that are one body
-  particles::Links links;
+  std::vector<Vector> discs{};
+  std::vector<std::int32_t> body{};  ///< discs that are one body
+  particles::Links links{};
   double h = 1e-3;
   std::map<std::int32_t, Vector> forces{};  ///< force and torque on a disc
+  int edges = 12;
 
   particles::PeriodicCell cell() const {
     return {{middle[0] - 1, middle[1] - 1}, {2, 2}, gradient};
@@ -42,7 +43,7 @@ struct CellOfDiscs {
     particles::Setting setting;
     setting.domain = particles::BoxDomain{
         {middle[0] - 1, middle[1] - 1}, {middle[0] + 1, middle[1] + 1}, {true, true}};
-    setting.fluid = fluid_with(12, constraint);
+    setting.fluid = fluid_with(edges, constraint);
     setting.fluid->boundary = particles::LinearFlow{gradient};
     setting.fluid->threshold_gap = 0.001;
     setting.time_step = h;
@@ -116,6 +117,7 @@ TEST(ShearedCell, HasTheSameLinksWhereverItBegins) {
   for (const auto& gradient :
        {std::array<double, 4>{0, 1, 0, 0}, std::array<double, 4>{0.7, 0, 0, -0.7}}) {
     CellOfDiscs c{RigidConstraint::kRigid, gradient};
+    c.edges = 24;
     c.discs = {{-0.2, -0.3, 0}, {0.2, 0.2, 0}, {0.7, 0.5, 0}, {-0.5, -0.75, 0}};
     c.body = {0, 1};
     const double length = std::hypot(0.5, 0.3);
