@@ -148,8 +148,7 @@ void expect_same(const std::vector<double>& numbers, const std::vector<double>& 
   ASSERT_EQ(numbers.size(), expected.size());
   double largest = 0;
   for (const double x : expected) largest = std::max(largest, std::abs(x));
-  // Rounding errors of positions over the step, and hinges and arms, which hold to 1e-3 tolerances
-  // of 1e-6 mean radii.
+  // Rounding errors of positions over the length of the step are about 1e-14.
   for (std::size_t i = 0; i < expected.size(); ++i)
     EXPECT_NEAR(numbers[i], expected[i], 1e-9 * largest) << i;
 }
