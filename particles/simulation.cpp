@@ -66,6 +66,14 @@ void scale_impulses(Pair& pair, double factor) {
 
 }  // namespace
 
+PeriodicCell cell_of(const Setting& setting) {
+  auto cell = cell_of(setting.domain);
+  if (!setting.fluid) return cell;
+  if (const auto* flow = std::get_if<LinearFlow>(&setting.fluid->boundary))
+    cell.gradient = flow->gradient;
+  return cell;
+}
+
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
       state_(std::move(state)),

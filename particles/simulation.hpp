@@ -61,6 +61,9 @@ struct Setting {
   std::map<std::int32_t, GivenMotion> given_motions;
 };
 
+/// The cell of the domain, with the mean velocity gradient of the fluid.
+PeriodicCell cell_of(const Setting& setting);
+
 /// What is recorded of one step in a fluid.
 struct FluidStepReport {
   double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length

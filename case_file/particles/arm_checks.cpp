@@ -134,11 +134,9 @@ particles::ArmLength read_arm_length(const TomlSection& section) {
 }
 
 double distance_at_start(const ParticlesCase& c, std::int32_t first, std::int32_t second) {
-  auto apart = c.particles.position(index_of(second)) - c.particles.position(index_of(first));
-  const auto cell = particles::cell_of(c.setting.domain);
-  for (std::size_t d = 0; d < 2; ++d)
-    if (cell.lengths[d] > 0) apart[d] -= cell.lengths[d] * std::round(apart[d] / cell.lengths[d]);
-  return particles::norm(apart);
+  return particles::norm(particles::nearest_image(
+      particles::cell_of(c.setting.domain),
+      c.particles.position(index_of(second)) - c.particles.position(index_of(first))));
 }
 
 void check_arms(std::span<const TomlSection> sections, const ParticlesCase& c) {

@@ -53,7 +53,7 @@ void read_bodies(const TomlSection& root, ParticlesCase& c) {
         "particles",
         "belong to a body on an axis; spheres on an axis are held together by an "
         "[[arm]] of constant length");
-  c.particles.cell = particles::cell_of(c.setting.domain);
+  c.particles.cell = particles::cell_of(c.setting);
   const ParticleIds ids(c);
   const bool in_fluid = c.setting.fluid.has_value();
   const auto& positive = in_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive;

@@ -60,13 +60,11 @@ particles::Hinge read_hinge(const TomlSection& section, const ParticlesCase& c,
                  "names a particle whose motion is given; a hinge holds only free ones");
   hinge.point.particle = *holder;
   const double angle = p.angles.empty() || hinge.body >= 0 ? 0 : p.angles[index_of(*holder)];
-  Vector arm = hinge.at - (hinge.body < 0 ? p.position(index_of(*holder))
-                                          : p.bodies.bodies[index_of(hinge.body)].centre);
   // The body is at the image of its centre that is nearest to the hinge.
-  const auto cell = particles::cell_of(c.setting.domain);
-  for (std::size_t d = 0; d < 2; ++d)
-    if (const double period = cell.lengths[d]; period > 0)
-      arm[d] -= period * std::round(arm[d] / period);
+  const Vector arm = particles::nearest_image(
+      particles::cell_of(c.setting.domain),
+      hinge.at - (hinge.body < 0 ? p.position(index_of(*holder))
+                                 : p.bodies.bodies[index_of(hinge.body)].centre));
   // The offset is that of the particle at the angle 0.
   hinge.point.offset =
       particles::displacement_at(arm, {0, 0, -angle}, arm, p.dimension == 3 ? 3 : 2);

@@ -32,14 +32,17 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
   for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
 }
 
-/// The image of member `m` of a body that is nearest to its first member.
-Vector nearest_image(const Particles& p, const RigidBody& body, std::size_t m) {
-  const Vector first = p.position(index_of(body.members[0]));
-  Vector x = p.position(index_of(body.members[m]));
-  for (std::size_t d = 0; d < 2; ++d)
-    if (const double period = p.cell.lengths[d]; period > 0)
-      x[d] -= period * std::round((x[d] - first[d]) / period);
-  return x;
+/// Place and velocity of the image of member `m` of a body that is nearest to its first member.
+struct MemberImage {
+  Vector position{}, velocity{};
+};
+
+MemberImage nearest_image(const Particles& p, const RigidBody& body, std::size_t m) {
+  const auto k = index_of(body.members[m]);
+  const auto periods =
+      periods_towards(p.cell, p.position(k) - p.position(index_of(body.members[0])));
+  return {p.position(k) - shift_of(p.cell, periods),
+          p.velocity(k) - velocity_of_image(p.cell, periods)};
 }
 
 /// Sets centre, velocity, mass, inertia and angular momentum from the members.
@@ -48,16 +51,17 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
   if (request.mass >= 0) body.mass = request.mass;
   const auto masses = member_masses(body, p);
   for (std::size_t m = 0; m < masses.size(); ++m) {
-    const auto k = index_of(body.members[m]);
     const double weight =
         body.mass > 0 ? masses[m] / body.mass : 1 / static_cast<double>(masses.size());
-    body.centre = body.centre + weight * nearest_image(p, body, m);
-    body.velocity = body.velocity + weight * p.velocity(k);
+    const auto image = nearest_image(p, body, m);
+    body.centre = body.centre + weight * image.position;
+    body.velocity = body.velocity + weight * image.velocity;
   }
   Vector turning{};  // angular momentum of the members
   for (std::size_t m = 0; m < masses.size(); ++m) {
     const auto k = index_of(body.members[m]);
-    const Vector offset = nearest_image(p, body, m) - body.centre;
+    const auto image = nearest_image(p, body, m);
+    const Vector offset = image.position - body.centre;
     body.offsets.push_back(offset);
     body.member_angles.push_back(p.angles.empty() ? 0 : p.angles[k]);
     add_point_mass(body.inertia, masses[m], offset);
@@ -65,7 +69,7 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
                            ? p.inertias[k] * (masses[m] / p.masses[k])
                            : homogeneous_inertia(p.dimension, masses[m], p.radii[k]);
     for (const std::size_t i : {0U, 4U, 8U}) body.inertia[i] += own;
-    turning = turning + masses[m] * cross(offset, p.velocity(k) - body.velocity) +
+    turning = turning + masses[m] * cross(offset, image.velocity - body.velocity) +
               own * turn_of(p.angular_velocities, k, p.dimension);
   }
   if (request.moment_of_inertia >= 0) {
@@ -76,6 +80,14 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
   }
   body.angular_momentum = p.dimension == 3 ? turning : Vector{0, 0, turning[2]};
   update_angular_velocity(body, p.dimension);
+}
+
+/// Moves the centre of a body to its image in the cell.
+void wrap_centre(RigidBody& body, const PeriodicCell& cell) {
+  const Periods beyond = {periods_beyond(cell, 0, body.centre[0]),
+                          periods_beyond(cell, 1, body.centre[1])};
+  body.centre = body.centre - shift_of(cell, beyond);
+  body.velocity = body.velocity - velocity_of_image(cell, beyond);
 }
 
 }  // namespace
@@ -97,6 +109,7 @@ void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {
   body.members = request.members;
   std::ranges::sort(body.members);
   sum_members(particles, request, body);
+  wrap_centre(body, particles.cell);
   auto& bodies = particles.bodies;
   bodies.of_particle.resize(particles.count(), -1);
   for (const auto member : body.members)
@@ -159,23 +172,26 @@ std::vector<double> member_masses(const RigidBody& body, const Particles& partic
   return masses;
 }
 
+Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& p) {
+  return periods_towards(p.cell, body.centre + present_offset(body, m, p.dimension) -
+                                     p.position(index_of(body.members[m])));
+}
+
 void place_members(Particles& p) {
   for (auto& body : p.bodies.bodies) {
-    for (std::size_t i = 0; i < 2; ++i)
-      body.centre[i] -= periods_beyond(p.cell, i, body.centre[i]) * p.cell.lengths[i];
+    if (!p.cell.is_sheared()) wrap_centre(body, p.cell);
     const Vector& w = body.angular_velocity;
     for (std::size_t m = 0; m < body.members.size(); ++m) {
       const auto k = index_of(body.members[m]);
       const Vector offset = present_offset(body, m, p.dimension);
-      const Vector x = body.centre + offset, v = body.velocity + cross(w, offset);
+      // Of the images of a member that is taken which is near its last position, so that the
+      // neighbour list, which knows images of particles, stays valid.
+      const auto periods = periods_of_member(body, m, p);
+      const Vector x = body.centre + offset - shift_of(p.cell, periods);
+      const Vector v = body.velocity + cross(w, offset) - velocity_of_image(p.cell, periods);
       const auto d = static_cast<std::size_t>(p.dimension);
       for (std::size_t i = 0; i < d; ++i) {
-        // Of the images of a member that is taken which is near its last position, so that the
-        // neighbour list, which knows images of particles, stays valid.
-        const double period = i < 2 ? p.cell.lengths[i] : 0;
-        const double before = p.positions[k * d + i];
-        p.positions[k * d + i] =
-            period > 0 ? x[i] - period * std::round((x[i] - before) / period) : x[i];
+        p.positions[k * d + i] = x[i];
         p.velocities[k * d + i] = v[i];
       }
       set_turn(p.angular_velocities, k, p.dimension, w);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -79,12 +80,16 @@ struct RigidBodyRequest {
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
 /// rigid motion. In a periodic cell (Particles::cell) the images of the members that are nearest to
-/// the first one make the body, which must be smaller than the cell (diameter()). The particles must
+/// the first one make the body, which must be smaller than the cell (diameter()). Their velocities
+/// are those of the images. The particles must
 /// turn (add_rotation), unless their dimension is 1, and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);
+
+/// Periods from the present place of member number `m` to its image at the place in the body.
+Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles& particles);
 
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
@@ -104,7 +109,7 @@ void update_angular_velocity(RigidBody& body, int dimension);
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their
-/// bodies.
+/// bodies. In a periodic cell, the centres come to their images in the cell, unless it is sheared.
 void place_members(Particles& particles);
 
 /// Inverse of a symmetric positive definite matrix.

@@ -16,6 +16,18 @@ double gap_of(const Particles& p, const Pair& pair, std::span<const PlanePositio
   return p.dimension == 2 ? contact_of<2>(p, pair, places).gap : contact_of<3>(p, pair, places).gap;
 }
 
+/// The smallest gap of two discs and their nearest images [L]; 0 if it is not below 0.
+double smallest_gap_of_images(const Particles& p) {
+  double smallest = 0;
+  for (std::size_t j = 0; j < p.count(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      if (p.bodies.are_one(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j))) continue;
+      const Vector apart = nearest_image(p.cell, p.position(j) - p.position(i));
+      smallest = std::min(smallest, norm(apart) - p.radii[i] - p.radii[j]);
+    }
+  return smallest;
+}
+
 ContactFriction friction_of(const Setting& setting, const Pair& pair) {
   // Solvers project friction on its bound, so that it reaches the bound within rounding errors. The
   // sum over the parts of a divided step reaches it if its direction did not change.
@@ -39,9 +51,16 @@ double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
   ThreadPool pool(1);
-  for (const auto& pair : p.cell.is_periodic()
-                              ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
-                              : close_pairs(p.dimension, p.positions, p.radii, pool))
+  // The search for close pairs in a period takes the images where they were at the start. Images that
+  // have moved are compared one by one.
+  std::vector<ClosePair> close;
+  if (p.cell.is_sheared()) {
+    smallest = smallest_gap_of_images(p);
+  } else {
+    close = p.cell.is_periodic() ? close_pairs_in_period(p.cell, p.positions, p.radii, pool)
+                                 : close_pairs(p.dimension, p.positions, p.radii, pool);
+  }
+  for (const auto& pair : close)
     if (!p.bodies.are_one(pair.first, pair.second))
       smallest = std::min(smallest, gap_of(p, {pair.first, pair.second, 0, 0, 0, pair.image}, {}));
   for (const auto& place : positions_of(obstacles_of(setting), state.time))

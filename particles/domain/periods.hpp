@@ -20,11 +20,18 @@ struct PeriodicCell {
   /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy of a fluid in the cell [1/T]: an image moves
   /// relative to its particle by the gradient times its shift.
   std::array<double, 4> gradient{};
+  double moved_for = 0;  ///< time since the shifts of the images were `lengths` [T], >= 0
 
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0; }
+  /// True if images move relative to their particles.
+  bool is_sheared() const {
+    return gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
+           gradient[1] * lengths[1] != 0 || gradient[3] * lengths[1] != 0;
+  }
   bool operator==(const PeriodicCell&) const = default;
 };
 
+/// The cell of a domain without a mean velocity gradient.
 inline PeriodicCell cell_of(const Domain& domain) {
   const auto* box = std::get_if<BoxDomain>(&domain);
   return box == nullptr ? PeriodicCell{} : PeriodicCell{box->from, periods_of(domain)};
@@ -43,16 +50,55 @@ constexpr std::array<int, 2> periods_of_image(std::int32_t image) {
 /// Largest number of an image.
 inline constexpr std::int32_t kLargestImage = 4;
 
-/// Shift of an image [L], which is added to the position of the particle.
-inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
-  const auto [x, y] = periods_of_image(image);
-  return {x * cell.lengths[0], y * cell.lengths[1], 0};
-}
-
-/// Velocity of an image relative to its particle, which is `shift` [L] away from it [L/T].
+/// Velocity of an image relative to its particle, if its shift at the start is `shift` [L/T].
 inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
   const auto& g = cell.gradient;
   return {g[0] * shift[0] + g[1] * shift[1], g[2] * shift[0] + g[3] * shift[1], 0};
+}
+
+/// Numbers of periods along x and y by which an image is shifted.
+using Periods = std::array<double, 2>;
+
+/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of particles
+/// are compared of which one is that of an image: in contacts, rigid bodies and links.
+inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
+  return velocity_at(cell, {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0});
+}
+
+/// Shift of an image [L], which is added to the position of the particle.
+inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
+  const Vector at_start{periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0};
+  return at_start + cell.moved_for * velocity_of_image(cell, periods);
+}
+
+/// The same of the image with a number.
+inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
+  const auto [x, y] = periods_of_image(image);
+  return velocity_of_image(cell, Periods{double(x), double(y)});
+}
+inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
+  const auto [x, y] = periods_of_image(image);
+  return shift_of(cell, Periods{double(x), double(y)});
+}
+
+/// The periods whose shift is nearest to the vector `apart` [L]; 0 along an axis without a period.
+inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
+  // The shifts of the images are (1 + moved_for gradient) times those of the start.
+  const double t = cell.is_sheared() ? cell.moved_for : 0;
+  const auto& g = cell.gradient;
+  const double determinant = (1 + t * g[0]) * (1 + t * g[3]) - t * t * g[1] * g[2];
+  const std::array<double, 2> at_start = {
+      ((1 + t * g[3]) * apart[0] - t * g[1] * apart[1]) / determinant,
+      ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant};
+  Periods periods{};
+  for (std::size_t d = 0; d < 2; ++d)
+    if (cell.lengths[d] > 0) periods[d] = std::round(at_start[d] / cell.lengths[d]);
+  return periods;
+}
+
+/// The shortest of the vectors that differ from `apart` [L] by the shift of an image.
+inline Vector nearest_image(const PeriodicCell& cell, const Vector& apart) {
+  return apart - shift_of(cell, periods_towards(cell, apart));
 }
 
 /// Number of periods along axis `axis` (0 or 1) that are subtracted from the coordinate `x` [L] to

@@ -75,6 +75,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
+  move_bodies(motion, h, next);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < p.count(); ++k) {
     for (std::size_t d = 0; d < n; ++d) {
@@ -86,7 +87,8 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       p.angular_velocities[k] = motion.at_end[k * 3 + 2];
     }
   }
-  move_bodies(motion, h, next);
+  p.cell.moved_for = next;
+  place_members(p);
   state_.link_forces = std::move(motion.link_forces);
   state_.arm_powers = std::move(motion.arm_powers);
   state_.earlier_velocities = std::move(motion.flow);
@@ -98,7 +100,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   reported_ = std::move(motion.reported);
 }
 
-/// Moves the rigid bodies, and their members with them.
+/// Moves the rigid bodies, but not yet their members.
 void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
   auto& p = state_.particles;
   if (p.bodies.empty()) return;
@@ -113,7 +115,6 @@ void FluidSimulation::move_bodies(const Motion& motion, double h, double next) {
     body.angular_velocity = at_end.turn;
     body.angular_momentum = body.inertia[8] * at_end.turn;
   }
-  place_members(p);
 }
 
 Particles FluidSimulation::reported_particles() const {

@@ -37,9 +37,8 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
-  p.cell = cell_of(setting_.domain);
-  if (const auto* flow = std::get_if<LinearFlow>(&setting_.fluid->boundary))
-    p.cell.gradient = flow->gradient;
+  p.cell = cell_of(setting_);
+  p.cell.moved_for = state_.time;
   if (layout_.components == 3) {
     p.angles.resize(p.count());
     p.angular_velocities.resize(p.count());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
@@ -20,6 +22,10 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
     for (auto& weight : weights)
       weight = body.mass > 0 ? weight / body.mass : 1 / static_cast<double>(weights.size());
     weights_.push_back(std::move(weights));
+    auto& velocities = image_velocities_.emplace_back();
+    for (std::size_t m = 0; m < body.members.size(); ++m)
+      velocities.push_back(
+          velocity_of_image(particles.cell, periods_of_member(body, m, particles)));
   }
 }
 
@@ -38,6 +44,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
   const auto first = body.members.front();
   const Vector start = present_offset(body, 0, particles_.dimension);
+  const auto& of_images = image_velocities_[number];
   for (std::size_t m = 1; m < body.members.size(); ++m) {
     const auto member = body.members[m];
     const Vector apart = present_offset(body, m, particles_.dimension) - start;
@@ -46,7 +53,10 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
       row.name = fmt::format("body {}", number);
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
       // v_m - v_1 - w_1 x apart
-      if (d < 2) row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
+      if (d < 2) {
+        row.entries.emplace_back(layout_.at(first, 2), d == 0 ? apart[1] : -apart[0]);
+        row.image_rate = of_images[m][d] - of_images[0][d];
+      }
       rows.push_back(std::move(row));
     }
   }
@@ -77,6 +87,7 @@ std::vector<HeldRow> HeldMotion::rows() const {
       row.name = name_of(link, links_, particles_);
       add_entries(equation.first, row);
       add_entries(equation.second, row);
+      row.image_rate = image_rate(equation, particles_.cell);
       row.stiffness = equation.stiffness;
       row.extension = equation.extension;
       if (!(row.stiffness > 0)) row.rate = -equation.value / times_.h;
@@ -91,16 +102,19 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
   for (std::size_t m = 0; m < of.members.size(); ++m) {
     const double weight = weights_[body][m];
     for (std::size_t d = 0; d < 2; ++d)
-      motion.displacement[d] += weight * velocities[layout_.at(of.members[m], d)];
+      motion.displacement[d] +=
+          weight * (velocities[layout_.at(of.members[m], d)] + image_velocities_[body][m][d]);
     motion.turn[2] += weight * velocities[layout_.at(of.members[m], 2)];
   }
   return motion;
 }
 
-/// Displacement and turn in the step of the unit of a particle.
-UnitMotion HeldMotion::motion_of(std::int32_t particle, std::span<const double> velocities) const {
+/// Displacement and turn in the step of the image of a unit that a part of a row means.
+UnitMotion HeldMotion::motion_of(const RowPart& part, std::span<const double> velocities) const {
   UnitMotion motion;
+  const auto particle = part.particle;
   if (particle < 0) return motion;
+  const auto of_unit = periods_in_unit(particles_, particle);
   if (const auto body = particles_.bodies.body_of(particle); body >= 0) {
     motion = motion_of_body(index_of(body), velocities);
   } else {
@@ -108,6 +122,9 @@ UnitMotion HeldMotion::motion_of(std::int32_t particle, std::span<const double> 
       motion.displacement[d] = velocities[layout_.at(particle, d)];
     if (layout_.components == 3) motion.turn[2] = velocities[layout_.at(particle, 2)];
   }
+  motion.displacement =
+      motion.displacement + velocity_of_image(particles_.cell, Periods{part.image[0] - of_unit[0],
+                                                                       part.image[1] - of_unit[1]});
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
@@ -122,8 +139,8 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities) cons
     }
     const auto& row = link.rows.front();
     for (const double off :
-         values_after(link, links_, particles_, times_, motion_of(row.first.particle, velocities),
-                      motion_of(row.second.particle, velocities)))
+         values_after(link, links_, particles_, times_, motion_of(row.first, velocities),
+                      motion_of(row.second, velocities)))
       changes.push_back(-off / times_.h);
   }
   return changes;
@@ -138,7 +155,8 @@ std::vector<double> HeldMotion::with_finite_turns(std::span<const double> veloci
       const auto member = bodies[b].members[m];
       const Vector moved = displacement_at(times_.h * motion.displacement, times_.h * motion.turn,
                                            present_offset(bodies[b], m, 2), 2);
-      for (std::size_t d = 0; d < 2; ++d) result[layout_.at(member, d)] = moved[d] / times_.h;
+      for (std::size_t d = 0; d < 2; ++d)
+        result[layout_.at(member, d)] = moved[d] / times_.h - image_velocities_[b][m][d];
       result[layout_.at(member, 2)] = motion.turn[2];
     }
   }
@@ -152,16 +170,20 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
     for (std::size_t m = 0; m < bodies[b].members.size(); ++m) {
       const auto member = bodies[b].members[m];
       const Vector v = motion.displacement + cross(motion.turn, present_offset(bodies[b], m, 2));
-      for (std::size_t d = 0; d < 2; ++d) velocities[layout_.at(member, d)] = v[d];
+      for (std::size_t d = 0; d < 2; ++d)
+        velocities[layout_.at(member, d)] = v[d] - image_velocities_[b][m][d];
       velocities[layout_.at(member, 2)] = motion.turn[2];
     }
   }
 }
 
 double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
-  const auto& arm = links_.arms[k];
-  return particles::rate_of_arm(arm, particles_, motion_of(arm.first, velocities),
-                                motion_of(arm.second, velocities)) /
+  const auto arm = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
+    return link.kind == LinkEquations::Kind::kArm && link.number == k;
+  });
+  const auto& row = arm->rows.front();
+  return particles::rate_of_arm(links_.arms[k], particles_, motion_of(row.first, velocities),
+                                motion_of(row.second, velocities)) /
          times_.h;
 }
 

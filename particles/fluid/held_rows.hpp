@@ -34,8 +34,8 @@ class HeldMotion {
   /// is the mean of `velocities`, which may be those of an earlier step.
   void make_rigid(std::span<double> velocities) const;
 
-  /// Velocity of the centre and angular velocity of a body: the means over its members, whose
-  /// offsets cancel in the first.
+  /// Velocity of the centre and angular velocity of a body: the means over the images of its members
+  /// at their places in the body, whose offsets cancel in the first.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
   /// Rate at which the length of arm `k` grows with these velocities [L/T].
@@ -45,7 +45,7 @@ class HeldMotion {
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 
  private:
-  UnitMotion motion_of(std::int32_t particle, std::span<const double> velocities) const;
+  UnitMotion motion_of(const RowPart& part, std::span<const double> velocities) const;
   Vector offset_in_body(std::int32_t particle) const;
   void add_entries(const RowPart& part, HeldRow& row) const;
   void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
@@ -56,7 +56,9 @@ class HeldMotion {
   MotionLayout layout_;
   std::vector<LinkEquations> equations_;
   std::vector<std::vector<double>> weights_;  // of the members of each body; their sum is 1
-  std::size_t body_rows_ = 0;                 // number of rows of bodies
+  // Velocities of the members' images at their places in each body, relative to the members.
+  std::vector<std::vector<Vector>> image_velocities_;
+  std::size_t body_rows_ = 0;  // number of rows of bodies
 };
 
 }  // namespace viscontact::particles

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +56,7 @@ void HeldSolver::place(const FluidParticles& bodies) {
     matrix_.col(r) = sums(responses_.back());
   }
   matrix_ = (matrix_ + matrix_.transpose().eval()) / 2;
+  if (n > 0) factorise();
 }
 
 double HeldSolver::theta(Index r) const {
@@ -63,46 +64,93 @@ double HeldSolver::theta(Index r) const {
   return (1 + z) / (2 + z);
 }
 
-/// The forces of the rows that add `right` to their sums. Without springs, their forces are 0.
-Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
-  std::vector<Index> taken;
-  for (Index r = 0; r < right.size(); ++r)
-    if (with_springs || !(rows_[static_cast<std::size_t>(r)].stiffness > 0)) taken.push_back(r);
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(right.size());
-  if (taken.empty()) return result;
-  Eigen::MatrixXd matrix = matrix_(taken, taken);
-  // Rows of lengths and of angles are made comparable.
-  Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  for (std::size_t i = 0; i < taken.size(); ++i)
-    if (const double k = rows_[static_cast<std::size_t>(taken[i])].stiffness; k > 0)
-      matrix.diagonal()[static_cast<Index>(i)] += 1 / (k * theta(taken[i]) * h_);
-  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+/// By how much the sums of the rows without stiffness differ from their rates; of springs, minus the
+/// sum.
+Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
+  Eigen::VectorXd missing = -sums(velocities);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    missing[static_cast<Index>(r)] += rows_[r].rate - rows_[r].image_rate;
+  return missing;
+}
+
+/// Decomposes matrix_, which place() has made.
+void HeldSolver::factorise() {
+  fixed_.clear();
+  springs_.clear();
+  for (Index r = 0; r < matrix_.rows(); ++r)
+    (rows_[static_cast<std::size_t>(r)].stiffness > 0 ? springs_ : fixed_).push_back(r);
+  // Rows of lengths and of angles are made comparable. A row of driven particles alone has no
+  // mobility.
+  scale_ = matrix_.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
+  const Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
+  fixed_matrix_ = scaled(fixed_, fixed_);
   // Redundant rows, which are singular but for the errors of the answers, share the least forces.
   constexpr double kAboveErrors = 10;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
-  factor.setThreshold(kAboveErrors * relative_error_);
-  factor.compute(matrix);
-  const Eigen::VectorXd scaled = scale.cwiseProduct(right(taken));
-  Eigen::VectorXd forces = factor.solve(scaled);
-  forces += factor.solve(scaled - matrix * forces);
-  result(taken) = scale.cwiseProduct(forces);
-  return result;
+  const double noise = kAboveErrors * relative_error_;
+  factor_.setThreshold(noise);
+  if (!fixed_.empty()) factor_.compute(fixed_matrix_);
+  coupling_ = scaled(fixed_, springs_);
+  if (springs_.empty()) return;
+  spring_responses_ = solve_fixed(coupling_);
+  spring_matrix_ = scaled(springs_, springs_) - coupling_.transpose() * spring_responses_;
+  // Where the other rows leave no motion, a stiff spring must not see the errors of the answers.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      (spring_matrix_ + spring_matrix_.transpose()) / 2);
+  const Eigen::VectorXd kept =
+      modes.eigenvalues().unaryExpr([&](double x) { return x > noise ? x : 0; });
+  spring_matrix_ = modes.eigenvectors() * kept.asDiagonal() * modes.eigenvectors().transpose();
+}
+
+/// The scaled forces of the rows without stiffness that add each column to their scaled sums.
+Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
+  if (fixed_.empty()) return right;
+  Eigen::MatrixXd forces = factor_.solve(right);
+  forces += factor_.solve(right - fixed_matrix_ * forces);
+  return forces;
+}
+
+/// The forces of the rows that add `right` to their sums; of a spring, the sum and compliance times
+/// force is `right`. Without springs, their forces are 0.
+Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
+  const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
+  Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
+  if (with_springs && !springs_.empty()) {
+    const Eigen::VectorXd rest = scaled(springs_) - coupling_.transpose() * of_fixed;
+    Eigen::MatrixXd matrix = spring_matrix_;
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+      const Index r = springs_[i];
+      const double k = rows_[static_cast<std::size_t>(r)].stiffness;
+      matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
+    }
+    // Soft and stiff springs are made comparable.
+    const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    matrix = own.asDiagonal() * matrix * own.asDiagonal();
+    const Eigen::VectorXd of_springs =
+        own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(own.cwiseProduct(rest)));
+    of_fixed -= spring_responses_ * of_springs;
+    forces(springs_) = of_springs;
+  }
+  forces(fixed_) = of_fixed;
+  return scale_.cwiseProduct(forces);
 }
 
 /// Throws an error if the forces do not add `right` to the sums of the rows without stiffness.
 void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const {
-  const Eigen::VectorXd added = matrix_ * forces;
+  const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
+  const Eigen::VectorXd added = scale_.cwiseProduct(matrix_ * forces);
+  // What the forces of all rows add may cancel, up to the errors of the answers.
+  const Eigen::VectorXd parts = scale_.cwiseProduct(matrix_.cwiseAbs() * forces.cwiseAbs());
   double largest = 0;
-  for (Index r = 0; r < right.size(); ++r)
-    largest = std::max(largest, std::abs(right[r]) + std::abs(added[r]));
+  for (const Index r : fixed_) largest = std::max(largest, std::abs(scaled[r]) + parts[r]);
   constexpr double kBroken = 1e-4;
   std::string names;
-  for (Index r = 0; r < right.size(); ++r) {
-    const auto& row = rows_[static_cast<std::size_t>(r)];
-    if (row.stiffness > 0 || std::abs(added[r] - right[r]) <= kBroken * largest ||
-        names.find(row.name) != std::string::npos)
+  for (const Index r : fixed_) {
+    const auto& name = rows_[static_cast<std::size_t>(r)].name;
+    if (std::abs(added[r] - scaled[r]) <= kBroken * largest ||
+        names.find(name) != std::string::npos)
       continue;
-    names += (names.empty() ? "" : ", ") + row.name;
+    names += (names.empty() ? "" : ", ") + name;
   }
   if (!names.empty())
     throw Error(ErrorKind::kNotConverged,
@@ -114,13 +162,10 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  Eigen::VectorXd right = -sums(velocities);
+  Eigen::VectorXd right = driving ? missing(velocities) : -sums(velocities);
   if (driving)
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const auto& row = rows_[r];
-      const auto i = static_cast<Index>(r);
-      right[i] += row.stiffness > 0 ? -row.extension / (theta(i) * h_) : row.rate;
-    }
+    for (const Index r : springs_)
+      right[r] -= rows_[static_cast<std::size_t>(r)].extension / (theta(r) * h_);
   const auto of_rows = solve(right, true);
   if (!driving) {
     add_responses(velocities, of_rows);
@@ -132,11 +177,7 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   add_row_forces(all, of_rows);
   // The flow, of which quantities are asked, is that with these forces.
   auto held = solver_->velocities(all, true);
-  std::vector<double> rest(rows_.size());
-  const auto sums_now = sums(held);
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    rest[r] = rows_[r].rate - sums_now[static_cast<Index>(r)];
-  change(held, rest);
+  add_responses(held, solve(missing(held), false));
   return held;
 }
 
@@ -169,11 +210,8 @@ EstimatedVelocities HeldSolver::estimate(std::span<const double> forces) {
                                                           static_cast<Index>(row_forces_.size())));
   auto estimate = solver_->estimate(all);
   // The forces are those of one mesh. What they miss on the other is as small as its error.
-  std::vector<double> rest(rows_.size());
-  const auto sums_now = sums(estimate.velocities);
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    rest[r] = rows_[r].rate - sums_now[static_cast<Index>(r)];
-  change(estimate.velocities, rest);
+  if (!rows_.empty())
+    add_responses(estimate.velocities, solve(missing(estimate.velocities), false));
   return estimate;
 }
 

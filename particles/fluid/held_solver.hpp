@@ -2,7 +2,7 @@
 // Units are those of the case.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/QR>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -14,12 +14,14 @@
 
 namespace viscontact::particles {
 
-/// A linear condition on the velocities v of all particles: the sum of coefficient times component
-/// is `rate`, or, for a spring, the force follows from the sum.
+/// A linear condition on the velocities v of all particles: the sum of coefficient times component,
+/// and `image_rate`, is `rate`, or, for a spring, the force follows from this sum.
 struct HeldRow {
   /// Components of the motions (motion_components() of each particle) and their coefficients.
   std::vector<std::pair<std::size_t, double>> entries;
-  double rate = 0;  ///< [L/T], [1/T]
+  double rate = 0;  ///< [L/T], [1/T]; not of a spring
+  /// Part of the sum because images of the particles move relative to them in a sheared cell [L/T].
+  double image_rate = 0;
   // Of a spring, whose force is -stiffness (extension + theta h sum); stiffness 0: not a spring.
   double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
   double extension = 0;  ///< at the beginning of the step [L], [rad]
@@ -32,6 +34,11 @@ struct HeldRow {
 /// A S f, so that one question to the fluid for each row is asked at each placement, and then one
 /// for each question to this solver, and another one where walls and driven particles move. Springs
 /// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation.
+///
+/// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its rank
+/// is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or smaller
+/// than all other entries: the rows without stiffness are eliminated first, and the springs see the
+/// mobility that is left.
 class HeldSolver : public FluidSolver {
  public:
   /// `relative_error` > 0 is that of the answers of `solver`.
@@ -65,6 +72,9 @@ class HeldSolver : public FluidSolver {
 
  private:
   Eigen::VectorXd sums(std::span<const double> velocities) const;
+  Eigen::VectorXd missing(std::span<const double> velocities) const;
+  void factorise();
+  Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
   Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
@@ -77,6 +87,12 @@ class HeldSolver : public FluidSolver {
   std::vector<HeldRow> rows_;
   std::vector<std::vector<double>> responses_;  // S A^T of each row
   Eigen::MatrixXd matrix_;                      // A S A^T
+  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of both kinds, and
+  // what is left of that of the springs while the others hold.
+  std::vector<Eigen::Index> fixed_, springs_;
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor_;
   std::vector<double> row_forces_;
 };
 

@@ -27,11 +27,7 @@ double force_of(const State& state, std::size_t place) {
 }
 
 double distance(const Particles& p, std::int32_t first, std::int32_t second) {
-  Vector apart = p.position(index_of(second)) - p.position(index_of(first));
-  for (std::size_t d = 0; d < 2; ++d)
-    if (const double period = p.cell.lengths[d]; period > 0)
-      apart[d] -= period * std::round(apart[d] / period);
-  return norm(apart);
+  return norm(nearest_image(p.cell, p.position(index_of(second)) - p.position(index_of(first))));
 }
 
 std::string body_rows(const Setting& /*setting*/, const State& state) {

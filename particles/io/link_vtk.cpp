@@ -38,10 +38,7 @@ Vector in_space(const Vector& x, int dimension) { return dimension == 1 ? Vector
 void add_line(DrawnCells& drawn, const Particles& p, Kind kind, std::size_t id, std::int32_t first,
               std::int32_t second, double force) {
   const Vector from = p.position(index_of(first));
-  Vector apart = p.position(index_of(second)) - from;
-  for (std::size_t d = 0; d < 2; ++d)
-    if (const double period = p.cell.lengths[d]; period > 0)
-      apart[d] -= period * std::round(apart[d] / period);
+  const Vector apart = nearest_image(p.cell, p.position(index_of(second)) - from);
   const auto begin = drawn.add_point(in_space(from, p.dimension));
   const auto end = drawn.add_point(in_space(from + apart, p.dimension));
   drawn.cells.add_line(begin, end);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "viscontact/particles/bodies/body_step.hpp"
@@ -13,14 +14,6 @@ namespace {
 
 // Newmark's beta. 1/4 is the least one that is stable for every stiffness.
 constexpr double kBeta = 0.25;
-
-/// The shortest of the vectors that differ from `apart` by periods of the domain.
-Vector nearest_image(const Particles& p, Vector apart) {
-  for (std::size_t d = 0; d < 2; ++d)
-    if (const double period = p.cell.lengths[d]; period > 0)
-      apart[d] -= period * std::round(apart[d] / period);
-  return apart;
-}
 
 /// Centre of the unit of a particle [L].
 Vector unit_centre(const Particles& p, std::int32_t particle) {
@@ -60,9 +53,17 @@ double unit_spin(const Particles& p, std::int32_t particle) {
   return p.angular_velocities[index_of(particle)];
 }
 
-/// Vector from the centre of `first` to that of the nearest image of `second` [L].
-Vector between(const Particles& p, std::int32_t first, std::int32_t second) {
-  return nearest_image(p, p.position(index_of(second)) - p.position(index_of(first)));
+/// The image of `second` that is nearest to `first`: the vector from the centre of `first` [L], and
+/// the periods from `second`.
+struct NearestImage {
+  Vector apart{};
+  Periods periods{};
+};
+
+NearestImage between(const Particles& p, std::int32_t first, std::int32_t second) {
+  const Vector apart = p.position(index_of(second)) - p.position(index_of(first));
+  const auto beyond = periods_towards(p.cell, apart);
+  return {apart - shift_of(p.cell, beyond), {-beyond[0], -beyond[1]}};
 }
 
 Vector direction_of(const Vector& apart) {
@@ -71,10 +72,11 @@ Vector direction_of(const Vector& apart) {
 }
 
 LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
-                    const Vector& direction) {
+                    const NearestImage& nearest) {
+  const Vector direction = direction_of(nearest.apart);
   LinkRow row;
   row.first = {first, -1 * direction, arm_of_centre(p, first)};
-  row.second = {second, direction, arm_of_centre(p, second)};
+  row.second = {second, direction, arm_of_centre(p, second), false, nearest.periods};
   return row;
 }
 
@@ -92,11 +94,15 @@ void make_spring(LinkRow& row, double extension, double rate, double stiffness,
 
 LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   LinkEquations equations{LinkEquations::Kind::kHinge};
+  const auto particle = hinge.point.particle;
   const Vector arm = arm_of_point(p, hinge.point);
-  const Vector off = nearest_image(p, unit_centre(p, hinge.point.particle) + arm - hinge.at);
+  const Vector apart = unit_centre(p, particle) + arm - hinge.at;
+  const auto beyond = periods_towards(p.cell, apart);
+  const Vector off = apart - shift_of(p.cell, beyond);
+  const auto of_unit = periods_in_unit(p, particle);
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
     LinkRow row;
-    row.second = {hinge.point.particle, {}, arm};
+    row.second = {particle, {}, arm, false, {of_unit[0] - beyond[0], of_unit[1] - beyond[1]}};
     row.second.direction[d] = 1;
     row.value = off[d];
     equations.rows.push_back(row);
@@ -117,21 +123,21 @@ LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const Li
 
 LinkEquations spring_equations(const Spring& spring, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kSpring};
-  const Vector apart = between(p, spring.first, spring.second);
-  const Vector direction = direction_of(apart);
-  auto row = row_between(p, spring.first, spring.second, direction);
-  const double rate =
-      dot(direction, p.velocity(index_of(spring.second)) - p.velocity(index_of(spring.first)));
-  make_spring(row, norm(apart) - spring.length, rate, spring.stiffness, times);
+  const auto nearest = between(p, spring.first, spring.second);
+  auto row = row_between(p, spring.first, spring.second, nearest);
+  const double rate = dot(row.second.direction, p.velocity(index_of(spring.second)) -
+                                                    p.velocity(index_of(spring.first))) +
+                      image_rate(row, p.cell);
+  make_spring(row, norm(nearest.apart) - spring.length, rate, spring.stiffness, times);
   equations.rows.push_back(row);
   return equations;
 }
 
 LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kArm};
-  const Vector apart = between(p, arm.first, arm.second);
-  auto row = row_between(p, arm.first, arm.second, direction_of(apart));
-  row.value = norm(apart) - length_at(arm.length, times.end);
+  const auto nearest = between(p, arm.first, arm.second);
+  auto row = row_between(p, arm.first, arm.second, nearest);
+  row.value = norm(nearest.apart) - length_at(arm.length, times.end);
   equations.rows.push_back(row);
   return equations;
 }
@@ -142,6 +148,22 @@ Vector moved(const RowPart& part, const UnitMotion& motion, int dimension) {
 }
 
 }  // namespace
+
+Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
+  const auto body = particles.bodies.body_of(particle);
+  if (body < 0) return {};
+  const auto& of = particles.bodies.bodies[index_of(body)];
+  const auto m = std::ranges::find(of.members, particle) - of.members.begin();
+  return periods_of_member(of, static_cast<std::size_t>(m), particles);
+}
+
+double image_rate(const LinkRow& row, const PeriodicCell& cell) {
+  double rate = 0;
+  for (const auto* part : {&row.first, &row.second})
+    if (part->particle >= 0 && !part->is_turn)
+      rate += dot(part->direction, velocity_of_image(cell, part->image));
+  return rate;
+}
 
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times) {
@@ -181,7 +203,7 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
   const auto& row = equations.rows.front();
   if (equations.kind == LinkEquations::Kind::kArm) {
     const auto& arm = links.arms[equations.number];
-    const Vector apart = between(particles, arm.first, arm.second) +
+    const Vector apart = between(particles, arm.first, arm.second).apart +
                          moved(row.second, second, dimension) - moved(row.first, first, dimension);
     return {norm(apart) - length_at(arm.length, times.end)};
   }
@@ -206,7 +228,7 @@ std::string name_of(const LinkEquations& equations, const Links& links,
                     const Particles& particles) {
   const auto k = equations.number;
   const auto pair = [&](const char* what, std::int32_t first, std::int32_t second) {
-    return fmt::format("{} {} (particles {} and {})", what, k + 1, particles.id(index_of(first)),
+    return fmt::format("{} {} (particles {} and {})", what, k, particles.id(index_of(first)),
                        particles.id(index_of(second)));
   };
   if (equations.kind == LinkEquations::Kind::kArm)
@@ -214,8 +236,8 @@ std::string name_of(const LinkEquations& equations, const Links& links,
   if (equations.kind == LinkEquations::Kind::kSpring)
     return pair("spring", links.springs[k].first, links.springs[k].second);
   const auto& hinge = links.hinges[k];
-  if (hinge.body >= 0) return fmt::format("hinge {} (body {})", k + 1, hinge.body);
-  return fmt::format("hinge {} (particle {})", k + 1, particles.id(index_of(hinge.point.particle)));
+  if (hinge.body >= 0) return fmt::format("hinge {} (body {})", k, hinge.body);
+  return fmt::format("hinge {} (particle {})", k, particles.id(index_of(hinge.point.particle)));
 }
 
 }  // namespace viscontact::particles

@@ -18,9 +18,12 @@ struct RowPart {
   Vector direction{};          ///< a unit vector; with `is_turn`, not used
   Vector arm{};                ///< [L]
   bool is_turn = false;
+  /// Periods from the particle to its image that the equation means.
+  Periods image{};
 };
 
-/// One equation of a link: value + first + second + compliance * impulse = 0 after the step.
+/// One equation of a link: value + first + second + compliance * impulse = 0 after the step. `first`
+/// and `second` are motions of images: in a sheared cell, those of the particles and image_rate().
 struct LinkRow {
   RowPart first, second;
   double value = 0;       ///< before the step, with the length at its end [L], or angle [rad]
@@ -55,13 +58,19 @@ struct LinkTimes {
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
+/// Periods from a particle to its image at the place in its body; 0 without a body.
+Periods periods_in_unit(const Particles& particles, std::int32_t particle);
+
+/// Rate of first + second of a row because their images move relative to the particles [L/T].
+double image_rate(const LinkRow& row, const PeriodicCell& cell);
+
 /// Displacements and turns of the unit of a particle: 3 numbers each, of discs in the plane.
 struct UnitMotion {
   Vector displacement{}, turn{};
 };
 
 /// Values of the rows of a link for the motions of its first and second unit, with their finite
-/// turns, without the part of the compliance.
+/// turns, without the part of the compliance. The units are the images that the rows mean.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  const UnitMotion& first, const UnitMotion& second);
@@ -71,8 +80,8 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second);
 
-/// "arm 2 (particles 3 and 4)": the name of a link in messages, with the ids of its particles and
-/// numbers from 1 on.
+/// "arm 2 (particles 3 and 4)": the name of a link in messages, with its number from 0 on, as in
+/// files, and the ids of its particles.
 std::string name_of(const LinkEquations& equations, const Links& links, const Particles& particles);
 
 }  // namespace viscontact::particles

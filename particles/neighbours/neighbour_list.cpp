@@ -161,7 +161,7 @@ void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, doub
 
 void wrap_into_cell(State& state) {
   auto& p = state.particles;
-  if (!p.cell.is_periodic()) return;
+  if (!p.cell.is_periodic() || p.cell.is_sheared()) return;
   std::vector<std::array<int, 2>> wrapped(p.count());
   bool any = false;
   for (std::size_t k = 0; k < p.count(); ++k)

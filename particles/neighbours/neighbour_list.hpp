@@ -13,7 +13,7 @@ namespace viscontact::particles {
 
 /// Brings all positions into the cell of a periodic domain (Particles::cell). Pairs keep their
 /// memory, their images and the list stay valid, and velocities do not change. Does nothing if the
-/// domain has no period.
+/// domain has no period, or if images move relative to their particles (PeriodicCell::is_sheared).
 void wrap_into_cell(State& state);
 
 /// True as long as no pair outside state.pairs can touch after the particles have moved by

@@ -81,7 +81,7 @@ std::string flow_name(const std::string& frame) { return named_as(frame, "flow",
 std::string links_name(const std::string& frame) { return named_as(frame, "links", ".vtp"); }
 
 void ParticleFrames::add(const particles::Setting& setting, const particles::State& state) {
-  playback_.cell = state.particles.cell;
+  playback_.cell = particles::cell_of(setting);
   auto contacts = particles::contacts_of(setting, state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
   results::write_output(
@@ -172,7 +172,7 @@ std::vector<std::pair<std::string, std::string>> ParticleFrames::tables() const 
 
 void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles::Setting& setting,
                             double time) {
-  playback_.cell = particles::cell_of(setting.domain);
+  playback_.cell = particles::cell_of(setting);
   for (const auto& file : files) {
     files_.push_back(file);
     // Frames that are not kept are read, too, to check that their files exist and are complete.

@@ -47,8 +47,7 @@ FluidContact contact_in(const Particles& p, const Pair& pair,
   of.gap = contact.gap - threshold;
   of.gamma = pair.gamma;
   of.impulse = pair.impulse;
-  if (pair.image != 0)
-    of.image_opening = dot(of.normal, velocity_at(p.cell, shift_of(p.cell, pair.image)));
+  if (pair.image != 0) of.image_opening = dot(of.normal, velocity_of_image(p.cell, pair.image));
   return of;
 }
 

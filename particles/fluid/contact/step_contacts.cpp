@@ -49,8 +49,10 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
   const auto& p = state.particles;
   const MotionLayout layout{motion_components(p.dimension)};
   const double h = conditions.h;
+  const double of_images = norm(velocity_of_image(p.cell, Periods{1, 0})) +
+                           norm(velocity_of_image(p.cell, Periods{0, 1}));
   // Contacts push particles at speeds that are seldom above twice the largest one without contact.
-  double reach = conditions.threshold + 4 * h * fastest(free_velocities, layout) +
+  double reach = conditions.threshold + h * (4 * fastest(free_velocities, layout) + of_images) +
                  1e-3 * conditions.mean_radius;
   int iterations = 0;
   for (;;) {
@@ -73,7 +75,8 @@ StepContacts solve_contacts(const State& state, std::span<const double> free_vel
         step.contacts.push_back(contact);
       }
     step = solve_listed(std::move(step), free_velocities, mobility, conditions, layout);
-    const double needed = conditions.threshold + 2 * h * fastest(step.velocities, layout);
+    const double needed =
+        conditions.threshold + h * (2 * fastest(step.velocities, layout) + of_images);
     if (needed <= reach) return step;
     iterations = step.iterations;
     reach = 2 * needed;

@@ -7,6 +7,31 @@
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+/// The mean flow and its rotation where the particles are; 0 but in a sheared cell.
+Eigen::VectorXd mean_flow(const Particles& p) {
+  const auto components = motion_components(p.dimension);
+  Eigen::VectorXd flow = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(p.count() * components));
+  if (!p.cell.is_sheared()) return flow;
+  for (std::size_t k = 0; k < p.count(); ++k) {
+    const Vector u = mean_velocity(p.cell, p.position(k));
+    const auto i = static_cast<Eigen::Index>(components * k);
+    flow[i] = u[0];
+    flow[i + 1] = u[1];
+    flow[i + 2] = (p.cell.gradient[2] - p.cell.gradient[1]) / 2;
+  }
+  return flow;
+}
+
+}  // namespace
+
+Vector mean_velocity(const PeriodicCell& cell, const Vector& x) {
+  const auto& g = cell.gradient;
+  const double dx = x[0] - cell.from[0] - cell.lengths[0] / 2;
+  const double dy = x[1] - cell.from[1] - cell.lengths[1] / 2;
+  return {g[0] * dx + g[1] * dy, g[2] * dx + g[3] * dy, 0};
+}
 
 void StandInFluid::count() {
   if (placements + solutions == fails_at) throw Error(ErrorKind::kExternalProgram, "it fails");
@@ -18,6 +43,7 @@ void StandInFluid::place(const FluidParticles& bodies) {
   const auto& p = *bodies.particles;
   components_ = motion_components(p.dimension);
   drag_ = resistance_(p);
+  flow_ = mean_flow(p);
   matrix_ = drag_;
   for (std::size_t i = 0; i < bodies.inertia.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -48,7 +74,7 @@ std::vector<double> StandInFluid::velocities(std::span<const double> forces, boo
   const Eigen::Map<const Eigen::VectorXd> given_forces(forces.data(),
                                                        static_cast<Eigen::Index>(forces.size()));
   Eigen::VectorXd right = given_forces;
-  if (driving) right -= matrix_ * given_;
+  if (driving) right += drag_ * flow_ - matrix_ * given_;
   for (std::size_t i = 0; i < is_driven_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     if (is_driven_[i] != 0) right[k] = driving ? given_[k] : 0;
@@ -59,8 +85,8 @@ std::vector<double> StandInFluid::velocities(std::span<const double> forces, boo
 }
 
 FlowQuantities StandInFluid::quantities() {
-  const Eigen::VectorXd force = drag_ * last_;
-  FlowQuantities quantities{force.dot(last_), 0, {}};
+  const Eigen::VectorXd force = drag_ * (last_ - flow_);
+  FlowQuantities quantities{force.dot(last_ - flow_), 0, {}};
   for (const double f : force) quantities.fluid_forces.push_back(-f);
   return quantities;
 }

@@ -16,7 +16,9 @@ namespace viscontact::particles {
 /// definite matrix with motion_components() rows for each particle [M/T].
 using Resistance = std::function<Eigen::MatrixXd(const Particles&)>;
 
-/// Free particles take the velocities v with (R + inertia) v = forces. Counts its questions.
+/// Free particles take the velocities v with R (v - u) + inertia v = forces. The flow u without
+/// particles is 0 but in a sheared cell, where it is the mean flow at their places, docs/physics.md
+/// (6.3). Counts its questions.
 class StandInFluid : public FluidSolver {
  public:
   explicit StandInFluid(Resistance resistance) : resistance_(std::move(resistance)) {}
@@ -37,9 +39,12 @@ class StandInFluid : public FluidSolver {
   Resistance resistance_;
   std::size_t components_ = 3;
   std::vector<char> is_driven_;
-  Eigen::VectorXd given_, last_;
+  Eigen::VectorXd flow_, given_, last_;
   Eigen::MatrixXd drag_, matrix_, inverse_;
 };
+
+/// The mean flow of a sheared cell at x [L/T], which is 0 in the middle of the cell.
+Vector mean_velocity(const PeriodicCell& cell, const Vector& x);
 
 /// The same drag [M/T] for each component of each particle.
 Resistance constant_drag(double drag);
