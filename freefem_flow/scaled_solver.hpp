@@ -39,7 +39,8 @@ class ScaledSolver : public particles::FluidSolver {
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   particles::FlowQuantities quantities() override;
-  particles::EstimatedVelocities estimate(std::span<const double> forces) override;
+  double vary_penalty() override { return solver_->vary_penalty(); }
+  particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
   particles::FlowField flow() override;
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }

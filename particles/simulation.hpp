@@ -18,6 +18,7 @@
 #include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/given_motion.hpp"
 #include "viscontact/particles/links/links.hpp"
@@ -67,9 +68,8 @@ struct FluidStepReport {
   /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
   double apparent_viscosity = 0;
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Estimate of the relative error of the velocities, extrapolated and of one mesh, and the part of
-  /// both that is the error of the penalty; < 0 if it was not made in this step.
-  double velocity_error = -1, velocity_error_of_one_mesh = -1, velocity_error_of_penalty = -1;
+  /// Of the velocities and of the forces of the fluid; < 0 if they were not estimated in this step.
+  RelativeErrors velocity_errors, force_errors;
 };
 
 /// What is recorded of one step.

@@ -178,12 +178,9 @@ TEST(FailingSolver, MayNotCountUnknownsInFractions) {
 }
 
 TEST(FailingSolver, MayNotEstimateANegativeError) {
-  OneDisc one(placed_and_asked("estimate") + "echo estimate -1 0 0 0 0; read end");
+  OneDisc one(placed_and_asked("vary") + "echo varied 1 -1 0; read end");
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
-                      [&] {
-                        one.solver().estimate(std::vector{1.0, 0.0, 0.0});
-                      }),
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().vary_mesh(); }),
               HasSubstr("'-1' in place of a number >= 0"));
 }
 

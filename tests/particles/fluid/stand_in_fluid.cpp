@@ -65,10 +65,6 @@ FlowQuantities StandInFluid::quantities() {
   return quantities;
 }
 
-EstimatedVelocities StandInFluid::estimate(std::span<const double> forces) {
-  return {velocities(forces, true), 0, 0};
-}
-
 Resistance constant_drag(double drag) {
   return [drag](const Particles& p) -> Eigen::MatrixXd {
     const auto size = static_cast<Eigen::Index>(p.count() * motion_components(p.dimension));

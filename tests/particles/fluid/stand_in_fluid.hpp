@@ -24,7 +24,8 @@ class StandInFluid : public FluidSolver {
   void place(const FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override;
-  EstimatedVelocities estimate(std::span<const double> forces) override;
+  double vary_penalty() override { return 0; }
+  SecondMesh vary_mesh() override { return {}; }
   FlowField flow() override { return {}; }
   std::size_t unknowns() const override { return 0; }
 
