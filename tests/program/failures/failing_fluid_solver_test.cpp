@@ -11,6 +11,7 @@
 #include "tests/common/regular_expressions.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/exit_code.hpp"
 

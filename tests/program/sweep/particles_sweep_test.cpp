@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/program/sweep/sweep_command.hpp"
 #include "tests/program/undisturbed.hpp"
@@ -55,8 +57,8 @@ TEST_F(SweepOfParticles, DryRunMeasuresTheFirstSteps) {
   EXPECT_GT(output.at("seconds_per_row"), 0);
   EXPECT_THAT(output.at("estimated_from").get<std::string>(),
               HasSubstr("steps of row 1, just computed"));
-  EXPECT_FALSE(fs::exists(path("rows.csv")));
-  EXPECT_FALSE(fs::exists(path("rows.csv.runs")));
+  EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));
+  EXPECT_FALSE(std::filesystem::exists(path("rows.csv.runs")));
 }
 
 TEST_F(SweepOfParticles, WritesARowForEachRunAndTheMeansOverDraws) {
