@@ -23,9 +23,10 @@ std::string script_of(particles::FluidMesh mesh, int dimension) {
   return bodies + (mesh == particles::FluidMesh::kFixed ? "_on_fixed_mesh.edp" : ".edp");
 }
 
-/// FreeFEM refuses a boundary with points that are closer than 1e-7 of the larger side of the box
-/// around it; chords are a little shorter than the edge lengths that they are made from.
-constexpr double kShortestEdge = 1.1e-7;
+/// The shortest edge of a mesh over the larger side of the box around it. FreeFEM refuses border
+/// points that are closer than 1e-7 of that side. The mesh that is refined for an estimate of the
+/// error has edges half as long, and chords are a little shorter than edge lengths.
+constexpr double kShortestEdge = 2.2e-7;
 
 /// The larger side of the box around the mesh of a domain; that of a cylinder is half a section.
 double extent_of(const particles::Domain& domain) {

@@ -45,6 +45,20 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
+/// Of each component of the loads of a particle in the plane, the largest change of all of them, where
+/// torques count divided by the radius. A change that is small by chance then hides no error.
+std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
+  auto result = lengths(changes, motion_components(particles.dimension));
+  if (particles.dimension == 1) return result;
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    const double radius = particles.radii[k];
+    const double load = std::max(result[3 * k], result[3 * k + 2] / radius);
+    result[3 * k] = result[3 * k + 1] = load;
+    result[3 * k + 2] = load * radius;
+  }
+  return result;
+}
+
 /// The largest change over a radius of the velocity of walls or of a cell [L/T].
 double speed_of_flow(const Fluid& fluid, const Particles& particles) {
   const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
@@ -82,7 +96,6 @@ FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
     for (std::size_t i = 0; i < of.size(); ++i) of[i] += mesh.extrapolation * changes[i];
     return of;
   };
-  const auto components = motion_components(particles.dimension);
   FlowEstimate estimate;
   {
     const auto by_mesh = difference(second.velocities, placed.velocities);
@@ -105,8 +118,8 @@ FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
     estimate.of_forces = relative(largest(by_mesh, particles, -1),
                                   penalty_factor * largest(by_penalty, particles, -1), mesh,
                                   largest(quantities.fluid_forces, particles, -1));
-    estimate.force_errors = lengths(by_mesh, components);
-    const auto penalty_errors = lengths(by_penalty, components);
+    estimate.force_errors = of_loads(by_mesh, particles);
+    const auto penalty_errors = of_loads(by_penalty, particles);
     for (std::size_t i = 0; i < penalty_errors.size(); ++i)
       estimate.force_errors[i] =
           mesh.error * estimate.force_errors[i] + penalty_factor * penalty_errors[i];

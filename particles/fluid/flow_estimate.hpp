@@ -29,8 +29,9 @@ struct FlowEstimate {
   /// Of the forces of the fluid, relative to the largest of them, where torques count divided by the
   /// radius.
   RelativeErrors of_forces;
-  /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. Both components
-  /// of a force in the plane have the error of its vector.
+  /// Errors >= 0 of `quantities.fluid_forces`, as many numbers [M L/T^2, M L^2/T^2]. In the plane the
+  /// components of the force on a particle have one error, and its torque has this error times the
+  /// radius.
   std::vector<double> force_errors;
   /// Errors >= 0 of the further results on the mesh of the placement.
   std::vector<double> further_errors;
