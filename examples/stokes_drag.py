@@ -47,7 +47,7 @@ class StokesDrag:
 
     def read_opening(self):
         self.expect("viscontact-fluid")
-        self.expect("1")
+        self.expect("2")
         self.expect("dimension")
         self.dimension = int(next(self.word))
         self.expect("viscosity")
@@ -124,10 +124,9 @@ class StokesDrag:
             self.last = v
         return ["velocities", *v]
 
-    def estimate(self):
+    def vary(self):
         # There is no mesh and no penalty, and so no error of either.
-        v = self.velocities(True, self.numbers(len(self.radii) * self.components))
-        return ["estimate", 0, 0, 0, *v]
+        return ["varied", 0] if next(self.word) == "penalty" else ["varied", 0, 0, 0]
 
     def quantities(self):
         """The drag of each particle, and the power that the particles give to the fluid by it."""
@@ -148,7 +147,7 @@ class StokesDrag:
     def run(self):
         print("ready places", flush=True)
         requests = {name: getattr(self, name)
-                    for name in ("place", "solve", "quantities", "estimate", "flow")}
+                    for name in ("place", "solve", "quantities", "vary", "flow")}
         for request in self.word:
             if request == "end":
                 return

@@ -16,14 +16,15 @@ namespace viscontact::freefem_flow {
 /// to run. Throws Error(kExternalProgram) if there is no such script.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
-/// The limit of an answer is VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of
-/// the user's own as well. Throws Error(kWrongUsage) if it is not a whole number from 1 to 10
+/// The limit of an answer, and of the time until the solver is ready, is VISCONTACT_FREEFEM_TIME_LIMIT
+/// in seconds if it is set, for a solver of the user's own as well. Throws Error(kWrongUsage) if it is not a whole number from 1 to 10
 /// million.
 SolverLimits solver_limits(const StopToken& stop = {});
 
 /// Starts the solver of `fluid`, and waits until it is ready. FreeFEM computes in units of its own
 /// (scaled_solver.hpp); a solver of the user's own gets the units of the case. Parameters and errors
-/// are those of FlowProcess and of the functions above.
+/// are those of FlowProcess and of the functions above. Throws Error(kBadInput) if FreeFEM can make
+/// no mesh around the smallest particle, because the domain is too large.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

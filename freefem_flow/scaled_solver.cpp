@@ -110,12 +110,6 @@ particles::FlowQuantities ScaledSolver::quantities() {
   return quantities;
 }
 
-particles::EstimatedVelocities ScaledSolver::estimate(std::span<const double> forces) {
-  auto estimated = solver_->estimate(scaled_forces(forces));
-  unscale_velocities(estimated.velocities);
-  return estimated;
-}
-
 particles::FlowField ScaledSolver::flow() {
   auto field = solver_->flow();
   for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})

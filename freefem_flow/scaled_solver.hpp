@@ -46,8 +46,10 @@ class ScaledSolver : public particles::FluidSolver {
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   /// Quantities of the last velocities(forces, true).
   particles::FlowQuantities quantities() override;
-  /// The velocities of velocities(forces, true) from two meshes, with their error.
-  particles::EstimatedVelocities estimate(std::span<const double> forces) override;
+  /// Takes another penalty; see FluidSolver.
+  double vary_penalty() override { return solver_->vary_penalty(); }
+  /// Takes a second mesh; see FluidSolver.
+  particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
   /// Velocity and pressure of the last velocities(forces, true).
   particles::FlowField flow() override;
   /// Number of unknowns of the last mesh; 0 if the solver does not say.

@@ -18,6 +18,7 @@
 #include "viscontact/particles/contact/friction_law.hpp"
 #include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/given_motion.hpp"
 #include "viscontact/particles/links/links.hpp"
@@ -70,11 +71,9 @@ struct FluidStepReport {
   /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
   double apparent_viscosity = 0;
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Estimate of the relative error of the extrapolated velocities. This and the two numbers below
-  /// are < 0 if they were not estimated in this step.
-  double velocity_error = -1;
-  double velocity_error_of_one_mesh = -1;  ///< the same for the velocities of one mesh
-  double velocity_error_of_penalty = -1;   ///< the part of both that is the error of the penalty
+  /// Of the velocities of the particles; < 0 if they were not estimated in this step.
+  RelativeErrors velocity_errors;
+  RelativeErrors force_errors;  ///< the same of the forces of the fluid
 };
 
 /// What is recorded of one step.

@@ -63,10 +63,10 @@ std::string option_item(const CLI::Option& option) {
 std::string help_footer() {
   std::string text = "Exit codes:\n";
   for (const auto& [kind, code, meaning] : results::exit_codes())
-    text += fmt::format("  {:<26}{}\n", code, meaning);
+    text += fmt::format("  {:<29} {}\n", code, meaning);
   text += "Environment:\n";
   for (const auto& [name, meaning] : kEnvironment)
-    text += fmt::format("  {:<26}{}\n", name, meaning);
+    text += fmt::format("  {:<29} {}\n", name, meaning);
   return text + "viscontact COMMAND --help documents a command.";
 }
 

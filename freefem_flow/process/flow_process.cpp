@@ -79,7 +79,6 @@ FlowProcess::FlowProcess(const particles::Fluid& fluid, const particles::Domain&
                          MeshBoundaryMaker make_boundary, const SolverLimits& limits)
     : dimension_(dimension),
       components_(radii.size() * particles::motion_components(dimension)),
-      radii_(radii.begin(), radii.end()),
       make_boundary_(std::move(make_boundary)),
       dissipation_alone_(dissipation_alone(fluid, domain)),
       command_(std::move(command)),
@@ -93,7 +92,7 @@ void FlowProcess::start() {
     peak_memory_of_earlier_ = std::max(peak_memory_of_earlier_, solver_->peak_memory_kb());
   solver_.reset();
   largest_system_ = 0;
-  solver_ = std::make_unique<SolverDialogue>(command_, limits_.answer, limits_.stop);
+  solver_ = std::make_unique<SolverDialogue>(command_, limits_.answer, limits_.ready, limits_.stop);
   solver_->ask("viscontact-fluid", opening_);
   // FreeFEM prints lines about its libraries when it starts.
   solver_->expect("ready", true);
@@ -117,22 +116,26 @@ void FlowProcess::place(const FluidParticles& bodies) {
   boundary_ = wants_boundary_ ? words_of(make_boundary_(bodies, 1)) : "";
   coarser_boundary_.clear();
   if (largest_system_ > command_.most_unknowns_reproduced) start();
-  ask_to_place(boundary_);
+  unknowns_ = ask_to_place(boundary_);
+  is_on_coarser_mesh_ = false;
   if (wants_boundary_ && unknowns_ > limits_.most_unknowns_to_refine)
     coarser_boundary_ = words_of(make_boundary_(bodies, kCoarsening));
 }
 
-void FlowProcess::ask_to_place(const std::string& boundary) {
+/// Returns the number of unknowns.
+std::size_t FlowProcess::ask_to_place(const std::string& boundary) {
   solver_->ask("place", placement_ + boundary);
-  solver_->expect("placed");
+  solver_->expect("placed", command_.remarks_on_meshes);
   // A double holds all whole numbers up to this one, so that every solver can write them.
   constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  unknowns_ = static_cast<std::size_t>(solver_->whole_number(kMost));
-  largest_system_ = std::max(largest_system_, unknowns_);
+  const auto unknowns = static_cast<std::size_t>(solver_->whole_number(kMost));
+  largest_system_ = std::max(largest_system_, unknowns);
+  return unknowns;
 }
 
 std::vector<double> FlowProcess::velocities(std::span<const double> forces, bool driving) {
   assert(forces.size() == components_);
+  if (driving) forces_.assign(forces.begin(), forces.end());
   std::string text = driving ? "solve 1" : "solve 0";
   append(text, forces, "a force");
   solver_->ask("solve", text + '\n');
@@ -153,51 +156,25 @@ particles::FlowQuantities FlowProcess::quantities() {
   return quantities;
 }
 
-particles::EstimatedVelocities FlowProcess::estimate(std::span<const double> forces) {
-  assert(forces.size() == components_);
-  if (!coarser_boundary_.empty()) return estimate_from_coarser_mesh(forces);
-  largest_system_ = std::max(largest_system_, 4 * unknowns_);  // of the refined mesh
-  std::string text = "estimate";
-  append(text, forces, "a force");
-  solver_->ask("estimate", text + '\n');
-  solver_->expect("estimate");
-  particles::EstimatedVelocities estimated;
-  estimated.relative_error = solver_->number_from_zero();
-  estimated.relative_error_of_one_mesh = solver_->number_from_zero();
-  estimated.relative_error_of_penalty = solver_->number_from_zero();
-  estimated.velocities = solver_->numbers(components_);
-  return estimated;
+double FlowProcess::vary_penalty() {
+  solver_->ask("vary", "vary penalty\n");
+  solver_->expect("varied");
+  return solver_->number_from_zero();
 }
 
-/// The largest speed: velocities, and angular velocities times radii [L/T].
-double FlowProcess::largest_speed(std::span<const double> motions) const {
-  const auto components = particles::motion_components(dimension_);
-  double largest = 0;
-  for (std::size_t k = 0; k < radii_.size(); ++k) {
-    const auto motion = motions.subspan(k * components, components);
-    if (components == 1)
-      largest = std::max(largest, std::abs(motion[0]));
-    else
-      largest =
-          std::max({largest, std::hypot(motion[0], motion[1]), radii_[k] * std::abs(motion[2])});
+particles::SecondMesh FlowProcess::vary_mesh() {
+  if (!coarser_boundary_.empty()) {
+    ask_to_place(coarser_boundary_);
+    is_on_coarser_mesh_ = true;
+    return {0, kErrorOfDifference, kErrorOfDifference};
   }
-  return largest;
-}
-
-/// At the end, the mesh of the placement is made again, because the flow on it may be asked for.
-particles::EstimatedVelocities FlowProcess::estimate_from_coarser_mesh(
-    std::span<const double> forces) {
-  ask_to_place(coarser_boundary_);
-  auto difference = velocities(forces, true);
-  ask_to_place(boundary_);
-  particles::EstimatedVelocities estimated;
-  estimated.velocities = velocities(forces, true);
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= estimated.velocities[i];
-  const double largest = largest_speed(estimated.velocities);
-  if (largest > 0)
-    estimated.relative_error = kErrorOfDifference * largest_speed(difference) / largest;
-  estimated.relative_error_of_one_mesh = estimated.relative_error;
-  return estimated;
+  largest_system_ = std::max(largest_system_, 4 * unknowns_);  // of the refined mesh
+  solver_->ask("vary", "vary mesh\n");
+  solver_->expect("varied");
+  particles::SecondMesh second;
+  for (auto* number : {&second.extrapolation, &second.error, &second.error_of_one_mesh})
+    *number = solver_->number_from_zero();
+  return second;
 }
 
 double FlowProcess::peak_memory_mebibytes() const {
@@ -205,6 +182,12 @@ double FlowProcess::peak_memory_mebibytes() const {
 }
 
 particles::FlowField FlowProcess::flow() {
+  if (is_on_coarser_mesh_) {
+    ask_to_place(boundary_);
+    is_on_coarser_mesh_ = false;
+    const auto forces = forces_;
+    velocities(forces, true);
+  }
   solver_->ask("flow", "flow\n");
   solver_->expect("flow");
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();

@@ -34,6 +34,9 @@ struct SolverLimits {
   /// four times as many unknowns, 400000, which take 2 GB. The error on a larger mesh is estimated
   /// from a coarser one.
   std::size_t most_unknowns_to_refine = 100'000;
+  /// The longest time until the solver is ready, > 0. FreeFEM takes a second on a busy machine; a
+  /// command that is no solver should not be waited for as long as for a flow.
+  std::chrono::milliseconds ready = std::chrono::minutes(1);
 };
 
 /// The process starts with the object and ends with it; a command may ask for a new process from
@@ -57,20 +60,18 @@ class FlowProcess : public particles::FluidSolver {
   void place(const particles::FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   particles::FlowQuantities quantities() override;
-  particles::EstimatedVelocities estimate(std::span<const double> forces) override;
+  double vary_penalty() override;
+  particles::SecondMesh vary_mesh() override;
   particles::FlowField flow() override;
   std::size_t unknowns() const override { return unknowns_; }
   double peak_memory_mebibytes() const override;
 
  private:
   void start();
-  void ask_to_place(const std::string& boundary);
-  particles::EstimatedVelocities estimate_from_coarser_mesh(std::span<const double> forces);
-  double largest_speed(std::span<const double> motions) const;
+  std::size_t ask_to_place(const std::string& boundary);
 
   int dimension_;
-  std::size_t components_;     ///< of the motions of all particles
-  std::vector<double> radii_;  ///< of all particles [L]
+  std::size_t components_;  ///< of the motions of all particles
   MeshBoundaryMaker make_boundary_;
   double dissipation_alone_;  ///< of the fluid without particles, 0: not known
   SolverCommand command_;
@@ -84,6 +85,8 @@ class FlowProcess : public particles::FluidSolver {
   // The last request `place`: places, driven particles and inertia; the boundary; and, for a mesh
   // that is too large to be refined, a coarser boundary.
   std::string placement_, boundary_, coarser_boundary_;
+  bool is_on_coarser_mesh_ = false;
+  std::vector<double> forces_;  ///< of the last velocities(forces, true)
 };
 
 }  // namespace viscontact::freefem_flow

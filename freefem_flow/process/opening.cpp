@@ -92,7 +92,7 @@ std::string opening(const particles::Fluid& fluid, const particles::Domain& doma
   check_domain(fluid, domain, dimension);
   const bool penalty = fluid.constraint == particles::RigidConstraint::kPenalty;
   std::string text = fmt::format(
-      "viscontact-fluid 1\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
+      "viscontact-fluid 2\ndimension {}\nviscosity {}\nconstraint {}\nmesh {}\nedges {}\n",
       dimension, format_number(fluid.viscosity),
       penalty ? "penalty " + format_number(fluid.penalty) : "rigid 0",
       fluid.mesh == particles::FluidMesh::kFitted ? "fitted" : "fixed", fluid.edges_per_particle);

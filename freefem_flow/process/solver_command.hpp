@@ -20,6 +20,8 @@ struct SolverCommand {
   /// is replaced by a new process before the next placement. A run that is continued after an
   /// interrupt then gives the same bits.
   std::size_t most_unknowns_reproduced = std::numeric_limits<std::size_t>::max();
+  /// The solver may write lines of its own before it answers a placement. They are skipped.
+  bool remarks_on_meshes = false;
 };
 
 }  // namespace viscontact::freefem_flow

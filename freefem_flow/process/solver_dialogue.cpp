@@ -49,10 +49,11 @@ double in_seconds(ChildProcess::Clock::duration time) {
 }  // namespace
 
 SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
-                               const StopToken& stop)
+                               std::chrono::milliseconds first_limit, const StopToken& stop)
     : name_(command_in_words(command.arguments)),
       remedy_if_silent_(command.remedy_if_silent),
-      time_limit_(time_limit) {
+      time_limit_(time_limit),
+      first_limit_(first_limit) {
   try {
     process_.emplace(ProcessCommand{command.arguments, command.environment, command.folder}, stop);
   } catch (const Error& error) {
@@ -84,7 +85,7 @@ void SolverDialogue::ask(std::string_view name, std::string_view text) {
 std::string_view SolverDialogue::next_word() {
   ChildProcess::Reading reading;
   try {
-    reading = process_->read_word(asked_at_ + time_limit_);
+    reading = process_->read_word(asked_at_ + limit());
   } catch (const Error&) {
     process_.reset();
     throw;
@@ -97,12 +98,13 @@ std::string_view SolverDialogue::next_word() {
 }
 
 void SolverDialogue::expect(std::string_view word, bool skip_lines) {
+  awaited_ = in_quotes(word);
   constexpr int kMostLines = 1000;
   for (int i = 0; i < kMostLines; ++i) {
     if (next_word() == word) return;
     if (!skip_lines) refuse(in_quotes(word));
     process_->put_word_back();
-    const auto line = process_->read_line(asked_at_ + time_limit_);
+    const auto line = process_->read_line(asked_at_ + limit());
     process_->keep(line.text);
     if (line.state != ChildProcess::State::kRead) fail_without_answer(line.state);
   }
@@ -149,7 +151,7 @@ void SolverDialogue::refuse(std::string_view needed) {
 }
 
 void SolverDialogue::fail_as_solver_says() {
-  const auto line = process_->read_line(asked_at_ + time_limit_);
+  const auto line = process_->read_line(asked_at_ + limit());
   const auto start = line.text.find_first_not_of(" \t\r");
   fail(fmt::format("it says: {}", start == std::string_view::npos ? "an error without a text"
                                                                   : line.text.substr(start)),
@@ -159,7 +161,8 @@ void SolverDialogue::fail_as_solver_says() {
 void SolverDialogue::fail_without_answer(ChildProcess::State state) {
   switch (state) {
     case ChildProcess::State::kTimedOut:
-      fail(fmt::format("it had not answered after {:g} s{}{}{}", in_seconds(time_limit_),
+      fail(fmt::format("it had not answered after {:g} s ({} was awaited){}{}{}",
+                       in_seconds(limit()), awaited_,
                        numbers_asked_ > 0 ? fmt::format(", but for {} of {} numbers", numbers_read_,
                                                         numbers_asked_)
                                           : "",

@@ -21,9 +21,9 @@ namespace viscontact::freefem_flow {
 /// every further request is an error.
 class SolverDialogue {
  public:
-  /// Starts the solver. `time_limit` is that of each answer.
+  /// Starts the solver. `time_limit` is that of each answer, `first_limit` that of the first one.
   SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
-                 const StopToken& stop);
+                 std::chrono::milliseconds first_limit, const StopToken& stop);
   SolverDialogue(const SolverDialogue&) = delete;
   SolverDialogue& operator=(const SolverDialogue&) = delete;
   /// Asks the solver to end, and kills it if it does not within two seconds.
@@ -51,6 +51,8 @@ class SolverDialogue {
 
  private:
   std::string_view next_word();
+  /// The limit of the answer to the last request.
+  std::chrono::milliseconds limit() const { return requests_ > 1 ? time_limit_ : first_limit_; }
   [[noreturn]] void fail(const std::string& reason, std::chrono::milliseconds grace);
   [[noreturn]] void fail_without_answer(ChildProcess::State state);
   [[noreturn]] void fail_as_solver_says();
@@ -58,9 +60,10 @@ class SolverDialogue {
 
   std::string name_;  ///< the command, for messages
   std::string remedy_if_silent_;
-  std::chrono::milliseconds time_limit_;
+  std::chrono::milliseconds time_limit_, first_limit_;
   std::optional<ChildProcess> process_;  ///< nothing after an error
   std::string request_;                  ///< first word of the last request
+  std::string awaited_;                  ///< first word of the answer that is expected
   std::int64_t requests_ = 0;
   std::size_t numbers_asked_ = 0, numbers_read_ = 0;  ///< of the numbers that are being read
   ChildProcess::Clock::time_point asked_at_{};

@@ -97,6 +97,7 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
   state_.time = next;
   wrap_into_cell(state_);
   quantities_ = std::move(motion.quantities);
+  force_errors_ = std::move(motion.force_errors);
   reported_ = std::move(motion.reported);
 }
 

@@ -23,6 +23,7 @@ struct FluidSimulation::Motion {
   StepContacts contact;
   FluidStepReport fluid;
   FlowQuantities quantities;
+  ForceErrors force_errors;
 };
 
 /// Relative rounding error of the velocities that a fluid solver answers. With a penalty they are

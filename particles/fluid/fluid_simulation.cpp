@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
@@ -180,7 +182,6 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.link_forces = held->link_forces(held_->row_forces());
   }
   motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
-  if (is_estimated) estimate(equation, forces, motion);
   motion.quantities = solver_->quantities();
   if (held && !setting_.links.arms.empty()) {
     auto drag = motion.quantities.fluid_forces;
@@ -192,6 +193,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
           motion.link_forces[links.place_of_arm(k, state_.particles.dimension)] *
           held->rate_of_arm(k, working));
   }
+  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, motion);
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -200,11 +202,14 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
 
 /// Asks for the flow on two meshes under the same forces, with those of contacts.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
-                               Motion& motion) {
-  const auto estimate = solver_->estimate(forces);
-  motion.fluid.velocity_error = estimate.relative_error;
-  motion.fluid.velocity_error_of_one_mesh = estimate.relative_error_of_one_mesh;
-  motion.fluid.velocity_error_of_penalty = estimate.relative_error_of_penalty;
+                               const HeldMotion* held, Motion& motion) {
+  std::function<std::vector<double>()> link_forces;
+  if (held != nullptr) link_forces = [&] { return held->link_forces(held_->row_forces()); };
+  auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
+  motion.fluid.velocity_errors = estimate.of_velocities;
+  motion.fluid.force_errors = estimate.of_forces;
+  motion.force_errors = {std::move(estimate.force_errors), std::move(estimate.further_errors)};
+  motion.quantities = std::move(estimate.quantities);
   if (setting_.fluid->coupling == Coupling::kSplitting) return;
   auto moved = motion.linear;
   for (std::size_t i = 0; i < moved.size(); ++i)

@@ -20,6 +20,13 @@ class HeldSolver;
 class StepEquation;
 struct StepContacts;
 
+/// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are empty
+/// if they were not made.
+struct ForceErrors {
+  std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces()
+  std::vector<double> of_links;  ///< of State::link_forces
+};
+
 /// Rigid particles in a fluid. Each step asks the fluid solver for the velocities that the
 /// particles take at their places x^n under forces, torques and contact impulses, and moves them:
 ///
@@ -44,7 +51,7 @@ class FluidSimulation {
 
   /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
   /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
-  /// velocities. Throws Error(kNotConverged) if no solution of the contacts is found that keeps
+  /// velocities and forces. Throws Error(kNotConverged) if no solution of the contacts is found that keeps
   /// overlaps below the mean radius, or if a particle moves too far for the precision of a double;
   /// and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
@@ -64,6 +71,9 @@ class FluidSimulation {
   /// empty before the first step.
   const std::vector<double>& fluid_forces() const { return quantities_.fluid_forces; }
 
+  /// The errors of the forces of the last step, if the errors of velocities were estimated there.
+  const ForceErrors& force_errors() const { return force_errors_; }
+
   /// The particles with the velocities of the last step. If the error was estimated there, they are
   /// those extrapolated from two meshes, which do not enter the next step.
   Particles reported_particles() const;
@@ -78,7 +88,8 @@ class FluidSimulation {
                                       double h, const HeldMotion* held);
   StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
                                  double h, double next);
-  void estimate(const StepEquation& equation, std::span<const double> forces, Motion& motion);
+  void estimate(const StepEquation& equation, std::span<const double> forces,
+                const HeldMotion* held, Motion& motion);
   void examine(const Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
   void hold_exactly(const HeldMotion& held, std::vector<double>& velocities, double h) const;
@@ -93,6 +104,7 @@ class FluidSimulation {
   ThreadPool pool_;
   std::vector<Plane> obstacles_;
   FlowQuantities quantities_;
+  ForceErrors force_errors_;
   std::vector<double> reported_;  // extrapolated velocities of the last step; empty: there are none
 };
 

@@ -38,15 +38,12 @@ struct FlowQuantities {
   std::vector<double> fluid_forces;
 };
 
-/// Velocities of all particles with their error.
-struct EstimatedVelocities {
-  std::vector<double> velocities;  ///< extrapolated from two meshes
-  /// Estimate of the error of `velocities`, relative to the largest velocity.
-  double relative_error = 0;
-  /// The same estimate for the velocities of one mesh, which velocities() returns.
-  double relative_error_of_one_mesh = 0;
-  /// The part of both that is the error of the penalty; < 0 if it is not known and in neither.
-  double relative_error_of_penalty = -1;
+/// How results on a second mesh improve those on the mesh of a placement. With the change d of a
+/// result from the mesh of the placement to the second one, result + extrapolation * d is the most
+/// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result on
+/// the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
+struct SecondMesh {
+  double extrapolation = 0, error = 0, error_of_one_mesh = 0;
 };
 
 /// Velocity and pressure at the nodes of a mesh of quadratic triangles. On an axis, x is the
@@ -79,13 +76,21 @@ class FluidSolver {
   /// Quantities of the last velocities(forces, true).
   virtual FlowQuantities quantities() = 0;
 
-  /// The velocities of velocities(forces, true) from two meshes, with their error.
-  virtual EstimatedVelocities estimate(std::span<const double> forces) = 0;
+  /// Takes the particles of the last placement with another penalty. Until the next call of place()
+  /// or vary_mesh(), velocities() and quantities() are those with this penalty. Returns the factor
+  /// >= 0 by which the change of a result is multiplied to estimate its error by the penalty; 0 if
+  /// there is no penalty, and then nothing changes. estimate_flow() compares the results.
+  virtual double vary_penalty() = 0;
 
-  /// Velocity and pressure of the last velocities(forces, true).
+  /// Takes the particles of the last placement, with the penalty of the case, on a second mesh.
+  /// Until the next call of place(), velocities() and quantities() are those on this mesh.
+  virtual SecondMesh vary_mesh() = 0;
+
+  /// Velocity and pressure of the last velocities(forces, true); after vary_mesh() on the finer of
+  /// both meshes.
   virtual FlowField flow() = 0;
 
-  /// Number of unknowns of the last mesh; 0 if the solver does not say.
+  /// Number of unknowns on the mesh of the last placement; 0 if the solver does not say.
   virtual std::size_t unknowns() const = 0;
 
   /// The largest resident memory of the solver so far [MiB], if it is a process of its own; else 0.

@@ -44,6 +44,7 @@ void HeldSolver::add_responses(std::span<double> velocities, const Eigen::Vector
 
 void HeldSolver::place(const FluidParticles& bodies) {
   solver_->place(bodies);
+  is_varied_ = false;
   responses_.clear();
   const std::size_t motions =
       bodies.particles->count() * motion_components(bodies.particles->dimension);
@@ -162,16 +163,22 @@ void HeldSolver::check(const Eigen::VectorXd& right, const Eigen::VectorXd& forc
 std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool driving) {
   auto velocities = solver_->velocities(forces, driving);
   if (rows_.empty()) return velocities;
-  Eigen::VectorXd right = driving ? missing(velocities) : -sums(velocities);
+  // What the rows, with the compliance of springs, must add up to.
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   if (driving)
-    for (const Index r : springs_)
-      right[r] -= rows_[static_cast<std::size_t>(r)].extension / (theta(r) * h_);
-  const auto of_rows = solve(right, true);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const auto& row = rows_[r];
+      const auto i = static_cast<Index>(r);
+      given[i] = (row.stiffness > 0 ? -row.extension / (theta(i) * h_) : row.rate) - row.image_rate;
+    }
+  const Eigen::VectorXd right = given - sums(velocities);
+  auto of_rows = solve(right, true);
   if (!driving) {
     add_responses(velocities, of_rows);
     return velocities;
   }
   check(right, of_rows);
+  if (is_varied_) correct(given, forces, of_rows);
   row_forces_.assign(of_rows.begin(), of_rows.end());
   std::vector<double> all(forces.begin(), forces.end());
   add_row_forces(all, of_rows);
@@ -203,16 +210,32 @@ std::vector<double> HeldSolver::spring_forces() const {
   return forces;
 }
 
-EstimatedVelocities HeldSolver::estimate(std::span<const double> forces) {
-  std::vector<double> all(forces.begin(), forces.end());
-  if (!row_forces_.empty())
-    add_row_forces(all, Eigen::Map<const Eigen::VectorXd>(row_forces_.data(),
-                                                          static_cast<Index>(row_forces_.size())));
-  auto estimate = solver_->estimate(all);
-  // The forces are those of one mesh. What they miss on the other is as small as its error.
-  if (!rows_.empty())
-    add_responses(estimate.velocities, solve(missing(estimate.velocities), false));
-  return estimate;
+double HeldSolver::vary_penalty() {
+  is_varied_ = true;
+  return solver_->vary_penalty();
+}
+
+SecondMesh HeldSolver::vary_mesh() {
+  is_varied_ = true;
+  return solver_->vary_mesh();
+}
+
+/// Corrects forces of the rows that were computed with the mobility of the placement, for a mesh or
+/// a penalty that differs from it. Each correction multiplies what is missing by about the relative
+/// difference of both mobilities, which is an error of discretisation. `right` is what the rows, with
+/// their compliance, must add up to under `forces`.
+void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
+                         Eigen::VectorXd& of_rows) {
+  constexpr int kCorrections = 2;
+  for (int n = 0; n < kCorrections; ++n) {
+    std::vector<double> all(forces.begin(), forces.end());
+    add_row_forces(all, of_rows);
+    Eigen::VectorXd missing = right - sums(solver_->velocities(all, true));
+    for (Index r = 0; r < missing.size(); ++r)
+      if (const double k = rows_[static_cast<std::size_t>(r)].stiffness; k > 0)
+        missing[r] -= of_rows[r] / (k * theta(r) * h_);
+    of_rows += solve(missing, true);
+  }
 }
 
 }  // namespace viscontact::particles

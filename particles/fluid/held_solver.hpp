@@ -52,7 +52,8 @@ class HeldSolver : public FluidSolver {
   void place(const FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override { return solver_->quantities(); }
-  EstimatedVelocities estimate(std::span<const double> forces) override;
+  double vary_penalty() override;
+  SecondMesh vary_mesh() override;
   FlowField flow() override { return solver_->flow(); }
   std::size_t unknowns() const override { return solver_->unknowns(); }
   double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
@@ -75,6 +76,8 @@ class HeldSolver : public FluidSolver {
   Eigen::VectorXd missing(std::span<const double> velocities) const;
   void factorise();
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
+  void correct(const Eigen::VectorXd& right, std::span<const double> forces,
+               Eigen::VectorXd& of_rows);
   Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
@@ -94,6 +97,7 @@ class HeldSolver : public FluidSolver {
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor_;
   std::vector<double> row_forces_;
+  bool is_varied_ = false;  // the fluid is another one than that of matrix_ and responses_
 };
 
 }  // namespace viscontact::particles

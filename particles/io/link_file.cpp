@@ -11,11 +11,22 @@
 namespace viscontact::particles {
 namespace {
 
-/// A row: time, id and values.
-std::string row(double time, std::size_t id, const std::vector<double>& values) {
+/// A row: time, id, values, and further fields with a comma before each.
+std::string row(double time, std::size_t id, const std::vector<double>& values,
+                const std::string& further = "") {
   std::string text = fmt::format("{},{}", format_number(time), id);
   for (const double value : values) text += "," + format_number(value);
-  return text + "\n";
+  return text + further + "\n";
+}
+
+/// In a fluid, the field of the error of the force at `place`, or of a vector of two forces there;
+/// empty if no error is known.
+std::string error_field(const Setting& setting, std::span<const double> errors, std::size_t place,
+                        std::size_t count = 1) {
+  if (!setting.fluid) return "";
+  if (errors.empty()) return ",";
+  return "," +
+         format_number(count == 1 ? errors[place] : std::hypot(errors[place], errors[place + 1]));
 }
 
 void append(std::vector<double>& values, const Vector& vector, std::size_t count) {
@@ -30,7 +41,8 @@ double distance(const Particles& p, std::int32_t first, std::int32_t second) {
   return norm(nearest_image(p.cell, p.position(index_of(second)) - p.position(index_of(first))));
 }
 
-std::string body_rows(const Setting& /*setting*/, const State& state) {
+std::string body_rows(const Setting& /*setting*/, const State& state,
+                      std::span<const double> /*force_errors*/) {
   std::string text;
   const auto& p = state.particles;
   for (std::size_t b = 0; b < p.bodies.count(); ++b) {
@@ -51,35 +63,44 @@ std::string body_rows(const Setting& /*setting*/, const State& state) {
   return text;
 }
 
-std::string hinge_rows(const Setting& setting, const State& state) {
+std::string hinge_rows(const Setting& setting, const State& state,
+                       std::span<const double> force_errors) {
   std::string text;
   const auto forces = Links::forces_of_hinge(state.particles.dimension);
   for (std::size_t k = 0; k < setting.links.hinges.size(); ++k) {
     std::vector<double> values;
     for (std::size_t i = 0; i < forces; ++i) values.push_back(force_of(state, k * forces + i));
-    text += row(state.time, k, values);
+    std::string errors = error_field(setting, force_errors, k * forces, 2);
+    if (forces == 3) errors += error_field(setting, force_errors, k * forces + 2);
+    text += row(state.time, k, values, errors);
   }
   return text;
 }
 
-std::string spring_rows(const Setting& setting, const State& state) {
+std::string spring_rows(const Setting& setting, const State& state,
+                        std::span<const double> force_errors) {
   std::string text;
   const auto& springs = setting.links.springs;
-  for (std::size_t k = 0; k < springs.size(); ++k)
-    text += row(state.time, k,
-                {distance(state.particles, springs[k].first, springs[k].second),
-                 force_of(state, setting.links.place_of_spring(k, state.particles.dimension))});
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const auto place = setting.links.place_of_spring(k, state.particles.dimension);
+    text += row(
+        state.time, k,
+        {distance(state.particles, springs[k].first, springs[k].second), force_of(state, place)},
+        error_field(setting, force_errors, place));
+  }
   return text;
 }
 
-std::string arm_rows(const Setting& setting, const State& state) {
+std::string arm_rows(const Setting& setting, const State& state,
+                     std::span<const double> force_errors) {
   std::string text;
   const auto& arms = setting.links.arms;
   for (std::size_t k = 0; k < arms.size(); ++k) {
-    const double force = force_of(state, setting.links.place_of_arm(k, state.particles.dimension));
+    const auto place = setting.links.place_of_arm(k, state.particles.dimension);
     text += row(state.time, k,
-                {distance(state.particles, arms[k].first, arms[k].second), force,
-                 state.arm_powers.empty() ? 0 : state.arm_powers[k]});
+                {distance(state.particles, arms[k].first, arms[k].second), force_of(state, place),
+                 state.arm_powers.empty() ? 0 : state.arm_powers[k]},
+                error_field(setting, force_errors, place));
   }
   return text;
 }
@@ -89,6 +110,8 @@ std::string arm_rows(const Setting& setting, const State& state) {
 std::vector<TimeTable> time_tables(const Setting& setting, const Particles& particles) {
   const bool in_space = particles.dimension == 3;
   const auto& links = setting.links;
+  const std::string error = setting.fluid ? ",force_error_estimate" : "";
+  const std::string torque_error = setting.fluid ? ",torque_error_estimate" : "";
   std::vector<TimeTable> tables;
   const auto add = [&](const char* name, const std::string& columns, std::size_t count,
                        auto* rows) {
@@ -99,10 +122,11 @@ std::vector<TimeTable> time_tables(const Setting& setting, const Particles& part
                  "angular_velocity_x,angular_velocity_y,angular_velocity_z"
                : "x,y,angle,vx,vy,angular_velocity",
       particles.bodies.count(), body_rows);
-  add("hinges.csv", in_space ? "force_x,force_y,force_z" : "force_x,force_y,torque",
+  add("hinges.csv",
+      in_space ? "force_x,force_y,force_z" : "force_x,force_y,torque" + error + torque_error,
       links.hinges.size(), hinge_rows);
-  add("springs.csv", "length,force", links.springs.size(), spring_rows);
-  add("arms.csv", "length,force,power", links.arms.size(), arm_rows);
+  add("springs.csv", "length,force" + error, links.springs.size(), spring_rows);
+  add("arms.csv", "length,force,power" + error, links.arms.size(), arm_rows);
   return tables;
 }
 

@@ -2,6 +2,7 @@
 // times are in the units of the case. A change must keep the names of the columns.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct TimeTable {
   std::string name;       ///< of its file
   std::string header;     ///< line with the names of its columns
   std::size_t count = 0;  ///< number of rows at each time
-  /// The rows of a state.
-  std::string (*rows)(const Setting& setting, const State& state);
+  /// The rows of a state. `force_errors` are those of State::link_forces; empty: not known.
+  std::string (*rows)(const Setting& setting, const State& state,
+                      std::span<const double> force_errors);
 };
 
 /// The tables that a run has, each only if the case has what it lists:
@@ -25,6 +27,9 @@ struct TimeTable {
 /// - hinges.csv: time,id,force_x,force_y,torque; in space force_x,force_y,force_z
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
+///
+/// In a fluid the tables of links end with the column force_error_estimate, that of hinges also with
+/// torque_error_estimate: errors of one mesh in the units of the results, empty where not known.
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
 /// forces of springs and arms are positive where they push the ends apart. Forces are those of the

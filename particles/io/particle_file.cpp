@@ -40,9 +40,15 @@ const Names kOnAxis = {"z", "radius", "mass", "vz", "x", "y", "vx", "vy", "id", 
 constexpr std::size_t kAngularVelocityX = 11;
 
 // Columns that only files of particles in a fluid have. Forces of an earlier run are not used.
-constexpr std::array<std::string_view, 5> kOfDiscsInFluid = {
-    "angle", "angular_velocity", "fluid_force_x", "fluid_force_y", "fluid_torque"};
-constexpr std::array<std::string_view, 1> kOnAxisInFluid = {"fluid_force_z"};
+constexpr std::array<std::string_view, 7> kOfDiscsInFluid = {"angle",
+                                                             "angular_velocity",
+                                                             "fluid_force_x",
+                                                             "fluid_force_y",
+                                                             "fluid_torque",
+                                                             "fluid_force_error_estimate",
+                                                             "fluid_torque_error_estimate"};
+constexpr std::array<std::string_view, 2> kOnAxisInFluid = {"fluid_force_z",
+                                                            "fluid_force_error_estimate"};
 
 // Columns of particles that turn without a fluid.
 constexpr std::array<std::string_view, 2> kOfDiscsThatTurn = {"angle", "angular_velocity"};
@@ -192,13 +198,13 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension, bo
   return result;
 }
 
-std::string write_particles(const Particles& particles, std::span<const double> fluid_forces) {
+std::string write_particles(const Particles& particles, const std::optional<FluidForces>& forces) {
   const auto d = static_cast<std::size_t>(particles.dimension);
   std::string text = fmt::format("# rows: {}\n", particles.count());
   text += d == 1   ? "id,z,vz,radius,mass"
           : d == 2 ? "id,x,y,vx,vy,radius,mass"
                    : "id,x,y,z,vx,vy,vz,radius,mass";
-  if (!fluid_forces.empty())
+  if (forces)
     for (const auto name : fluid_columns(particles.dimension)) (text += ',') += name;
   else if (particles.turn())
     for (const auto name : turning_columns(particles.dimension)) (text += ',') += name;
@@ -210,11 +216,19 @@ std::string write_particles(const Particles& particles, std::span<const double> 
     for (std::size_t i = k * d; i < k * d + d; ++i) add(particles.velocities[i]);
     add(particles.radii[k]);
     add(particles.masses[k]);
-    if (!fluid_forces.empty()) {
+    if (forces) {
       if (d == 2) add(particles.angles[k]);
       if (d == 2) add(particles.angular_velocities[k]);
       const auto components = motion_components(particles.dimension);
-      for (std::size_t i = 0; i < components; ++i) add(fluid_forces[k * components + i]);
+      const auto add_or_empty = [&](std::span<const double> values, std::size_t i) {
+        if (values.empty())
+          text += ',';
+        else
+          add(values[k * components + i]);
+      };
+      for (std::size_t i = 0; i < components; ++i) add_or_empty(forces->values, i);
+      add_or_empty(forces->errors, 0);
+      if (components == 3) add_or_empty(forces->errors, 2);
     } else if (particles.turn()) {
       if (d == 2) add(particles.angles[k]);
       const std::size_t turns = d == 3 ? 3 : 1;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,15 +36,22 @@ struct ParticleFile {
 ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 
+/// Forces and torques of the fluid on particles and estimates of their errors, motion_components()
+/// numbers for each particle [M L/T^2, M L^2/T^2]. An empty list is not known: its fields are empty.
+struct FluidForces {
+  std::span<const double> values, errors;
+};
+
 /// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on an axis.
 /// The numbers read back to the same bits.
 ///
-/// `fluid_forces` are the forces and torques of the fluid (FlowQuantities), empty without a fluid.
-/// With them, discs also have the columns
-/// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque, and spheres on an axis the
-/// column fluid_force_z. Without them, particles that turn have the columns
-/// angle,angular_velocity (discs) or angular_velocity_x,angular_velocity_y,angular_velocity_z.
-std::string write_particles(const Particles& particles, std::span<const double> fluid_forces = {});
+/// With `forces`, which particles in a fluid have, discs also have the columns
+/// angle,angular_velocity,fluid_force_x,fluid_force_y,fluid_torque,fluid_force_error_estimate,
+/// fluid_torque_error_estimate, and spheres on an axis fluid_force_z,fluid_force_error_estimate.
+/// Without, particles that turn have the columns angle,angular_velocity (discs) or
+/// angular_velocity_x,angular_velocity_y,angular_velocity_z.
+std::string write_particles(const Particles& particles,
+                            const std::optional<FluidForces>& forces = {});
 
 /// The line with the names of the columns of motion.csv, and the rows of all particles at `time`
 /// [T]: time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.

@@ -80,7 +80,8 @@ std::string flow_name(const std::string& frame) { return named_as(frame, "flow",
 
 std::string links_name(const std::string& frame) { return named_as(frame, "links", ".vtp"); }
 
-void ParticleFrames::add(const particles::Setting& setting, const particles::State& state) {
+void ParticleFrames::add(const particles::Setting& setting, const particles::State& state,
+                         std::span<const double> link_force_errors) {
   playback_.cell = particles::cell_of(setting);
   auto contacts = particles::contacts_of(setting, state);
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
@@ -97,7 +98,7 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
     add_contact_rows(state.time, contacts);
   }
   for (std::size_t t = 0; t < tables_.size(); ++t)
-    table_rows_[t] += tables_[t].rows(setting, state);
+    table_rows_[t] += tables_[t].rows(setting, state, link_force_errors);
   if ((files_.size() - 1) % every_ == 0)
     keep(frame_at(state.time, setting, state.particles, std::move(contacts)));
 }
@@ -190,9 +191,10 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles
     table_rows_[t] = earlier_rows(tables_[t].name, tables_[t].count);
 }
 
-void ParticleFrames::end(const particles::Setting& setting, const particles::State& state) {
+void ParticleFrames::end(const particles::Setting& setting, const particles::State& state,
+                         std::span<const double> link_force_errors) {
   if (files_.empty()) return;  // writing the first frame failed
-  if (files_.back().first < state.time) add(setting, state);
+  if (files_.back().first < state.time) add(setting, state, link_force_errors);
   if (playback_.frames.back().time < state.time)
     keep(frame_at(state.time, setting, state.particles, particles::contacts_of(setting, state)));
 }

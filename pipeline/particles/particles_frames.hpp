@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +46,9 @@ class ParticleFrames {
                  const particles::Setting& setting, const particles::Particles& particles);
 
   /// Writes a frame of the state. tables() and, with a fluid, motion() and contacts() get its rows.
-  void add(const particles::Setting& setting, const particles::State& state);
+  /// `link_force_errors` are those of State::link_forces, empty if they are not known.
+  void add(const particles::Setting& setting, const particles::State& state,
+           std::span<const double> link_force_errors);
 
   /// True if the flow of the last frame has not been written. The flow around the particles of a
   /// frame is known only in the next step.
@@ -63,7 +66,8 @@ class ParticleFrames {
 
   /// Adds a frame of the last state, unless the last frame shows it. Does nothing if no frame was
   /// written.
-  void end(const particles::Setting& setting, const particles::State& state);
+  void end(const particles::Setting& setting, const particles::State& state,
+           std::span<const double> link_force_errors);
 
   const particles::Playback& playback() const { return playback_; }
   const std::vector<FrameFile>& files() const { return files_; }

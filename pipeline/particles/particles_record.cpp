@@ -28,6 +28,13 @@ std::string comment_begin(std::int64_t last_step) {
   return fmt::format("# record after step {}: ", last_step);
 }
 
+template <class Errors, class Visit>
+void visit_errors(const std::string& of, Errors& errors, const Visit& visit) {
+  visit((of + "_error").c_str(), errors.best);
+  visit((of + "_error_of_one_mesh").c_str(), errors.of_one_mesh);
+  visit((of + "_error_of_penalty").c_str(), errors.of_penalty);
+}
+
 /// Calls `visit` with the key and the value of each sum, in the order in which a comment of
 /// steps.csv has them.
 template <class Totals, class Visit>
@@ -48,12 +55,10 @@ void for_each_sum(Totals& sums, const Visit& visit) {
   if (!sums.has_fluid) return;
   visit("fluid_seconds", sums.fluid_seconds);
   visit("unknowns", sums.unknowns);
-  visit("first_velocity_error", sums.first_velocity_error);
-  visit("last_velocity_error", sums.last_velocity_error);
-  visit("first_error_of_one_mesh", sums.first_error_of_one_mesh);
-  visit("last_error_of_one_mesh", sums.last_error_of_one_mesh);
-  visit("first_error_of_penalty", sums.first_error_of_penalty);
-  visit("last_error_of_penalty", sums.last_error_of_penalty);
+  visit_errors("first_velocity", sums.first_velocity_errors, visit);
+  visit_errors("last_velocity", sums.last_velocity_errors, visit);
+  visit_errors("first_force", sums.first_force_errors, visit);
+  visit_errors("last_force", sums.last_force_errors, visit);
 }
 
 /// The header line of `text` and its rows up to the step `last_step`.
@@ -95,15 +100,13 @@ void StepRecord::add(std::int64_t step, const particles::StepReport& report) {
   last_time = report.time;
   const auto& fluid = report.fluid;
   fluid_seconds += fluid.seconds;
-  if (fluid.velocity_error >= 0) {
-    if (first_velocity_error < 0) {
-      first_velocity_error = fluid.velocity_error;
-      first_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
-      first_error_of_penalty = fluid.velocity_error_of_penalty;
+  if (fluid.velocity_errors.best >= 0) {
+    if (first_velocity_errors.best < 0) {
+      first_velocity_errors = fluid.velocity_errors;
+      first_force_errors = fluid.force_errors;
     }
-    last_velocity_error = fluid.velocity_error;
-    last_error_of_one_mesh = fluid.velocity_error_of_one_mesh;
-    last_error_of_penalty = fluid.velocity_error_of_penalty;
+    last_velocity_errors = fluid.velocity_errors;
+    last_force_errors = fluid.force_errors;
   }
   if (steps > kMostRows && steps % kThen != 0 && report.converged) return;
   fmt::format_to(std::back_inserter(rows), "{},{},{},{},{},{},{},{},{},{},{}", step,
@@ -150,16 +153,19 @@ std::string run_json(const case_file::ParticlesCase& c, const StepTotals& record
   json["seconds"] = record.seconds;
   json["peak_memory_mebibytes"] = record.peak_memory_mebibytes;
   if (record.has_fluid) {
-    const auto estimates = [](double first, double last) {
+    const auto add_estimates = [&](const std::string& key, const particles::RelativeErrors& first,
+                                   const particles::RelativeErrors& last) {
       const auto number = [](double error) { return error < 0 ? Json() : Json(error); };
-      return Json{{"first_step", number(first)}, {"last_step", number(last)}};
+      const auto add = [&](const std::string& name, double of_first, double of_last) {
+        json[name] = {{"first_step", number(of_first)}, {"last_step", number(of_last)}};
+      };
+      add(key, first.best, last.best);
+      add(key + "_of_one_mesh", first.of_one_mesh, last.of_one_mesh);
+      add(key + "_of_penalty", first.of_penalty, last.of_penalty);
     };
-    json["velocity_error_estimate"] =
-        estimates(record.first_velocity_error, record.last_velocity_error);
-    json["velocity_error_estimate_of_one_mesh"] =
-        estimates(record.first_error_of_one_mesh, record.last_error_of_one_mesh);
-    json["velocity_error_estimate_of_penalty"] =
-        estimates(record.first_error_of_penalty, record.last_error_of_penalty);
+    add_estimates("velocity_error_estimate", record.first_velocity_errors,
+                  record.last_velocity_errors);
+    add_estimates("force_error_estimate", record.first_force_errors, record.last_force_errors);
     json["unknowns"] = record.unknowns;
     json["fluid_seconds"] = record.fluid_seconds;
   }

@@ -30,11 +30,9 @@ struct StepTotals {
   bool has_fluid = false;
   double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
   std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
-  /// Estimates of the relative error of the velocities at the first and at the last step, < 0 if
-  /// there is none: extrapolated, of one mesh, and of the penalty alone.
-  double first_velocity_error = -1, last_velocity_error = -1;
-  double first_error_of_one_mesh = -1, last_error_of_one_mesh = -1;
-  double first_error_of_penalty = -1, last_error_of_penalty = -1;
+  /// Estimates of the relative errors of velocities and forces at the first and at the last step.
+  particles::RelativeErrors first_velocity_errors, last_velocity_errors;
+  particles::RelativeErrors first_force_errors, last_force_errors;
 };
 
 /// The sums and the rows of steps.csv, which can be 50 MB long.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -74,16 +75,16 @@ class Run {
       }
       tell(report);
       constexpr double kSaveEvery = 60;  // [s]
-      if (seconds_since(last_saved_) > kSaveEvery) save();
+      const bool is_at_end = simulation_.state().time >= case_.end_time - times.tiny;
+      if (!is_at_end && seconds_since(last_saved_) > kSaveEvery) save();
     }
   }
 
   /// Writes all files of the run. Returns the text of run.json.
   std::string write_results() {
     terminal::clear_progress();
-    frames_.end(case_.setting, simulation_.state());
+    frames_.end(case_.setting, simulation_.state(), link_force_errors());
     add_last_flow();
-    save();
     const auto& state = simulation_.state();
     write("final_particles.csv", TextKind::kHashComment, final_particles());
     write("final_contacts.csv", TextKind::kHashComment,
@@ -94,7 +95,10 @@ class Run {
     write("particles.svg", TextKind::kSvg,
           report::particles_picture(frames_.playback(), case_.title, kPanels));
     auto json = run_json(case_, with_costs(), state);
+    // Forces of the fluid are not in restart.bin. A run that is killed before this line computes its
+    // last step again.
     write("run.json", TextKind::kJson, json);
+    save();
     return json;
   }
 
@@ -123,12 +127,19 @@ class Run {
     }
   }
 
-  void add_frame() { frames_.add(case_.setting, simulation_.state()); }
+  void add_frame() { frames_.add(case_.setting, simulation_.state(), link_force_errors()); }
+
+  std::span<const double> link_force_errors() {
+    if (!simulation_.has_fluid()) return {};
+    return simulation_.fluid().force_errors().of_links;
+  }
 
   std::string final_particles() {
     const auto reported = simulation_.reported_particles();
     if (!simulation_.has_fluid()) return particles::write_particles(reported);
-    return particles::write_particles(reported, simulation_.fluid().fluid_forces());
+    const auto& fluid = simulation_.fluid();
+    return particles::write_particles(
+        reported, particles::FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid});
   }
 
   /// The sums, with computing time and memory of this call and the calls before it.

@@ -7,12 +7,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/pipeline/particles/particle_simulation.hpp"
+#include "viscontact/pipeline/particles/particles_earlier_run.hpp"
 #include "viscontact/pipeline/sweep/particles_run.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/particles/means.hpp"
@@ -92,6 +96,32 @@ std::vector<std::uint64_t> missing_rows(const ParticlesSweep& sweep, const Parti
   for (std::uint64_t i = 0; i < sweep.size(); ++i)
     if (failed ? !runs.has_succeeded(i) : !runs.ended(i)) missing.push_back(i);
   return missing;
+}
+
+/// Sets the time of a row from the first steps of the first one.
+void measure_first_steps(const ParticlesSweep& sweep, const StopToken& stop, DryRun& run) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  };
+  const auto c = sweep.case_of(0);
+  const auto start = Clock::now();
+  ParticleSimulation simulation(c.setting, first_state(c, ""), 1, stop);
+  // In a fluid the first step also estimates errors, and takes several times as long as the others.
+  simulation.step(c.end_time);
+  const double first = seconds_since(start);
+  const auto after_first = Clock::now();
+  const double tiny = 1e-6 * c.setting.time_step;
+  constexpr double kEnough = 2;  // [s]
+  while (simulation.state().time < c.end_time - tiny && seconds_since(start) < kEnough)
+    simulation.step(c.end_time);
+  const auto further = simulation.state().steps - 1;
+  const double all = std::ceil(c.end_time / c.setting.time_step * (1 - 1e-9)) - 1;
+  run.seconds_per_row =
+      first + (further > 0 ? seconds_since(after_first) / static_cast<double>(further) : first) *
+                  std::max(all, 0.0);
+  run.basis = fmt::format("the first {} of {:.0f} steps of row 1, just computed", further + 1,
+                          std::max(all, 0.0) + 1);
 }
 
 }  // namespace
@@ -180,9 +210,9 @@ void submit_sweep(const ParticlesSweep& sweep, const ArrayRequest& request,
   submit(job, request);
 }
 
-DryRun dry_run(const ParticlesSweep& sweep, const std::string& output) {
+DryRun dry_run(const ParticlesSweep& sweep, const std::string& output, const StopToken& stop) {
   const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false);
-  DryRun run{output, sweep.size(), 0, 0, "no row, because none is finished"};
+  DryRun run{output, sweep.size(), 0, 0, ""};
   double seconds = 0;
   for (std::uint64_t i = 0; i < sweep.size(); ++i) {
     if (!runs.has_succeeded(i)) continue;
@@ -192,6 +222,8 @@ DryRun dry_run(const ParticlesSweep& sweep, const std::string& output) {
   if (run.finished > 0) {
     run.seconds_per_row = seconds / static_cast<double>(run.finished);
     run.basis = "its finished rows";
+  } else {
+    measure_first_steps(sweep, stop, run);
   }
   return run;
 }

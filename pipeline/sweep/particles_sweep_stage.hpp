@@ -43,8 +43,11 @@ void gather_sweep(const sweep::ParticlesSweep& sweep, const ParticlesSweepReques
 void submit_sweep(const sweep::ParticlesSweep& sweep, const ArrayRequest& request,
                   const std::vector<std::string>& options);
 
-/// The estimate for --dry-run. The time of a row is that of the runs that have ended; 0 if there
-/// are none.
-DryRun dry_run(const sweep::ParticlesSweep& sweep, const std::string& output);
+/// The estimate for --dry-run. The time of a row is that of the runs that have ended. If there are
+/// none, the first steps of the first row are computed, for two seconds or until `stop` requests a
+/// stop, and the time of all of its steps is extrapolated from them; nothing is written. Throws the
+/// errors of these steps.
+DryRun dry_run(const sweep::ParticlesSweep& sweep, const std::string& output,
+               const StopToken& stop);
 
 }  // namespace viscontact::pipeline

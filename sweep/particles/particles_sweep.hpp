@@ -62,6 +62,9 @@ class ParticlesSweep {
   /// Keys and values that row `index` changes in the case. The draws of a point follow each other.
   std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
 
+  /// The case of row `index`. Throws Error(kBadInput) if it is not valid.
+  case_file::ParticlesCase case_of(std::uint64_t index) const { return case_.with(numbers(index)); }
+
   /// The text of a case file for row `index`, which may be in any folder. Rows whose case is the
   /// same have the same text.
   std::string case_text(std::uint64_t index) const;

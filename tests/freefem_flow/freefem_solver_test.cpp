@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 
 #include "tests/common/failure.hpp"
@@ -48,13 +49,31 @@ TEST(SolverCommand, OfAUserIsTakenAsItIs) {
 
 TEST(SolverLimits, AreThoseOfTheEnvironment) {
   EXPECT_EQ(solver_limits().answer, 30min);
+  EXPECT_EQ(solver_limits().ready, 1min);
   {
     const Variable limit("VISCONTACT_FREEFEM_TIME_LIMIT", "5");
     EXPECT_EQ(solver_limits().answer, 5s);
+    EXPECT_EQ(solver_limits().ready, 5s);
   }
   const Variable wrong("VISCONTACT_FREEFEM_TIME_LIMIT", "5 s");
   EXPECT_THAT(failure(ErrorKind::kWrongUsage, [] { solver_limits(); }),
               HasSubstr("VISCONTACT_FREEFEM_TIME_LIMIT is '5 s'"));
+}
+
+TEST(StartFluidSolver, RefusesAParticleTooSmallForTheDomain) {
+  // The least radius in a square of 4 with 24 edges is that of the message.
+  const particles::BoxDomain box = {{0, 0}, {4, 4}, {}};
+  const auto fluid = fluid_of_solver({});
+  const auto said = failure(ErrorKind::kBadInput, [&] {
+    start_fluid_solver(fluid, box, std::array{1.0, 1e-6}, 2);
+  });
+  EXPECT_THAT(said, AllOf(HasSubstr("a particle of radius 1e-06 is too small for the domain"),
+                          HasSubstr("24 edges"), HasSubstr("the radius must be at least ")));
+  // In other units the same.
+  const particles::BoxDomain small = {{0, 0}, {4e-9, 4e-9}, {}};
+  EXPECT_THAT(failure(ErrorKind::kBadInput,
+                      [&] { start_fluid_solver(fluid, small, std::array{1e-15}, 2); }),
+              HasSubstr("too small for the domain"));
 }
 
 TEST(StartFluidSolver, StartsTheSolverOfAUser) {

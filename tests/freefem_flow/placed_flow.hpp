@@ -12,6 +12,7 @@
 
 #include "viscontact/freefem_flow/freefem_solver.hpp"
 #include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
@@ -55,6 +56,7 @@ class PlacedFlow {
         angles_(dimension_ == 2 ? bodies.size() : 0),
         driven_(std::move(driven)),
         inertia_(std::move(inertia)),
+        fluid_(fluid),
         solver_(start_fluid_solver(fluid, domain, particles_.radii, dimension_)) {
     place();
   }
@@ -68,8 +70,9 @@ class PlacedFlow {
     return solver_->velocities(forces, true);
   }
   std::vector<double> velocities() { return velocities(no_forces()); }
-  particles::EstimatedVelocities estimate(const std::vector<double>& forces) {
-    return solver_->estimate(forces);
+  /// With errors. Ask for nothing else before place().
+  particles::FlowEstimate estimate(const std::vector<double>& forces) {
+    return particles::estimate_flow(*solver_, forces, particles_, fluid_);
   }
   std::vector<double> no_forces() const {
     return std::vector<double>(particles_.count() * particles::motion_components(dimension_));
@@ -81,6 +84,7 @@ class PlacedFlow {
   std::vector<double> angles_;
   Driven driven_;
   std::vector<double> inertia_;
+  particles::Fluid fluid_;
   std::unique_ptr<particles::FluidSolver> solver_;
 };
 

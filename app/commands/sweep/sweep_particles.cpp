@@ -35,7 +35,8 @@ void sweep_many_particles(const SweepOptions& o) {
   const sweep::ParticlesSweep sweep(std::move(plan));
   const pipeline::ParticlesSweepRequest request{o.output, o.jobs, o.keep_runs, interrupt_token()};
   if (o.dry_run) {
-    fmt::print("{}", pipeline::dry_run_text({pipeline::dry_run(sweep, o.output)}, o.jobs, o.json));
+    fmt::print("{}", pipeline::dry_run_text({pipeline::dry_run(sweep, o.output, interrupt_token())},
+                                            o.jobs, o.json));
   } else if (o.array.is_slurm()) {
     // The tasks read the section [sweep] of the case, too, so only given options are passed on.
     std::vector<std::string> options;

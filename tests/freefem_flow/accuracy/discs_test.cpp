@@ -11,6 +11,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
@@ -52,9 +53,9 @@ TEST(OneDisc, AtTheCentreMovesAsExactAndTheErrorFallsAsTheFourthPower) {
       errors[edges] = error_of(flow.velocities(forces), exact);
       const auto estimated = flow.estimate(forces);
       EXPECT_LT(error_of(estimated.velocities, exact), bound);
-      EXPECT_LT(error_of(estimated.velocities, exact), estimated.relative_error);
-      EXPECT_LT(errors[edges], 1.1 * estimated.relative_error_of_one_mesh);
-      EXPECT_LT(estimated.relative_error_of_one_mesh, 2 * errors[edges]);
+      EXPECT_LT(error_of(estimated.velocities, exact), estimated.of_velocities.best);
+      EXPECT_LT(errors[edges], 1.1 * estimated.of_velocities.of_one_mesh);
+      EXPECT_LT(estimated.of_velocities.of_one_mesh, 2 * errors[edges]);
     }
     // The order scatters about 4, because each mesh is made anew; straight edges would give 2.
     EXPECT_GT(std::log2(errors[12] / errors[48]) / 2, 3);
@@ -92,7 +93,7 @@ TEST(Discs, MoveAsExactWithEachConstraint) {
       const auto estimated = flow.estimate(exact.forces);
       EXPECT_LT(error_of(estimated.velocities, exact.velocities), kBounds.at(24));
       EXPECT_LT(error_of(of_one_mesh, exact.velocities),
-                1.1 * estimated.relative_error_of_one_mesh);
+                1.1 * estimated.of_velocities.of_one_mesh);
     }
 }
 
@@ -102,6 +103,21 @@ TEST(Discs, InANarrowGapMoveAsExact) {
     PlacedFlow flow(fluid_with(24, constraint), DiscDomain{{}, exact.size}, exact.discs);
     EXPECT_LT(error_of(flow.estimate(exact.forces).velocities, exact.velocities), 1e-3);
   }
+}
+
+TEST(Disc, AsSmallAsFreeFemCanMeshHasAMobilityThatGrowsWithTheLogarithm) {
+  // FreeFEM writes warnings where the edges grow from a small disc to a large domain. The mobilities
+  // of small discs at one place differ by ln(ratio of radii)/(4 pi), but for (radius/domain)^2 = 6e-6.
+  const BoxDomain box = {{0, 0}, {4, 4}, {}};
+  double difference = 0, error = 6e-6;
+  for (const auto& [radius, sign] : {std::pair(4e-6, 1), std::pair(1e-2, -1)}) {
+    PlacedFlow flow(fluid_with(12, RigidConstraint::kRigid), box, {{1.9, 1.7, radius}});
+    const auto found = flow.estimate({0, 1, 0});
+    EXPECT_LT(found.of_velocities.best, 1e-3);
+    difference += sign * found.velocities[1];
+    error += found.of_velocities.best * found.velocities[1];
+  }
+  EXPECT_NEAR(difference, std::log(1e-2 / 4e-6) / (4 * pi), error);
 }
 
 TEST(Disc, NearAWideWallHasTheDragOfAPlane) {
@@ -192,8 +208,8 @@ TEST(Penalty, HasTheErrorOfTheExactLaw) {
     const double error = estimated.velocities[0] / concentric_mobility(5) - 1;
     EXPECT_NEAR(error, law, 0.05 * law) << penalty;
     // The estimate is made on one mesh, whose triangles within the disc are large.
-    EXPECT_NEAR(estimated.relative_error_of_penalty, law, 0.2 * law) << penalty;
-    EXPECT_LT(error, estimated.relative_error) << penalty;
+    EXPECT_NEAR(estimated.of_velocities.of_penalty, law, 0.2 * law) << penalty;
+    EXPECT_LT(error, estimated.of_velocities.best) << penalty;
   }
 }
 
@@ -256,16 +272,18 @@ TEST(LargeMesh, IsComparedWithACoarserOne) {
   const auto unknowns = flow.unknowns();
   const auto velocities = flow.velocities(forces, true);
   const auto dissipation = flow.quantities().dissipation;
-  const auto estimated = flow.estimate(forces);
+  const auto estimated = particles::estimate_flow(flow, forces, discs, fluid);
   // The same mesh, whose unknowns MUMPS orders with other random numbers.
   constexpr double kRounding = 1e-7;
   EXPECT_LT(error_of(estimated.velocities, velocities), kRounding);
-  EXPECT_EQ(estimated.relative_error, estimated.relative_error_of_one_mesh);
+  EXPECT_EQ(estimated.of_velocities.best, estimated.of_velocities.of_one_mesh);
   const double error = error_of(velocities, Mobility("two, gap 0.1, squeezed").velocities);
-  EXPECT_GT(estimated.relative_error, error);
-  EXPECT_LT(estimated.relative_error, 30 * error);
-  // What is asked afterwards is about the mesh of the placement.
+  EXPECT_GT(estimated.of_velocities.best, error);
+  EXPECT_LT(estimated.of_velocities.best, 30 * error);
+  // The flow afterwards is that on the mesh of the placement.
   EXPECT_EQ(flow.unknowns(), unknowns);
+  EXPECT_NEAR(estimated.quantities.dissipation, dissipation, kRounding * dissipation);
+  flow.flow();
   EXPECT_NEAR(flow.quantities().dissipation, dissipation, kRounding * dissipation);
   EXPECT_GT(flow.peak_memory_mebibytes(), 10);
 }

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "tests/freefem_flow/placed_flow.hpp"
 
 namespace viscontact::freefem_flow {
 
@@ -36,5 +39,29 @@ inline double drag_towards_plane(double distance) {
   const double alpha = std::acosh(distance);
   return 4 * std::numbers::pi / (alpha - std::tanh(alpha));
 }
+
+// Velocities of discs in round containers at rest, to 12 digits: Goursat functions with poles in
+// each disc, which agree with a single-layer method and with Wannier's solution (1950).
+struct Mobility {
+  const char* name;
+  double container;
+  std::vector<Body> discs;
+  std::vector<double> forces, velocities;
+};
+
+inline const std::vector<Mobility> kMobilities = {
+    {"off the centre, across", 5, {{1, 0}}, {0, 1, 0}, {0, 0.0546653225996646, 0.00291735829578}},
+    {"near the wall, towards it", 5, {{3, 0}}, {1, 0, 0}, {0.025030389737691, 0, 0}},
+    {"two discs, squeezed",
+     6,
+     {{-1.05, 0}, {1.05, 0}},
+     {1, 0, 0, -1, 0, 0},
+     {0.00282732505206915, 0, 0, -0.00282732505206915, 0, 0}},
+    {"two discs, along",
+     6,
+     {{-1.05, 0}, {1.05, 0}},
+     {1, 0, 0, 1, 0, 0},
+     {0.0912761838083594, 0, 0, 0.0912761838083594, 0, 0}},
+};
 
 }  // namespace viscontact::freefem_flow

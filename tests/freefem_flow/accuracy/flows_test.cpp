@@ -221,7 +221,7 @@ TEST(Sphere, InAClosedCylinderHasTheExactDrag) {
       const double velocity = 1 / (6 * pi * drag);
       const double error = std::abs(-estimated.velocities[0] / velocity - 1);
       EXPECT_LT(error, 1e-4);
-      EXPECT_LT(error, estimated.relative_error);
+      EXPECT_LT(error, estimated.of_velocities.best);
     }
 }
 

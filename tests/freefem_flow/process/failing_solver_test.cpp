@@ -128,6 +128,23 @@ TEST(FailingSolver, ThatIsSilentIsStoppedAtTheLimit) {
                     HasSubstr("slow")));
 }
 
+TEST(FailingSolver, ThatIsNoSolverIsWaitedForAsLongAsOneThatIsNotReady) {
+  // cat repeats what it is asked, and waits for more. A flow may take 10 minutes.
+  SolverLimits limits;
+  limits.answer = 10min;
+  EXPECT_EQ(limits.ready, 1min);
+  limits.ready = 1s;
+  particles::Fluid fluid;
+  fluid.viscosity = 1;
+  const auto said = failure(ErrorKind::kExternalProgram, [&] {
+    FlowProcess(
+        fluid, particles::DiscDomain{{}, 8}, std::vector{1.0}, 2, {{"cat"}},
+        [](const particles::FluidParticles&, double) { return MeshBoundary{}; }, limits);
+  });
+  EXPECT_THAT(said, AllOf(HasSubstr("the fluid solver (cat) failed at request 1"),
+                          HasSubstr("it had not answered after 1 s ('ready' was awaited)")));
+}
+
 TEST(FailingSolver, ThatNeverCompletesItsAnswerIsStoppedAtTheLimit) {
   // Each number comes in time, the answer does not.
   OneDisc one(placed_and_asked("solve") + "echo velocities 1; sleep 1.5; echo 2; exec sleep 3600",
@@ -178,12 +195,9 @@ TEST(FailingSolver, MayNotCountUnknownsInFractions) {
 }
 
 TEST(FailingSolver, MayNotEstimateANegativeError) {
-  OneDisc one(placed_and_asked("estimate") + "echo estimate -1 0 0 0 0; read end");
+  OneDisc one(placed_and_asked("vary") + "echo varied 1 -1 0; read end");
   one.place();
-  EXPECT_THAT(failure(ErrorKind::kExternalProgram,
-                      [&] {
-                        one.solver().estimate(std::vector{1.0, 0.0, 0.0});
-                      }),
+  EXPECT_THAT(failure(ErrorKind::kExternalProgram, [&] { one.solver().vary_mesh(); }),
               HasSubstr("'-1' in place of a number >= 0"));
 }
 

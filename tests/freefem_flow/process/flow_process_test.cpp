@@ -15,6 +15,7 @@
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/particles/fluid/flow_estimate.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -78,11 +79,13 @@ TEST(StokesDrag, OnAnAxisIsThatOfSpheres) {
   EXPECT_THAT(quantities.fluid_forces, near({3, -2}));
   EXPECT_NEAR(quantities.dissipation, 9 / large + 4 / small, kRoundOff);
   EXPECT_EQ(quantities.apparent_viscosity, 0);  // the walls are at rest
-  const auto estimated = solver.estimate(forces);
+  const auto estimated =
+      particles::estimate_flow(solver, forces, spheres, fluid_of_viscosity(kViscosity));
   EXPECT_THAT(estimated.velocities, near(expected));
-  EXPECT_EQ(estimated.relative_error, 0);
-  EXPECT_EQ(estimated.relative_error_of_one_mesh, 0);
-  EXPECT_EQ(estimated.relative_error_of_penalty, 0);
+  EXPECT_EQ(estimated.of_velocities.best, 0);
+  EXPECT_EQ(estimated.of_velocities.of_one_mesh, 0);
+  EXPECT_EQ(estimated.of_velocities.of_penalty, 0);
+  EXPECT_EQ(estimated.force_errors, (std::vector<double>{0, 0}));
   EXPECT_TRUE(solver.flow().x.empty());
 }
 
@@ -146,7 +149,8 @@ sed -u -n -e "w asked
 }
 /^solve/i velocities 0.1\n-2e-3 +5
 /^quantities/i quantities 12 4 1 2 3
-/^estimate/i estimate 1e-4 2e-3 5e-5 4 5 6
+/^vary penalty/i varied 2
+/^vary mesh/i varied 1.5 .25 2
 /^flow/i flow 6 1  0 0 1 2 3  1 0 1 2 3  0 1 1 2 3  .5 0 1 2 3  .5 .5 1 2 3  0 .5 7 8 9  0 1 2 3 4 5
 /^end/q"
 )sh";
@@ -173,11 +177,11 @@ TEST(FlowProcess, WritesTheProtocolAndReadsIt) {
     EXPECT_EQ(quantities.dissipation, 12);
     EXPECT_EQ(quantities.apparent_viscosity, 3);
     EXPECT_THAT(quantities.fluid_forces, ElementsAre(1, 2, 3));
-    const auto estimated = solver.estimate(std::vector{7.0, 8.0, 9.0});
-    EXPECT_EQ(estimated.relative_error, 1e-4);
-    EXPECT_EQ(estimated.relative_error_of_one_mesh, 2e-3);
-    EXPECT_EQ(estimated.relative_error_of_penalty, 5e-5);
-    EXPECT_THAT(estimated.velocities, ElementsAre(4, 5, 6));
+    EXPECT_EQ(solver.vary_penalty(), 2);
+    const auto second = solver.vary_mesh();
+    EXPECT_EQ(second.extrapolation, 1.5);
+    EXPECT_EQ(second.error, 0.25);
+    EXPECT_EQ(second.error_of_one_mesh, 2);
     const auto flow = solver.flow();
     EXPECT_THAT(flow.x, ElementsAre(0, 1, 0, 0.5, 0.5, 0));
     EXPECT_THAT(flow.y, ElementsAre(0, 0, 1, 0, 0.5, 0.5));
@@ -194,7 +198,8 @@ TEST(FlowProcess, WritesTheProtocolAndReadsIt) {
             "solve 1 1 0 0.3333333333333333\n"
             "solve 0 0 0 0\n"
             "quantities\n"
-            "estimate 7 8 9\n"
+            "vary penalty\n"
+            "vary mesh\n"
             "flow\n"
             "end\n");
 }

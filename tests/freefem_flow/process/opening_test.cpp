@@ -32,7 +32,7 @@ Fluid fluid_with(decltype(Fluid::boundary) boundary) {
 TEST(Opening, SaysAllThatTheSolverMustKnow) {
   const auto fluid = fluid_with(LinearFlow{{0, 1.5, 0, 0}});
   EXPECT_EQ(opening(fluid, DiscDomain{{1, -2, 0}, 8}, std::array{1.0, 0.25}, 2),
-            "viscontact-fluid 1\n"
+            "viscontact-fluid 2\n"
             "dimension 2\n"
             "viscosity 0.1\n"
             "constraint penalty 1e-07\n"

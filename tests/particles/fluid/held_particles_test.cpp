@@ -161,6 +161,37 @@ TEST(HeldInFluid, AHingedBodySwingsBackWithItsTorsionSpring) {
   EXPECT_NEAR(norm(p.position(0) - Vector{49, 50, 0}), 0, 1e-10);
 }
 
+TEST(HeldInFluid, ErrorsOfForcesAreThoseOfTheirLinksOnTwoMeshes) {
+  // On the second mesh the drag is 1 % larger, and with it the force of an arm; and the force of a
+  // spring, -k (e + theta h rate) with the rate of the drag. The first solution and two corrections
+  // leave over 0.01^3 of the force of 1, times 16/15.
+  const double drag = 2, more = 1.01, h = 0.1, k = 3, e = 1, of_one_mesh = 16.0 / 15;
+  for (const bool has_arm : {true, false}) {
+    SCOPED_TRACE(has_arm);
+    auto system = pair_on_axis(h, 4, 0);
+    if (has_arm)
+      system.setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 4}, {1, 5}}}}};
+    else
+      system.setting.links.springs = {{0, 1, k, 4 - e}};
+    auto simulation = system.simulation(constant_drag(drag));
+    system.fluid->drag_of_second_mesh = more;
+    system.fluid->second_mesh = {of_one_mesh, 0.15, of_one_mesh};
+    simulation.step(h);
+    const auto spring = [&](double by) {
+      const double z = h * k * 2 / drag, theta = (1 + z) / (2 + z);
+      return -k * e / (1 + theta * h * k * 2 / by);
+    };
+    const double force = has_arm ? drag / 2 : spring(drag);
+    const double second = has_arm ? drag * more / 2 : spring(drag * more);
+    EXPECT_NEAR(simulation.state().link_forces[0], force, 1e-9);
+    EXPECT_NEAR(simulation.force_errors().of_links.at(0), of_one_mesh * std::abs(second - force),
+                2e-6);
+    // The arm pushes the first particle back, and the fluid resists.
+    EXPECT_NEAR(simulation.fluid_forces()[0], force + of_one_mesh * (second - force), 2e-6);
+    EXPECT_NEAR(simulation.force_errors().of_fluid.at(0), 0.15 * std::abs(second - force), 1e-6);
+  }
+}
+
 TEST(HeldInFluid, ConstraintsThatContradictEachOtherAreNamed) {
   auto system = in_fluid(1, 100, 0.1, 0.01);
   for (const double z : {40.0, 44.0, 48.0}) add_pushed(system, {z, 0, 0}, 0.5, 0, {});

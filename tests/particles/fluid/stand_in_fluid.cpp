@@ -57,6 +57,17 @@ void StandInFluid::place(const FluidParticles& bodies) {
       is_driven_[i] = 1;
       given_[static_cast<Eigen::Index>(i)] = motion[d];
     }
+  factorise();
+}
+
+SecondMesh StandInFluid::vary_mesh() {
+  matrix_ += (drag_of_second_mesh - 1) * drag_;
+  drag_ *= drag_of_second_mesh;
+  factorise();
+  return second_mesh;
+}
+
+void StandInFluid::factorise() {
   Eigen::MatrixXd free = matrix_;
   for (std::size_t i = 0; i < is_driven_.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -89,10 +100,6 @@ FlowQuantities StandInFluid::quantities() {
   FlowQuantities quantities{force.dot(last_ - flow_), 0, {}};
   for (const double f : force) quantities.fluid_forces.push_back(-f);
   return quantities;
-}
-
-EstimatedVelocities StandInFluid::estimate(std::span<const double> forces) {
-  return {velocities(forces, true), 0, 0};
 }
 
 Resistance constant_drag(double drag) {

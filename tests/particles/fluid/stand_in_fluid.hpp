@@ -26,16 +26,21 @@ class StandInFluid : public FluidSolver {
   void place(const FluidParticles& bodies) override;
   std::vector<double> velocities(std::span<const double> forces, bool driving) override;
   FlowQuantities quantities() override;
-  EstimatedVelocities estimate(std::span<const double> forces) override;
+  double vary_penalty() override { return 0; }
+  SecondMesh vary_mesh() override;
   FlowField flow() override { return {}; }
   std::size_t unknowns() const override { return 0; }
 
   int placements = 0, solutions = 0;
   /// The question with this number throws; < 0: none does.
   int fails_at = -1;
+  /// The second mesh has this times the drag of the first one.
+  double drag_of_second_mesh = 1;
+  SecondMesh second_mesh;
 
  private:
   void count();
+  void factorise();
   Resistance resistance_;
   std::size_t components_ = 3;
   std::vector<char> is_driven_;

@@ -35,13 +35,14 @@ class FluidParticleFile : public ::testing::Test {
 
 TEST_F(FluidParticleFile, OfDiscsHasRotationAndForces) {
   const auto p = discs_in_fluid();
-  const auto text = write_particles(p, std::vector<double>{10, 20, 30, 40, 50, 60.5});
+  const std::vector<double> forces = {10, 20, 30, 40, 50, 60.5}, errors = {1, 1, 2, 3, 3, 0.5};
+  const auto text = write_particles(p, FluidForces{forces, errors});
   EXPECT_EQ(text,
             "# rows: 2\n"
             "id,x,y,vx,vy,radius,mass,angle,angular_velocity,fluid_force_x,fluid_force_y,"
-            "fluid_torque\n"
-            "0,1,2,-0.1,0.3333333333333333,0.5,0,0.7,2,10,20,30\n"
-            "1,4,5,0,0,0.25,3,-1,0.14285714285714285,40,50,60.5\n");
+            "fluid_torque,fluid_force_error_estimate,fluid_torque_error_estimate\n"
+            "0,1,2,-0.1,0.3333333333333333,0.5,0,0.7,2,10,20,30,1,2\n"
+            "1,4,5,0,0,0.25,3,-1,0.14285714285714285,40,50,60.5,3,0.5\n");
   const auto again = read(text, 2, true);
   EXPECT_EQ(again.positions, p.positions);
   EXPECT_EQ(again.velocities, p.velocities);
@@ -54,14 +55,30 @@ TEST_F(FluidParticleFile, OfDiscsHasRotationAndForces) {
 TEST_F(FluidParticleFile, OfSpheresOnAnAxisHasOneComponent) {
   State state = no_particles(1);
   add_particle(state, {3, 0, 0}, 1, 0, {-0.5, 0, 0});
-  const auto text = write_particles(state.particles, std::vector<double>{-9});
-  EXPECT_EQ(text, "# rows: 1\nid,z,vz,radius,mass,fluid_force_z\n0,3,-0.5,1,0,-9\n");
+  const std::vector<double> forces = {-9}, errors = {0.25};
+  const auto text = write_particles(state.particles, FluidForces{forces, errors});
+  EXPECT_EQ(text,
+            "# rows: 1\nid,z,vz,radius,mass,fluid_force_z,fluid_force_error_estimate\n"
+            "0,3,-0.5,1,0,-9,0.25\n");
   const auto again = read(text, 1, true);
   EXPECT_EQ(again.dimension, 1);
   EXPECT_EQ(again.positions, std::vector<double>{3});
   EXPECT_EQ(again.velocities, std::vector<double>{-0.5});
   EXPECT_EQ(again.masses, std::vector<double>{0});
   EXPECT_TRUE(again.angles.empty());
+}
+
+TEST_F(FluidParticleFile, HasEmptyFieldsForWhatIsNotKnown) {
+  // Before the first step, and after a step without an estimate. A case can read the file.
+  const auto p = discs_in_fluid();
+  const std::vector<double> forces = {10, 20, 30, 40, 50, 60.5};
+  const auto no_step = write_particles(p, FluidForces{});
+  EXPECT_THAT(no_step, HasSubstr("fluid_torque_error_estimate\n"));
+  EXPECT_THAT(no_step, HasSubstr("0.5,0,0.7,2,,,,,\n"));
+  EXPECT_EQ(read(no_step, 2, true).angles, p.angles);
+  const auto no_estimate = write_particles(p, FluidForces{forces, {}});
+  EXPECT_THAT(no_estimate, HasSubstr("0.5,0,0.7,2,10,20,30,,\n"));
+  EXPECT_EQ(read(no_estimate, 2, true).angles, p.angles);
 }
 
 TEST_F(FluidParticleFile, WithoutRotationBeginsAtAngle0) {

@@ -94,6 +94,11 @@ TEST_F(FirstSteps, DryRunOfATabulationCountsRowsAndComputesNone) {
   EXPECT_EQ(json.at("outputs").at(0).at("estimated_from"), "its finished rows");
 }
 
+TEST_F(FirstSteps, HelpSeparatesNamesFromMeanings) {
+  EXPECT_THAT(run_viscontact({"--help"}).output,
+              HasSubstr("  VISCONTACT_FREEFEM_TIME_LIMIT seconds after which"));
+}
+
 TEST_F(FirstSteps, DryRunOfASweepCountsRowsAndWritesNone) {
   const std::vector<std::string> dry = {"sweep",     data("cases/vanishing_viscosity.toml"),
                                         "-o",        path("rows.csv"),

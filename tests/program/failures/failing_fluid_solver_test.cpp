@@ -11,6 +11,7 @@
 #include "tests/common/regular_expressions.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"
+#include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/results/exit_code.hpp"
 
@@ -115,6 +116,19 @@ TEST_F(FailingFluidSolver, IsNamedAndTheRunUpToThenIsKeptAndContinued) {
     EXPECT_EQ(steps_in(path(folder + "/steps.csv")), 10);
     EXPECT_EQ(results_in(folder), results_in("undisturbed"));
   }
+}
+
+TEST_F(FailingFluidSolver, LeavesTheColumnsOfTheFluidEmptyIfNoStepWasComputed) {
+  // The fake of run() fails in a step; here each placement does.
+  put_text(
+      path("case.toml"),
+      replaced(kFallingDisc, "viscosity = 1.0",
+               "viscosity = 1.0\nsolver = [\"sh\", \"-c\", \"echo ready places; read line\"]"));
+  EXPECT_EQ(run_viscontact({"particles", path("case.toml"), "-o", path("out")}).exit_status, 5);
+  EXPECT_THAT(read_file(path("out/final_particles.csv")),
+              HasSubstr("\nid,x,y,vx,vy,radius,mass,angle,angular_velocity,fluid_force_x,"
+                        "fluid_force_y,fluid_torque,fluid_force_error_estimate,"
+                        "fluid_torque_error_estimate\n0,0,2,0,0,1,0,0,0,,,,,\n"));
 }
 
 TEST_F(FailingFluidSolver, ThatIsMissingIsSaidWithWhatToDo) {

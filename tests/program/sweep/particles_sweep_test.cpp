@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/program/sweep/sweep_command.hpp"
 #include "tests/program/undisturbed.hpp"
@@ -41,6 +43,23 @@ class SweepOfParticles : public SweepCommand {
     EXPECT_EQ(rest_of(path(one + "_means.csv")), rest_of(path(other + "_means.csv")));
   }
 };
+
+TEST_F(SweepOfParticles, DryRunMeasuresTheFirstSteps) {
+  // A run of 10 steps of microseconds: all of them are computed in less than two seconds.
+  const auto dry = run_viscontact({"sweep", path("case.toml"), "-o", path("rows.csv"), "--draws",
+                                   "6", "--jobs", "1", "--dry-run", "--json"});
+  expect_done(dry);
+  const auto json = nlohmann::json::parse(dry.output);
+  EXPECT_GT(json.at("seconds"), 0);
+  const auto& output = json.at("outputs").at(0);
+  EXPECT_EQ(output.at("rows"), 6);
+  EXPECT_EQ(output.at("finished"), 0);
+  EXPECT_GT(output.at("seconds_per_row"), 0);
+  EXPECT_THAT(output.at("estimated_from").get<std::string>(),
+              HasSubstr("steps of row 1, just computed"));
+  EXPECT_FALSE(std::filesystem::exists(path("rows.csv")));
+  EXPECT_FALSE(std::filesystem::exists(path("rows.csv.runs")));
+}
 
 TEST_F(SweepOfParticles, WritesARowForEachRunAndTheMeansOverDraws) {
   const auto result = run("rows.csv");

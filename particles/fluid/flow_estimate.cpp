@@ -1,0 +1,134 @@
+// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those of
+// the case.
+#include "viscontact/particles/fluid/flow_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace viscontact::particles {
+namespace {
+
+/// The results of one flow.
+struct Results {
+  std::vector<double> velocities;
+  FlowQuantities quantities;
+  std::vector<double> further;
+};
+
+std::vector<double> difference(std::span<const double> of, std::span<const double> from) {
+  std::vector<double> result(of.begin(), of.end());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] -= from[i];
+  return result;
+}
+
+/// Of each component, the length of the vector that it belongs to: velocity or force, and apart from
+/// it angular velocity or torque.
+std::vector<double> lengths(std::span<const double> of, std::size_t components) {
+  std::vector<double> result;
+  for (const double x : of) result.push_back(std::abs(x));
+  for (std::size_t i = 0; components == 3 && i < of.size(); i += 3)
+    result[i] = result[i + 1] = std::hypot(of[i], of[i + 1]);
+  return result;
+}
+
+/// The largest length, where turning components count times the radius to the power of `power`.
+double largest(std::span<const double> of, const Particles& particles, int power) {
+  const auto components = motion_components(particles.dimension);
+  const auto all = lengths(of, components);
+  double result = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool turns = components == 3 && i % components == 2;
+    result =
+        std::max(result, all[i] * (turns ? std::pow(particles.radii[i / components], power) : 1));
+  }
+  return result;
+}
+
+/// Of each component of the loads of a particle in the plane, the largest change of all of them, where
+/// torques count divided by the radius. A change that is small by chance then hides no error.
+std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
+  auto result = lengths(changes, motion_components(particles.dimension));
+  if (particles.dimension == 1) return result;
+  for (std::size_t k = 0; k < particles.count(); ++k) {
+    const double radius = particles.radii[k];
+    const double load = std::max(result[3 * k], result[3 * k + 2] / radius);
+    result[3 * k] = result[3 * k + 1] = load;
+    result[3 * k + 2] = load * radius;
+  }
+  return result;
+}
+
+/// The largest change over a radius of the velocity of walls or of a cell [L/T].
+double speed_of_flow(const Fluid& fluid, const Particles& particles) {
+  const auto* flow = std::get_if<LinearFlow>(&fluid.boundary);
+  if (flow == nullptr || particles.radii.empty()) return 0;
+  double rate = 0;
+  for (const double g : flow->gradient) rate = std::max(rate, std::abs(g));
+  return rate * std::ranges::max(particles.radii);
+}
+
+RelativeErrors relative(double by_mesh, double by_penalty, const SecondMesh& mesh, double scale) {
+  if (!(scale > 0)) return {0, 0, 0};
+  return {(mesh.error * by_mesh + by_penalty) / scale,
+          (mesh.error_of_one_mesh * by_mesh + by_penalty) / scale, by_penalty / scale};
+}
+
+}  // namespace
+
+FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
+                           const Particles& particles, const Fluid& fluid,
+                           const std::function<std::vector<double>()>& further) {
+  const auto ask = [&] {
+    Results results;
+    results.velocities = solver.velocities(forces, true);
+    results.quantities = solver.quantities();
+    if (further) results.further = further();
+    return results;
+  };
+  const Results placed = ask();
+  const double penalty_factor = solver.vary_penalty();
+  const Results softer = penalty_factor > 0 ? ask() : placed;
+  const SecondMesh mesh = solver.vary_mesh();
+  const Results second = ask();
+
+  const auto best = [&](std::vector<double> of, std::span<const double> changes) {
+    for (std::size_t i = 0; i < of.size(); ++i) of[i] += mesh.extrapolation * changes[i];
+    return of;
+  };
+  FlowEstimate estimate;
+  {
+    const auto by_mesh = difference(second.velocities, placed.velocities);
+    const auto by_penalty = difference(softer.velocities, placed.velocities);
+    estimate.velocities = best(placed.velocities, by_mesh);
+    estimate.of_velocities = relative(
+        largest(by_mesh, particles, 1), penalty_factor * largest(by_penalty, particles, 1), mesh,
+        std::max(largest(estimate.velocities, particles, 1), speed_of_flow(fluid, particles)));
+  }
+  {
+    auto& quantities = estimate.quantities = placed.quantities;
+    quantities.dissipation +=
+        mesh.extrapolation * (second.quantities.dissipation - placed.quantities.dissipation);
+    quantities.apparent_viscosity += mesh.extrapolation * (second.quantities.apparent_viscosity -
+                                                           placed.quantities.apparent_viscosity);
+    const auto& from = placed.quantities.fluid_forces;
+    const auto by_mesh = difference(second.quantities.fluid_forces, from);
+    const auto by_penalty = difference(softer.quantities.fluid_forces, from);
+    quantities.fluid_forces = best(from, by_mesh);
+    estimate.of_forces = relative(largest(by_mesh, particles, -1),
+                                  penalty_factor * largest(by_penalty, particles, -1), mesh,
+                                  largest(quantities.fluid_forces, particles, -1));
+    estimate.force_errors = of_loads(by_mesh, particles);
+    const auto penalty_errors = of_loads(by_penalty, particles);
+    for (std::size_t i = 0; i < penalty_errors.size(); ++i)
+      estimate.force_errors[i] =
+          mesh.error * estimate.force_errors[i] + penalty_factor * penalty_errors[i];
+  }
+  for (std::size_t i = 0; i < placed.further.size(); ++i)
+    estimate.further_errors.push_back(
+        mesh.error_of_one_mesh * std::abs(second.further[i] - placed.further[i]) +
+        penalty_factor * std::abs(softer.further[i] - placed.further[i]));
+  return estimate;
+}
+
+}  // namespace viscontact::particles
