@@ -5,11 +5,11 @@
 //   bench_random_rows [ROWS=2000 [SEED=1]]
 //
 // Prints every row that fails, that has a larger error than its estimate, or that took longer than
-// all rows before it; then, for each kind of row, how many there were and how many failed, median and
-// largest ratio of error to estimate where an exact drag is known, the largest estimate over the asked
-// accuracy, the largest difference between reactions and stress (row.idp), and the CPU seconds of the
-// median and the longest row. Ends with exit code 1 if a row failed. 2000 rows take an hour of one
-// core.
+// all rows before it; then, for each kind of row, how many there were and how many failed, median
+// and largest ratio of error to estimate where an exact drag is known, the largest estimate over
+// the asked accuracy, the largest difference between reactions and stress (row.idp), and the CPU
+// seconds of the median and the longest row. Ends with exit code 1 if a row failed. 2000 rows take
+// an hour of one core.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -106,8 +106,8 @@ struct ConstraintProblem {
   bool lifts_sliding = false;
 };
 
-/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load or
-/// it has no film. Otherwise its film carries the impulse, and there is no friction.
+/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load
+/// or it has no film. Otherwise its film carries the impulse, and there is no friction.
 inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
   return lifts_sliding && block.is_contact && block.rows > 1 &&
          (p_n > block.capacity || block.capacity <= block.lowest);
@@ -161,8 +161,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of w |p -
-/// P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
+/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of
+/// w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
   double normal = 0, tangential = 0;

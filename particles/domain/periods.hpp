@@ -59,8 +59,8 @@ inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
 /// Numbers of periods along x and y by which an image is shifted.
 using Periods = std::array<double, 2>;
 
-/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of particles
-/// are compared of which one is that of an image: in contacts, rigid bodies and links.
+/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of
+/// particles are compared of which one is that of an image: in contacts, rigid bodies and links.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0});
 }

@@ -40,8 +40,8 @@ struct FlowQuantities {
 
 /// How results on a second mesh improve those on the mesh of a placement. With the change d of a
 /// result from the mesh of the placement to the second one, result + extrapolation * d is the most
-/// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result on
-/// the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
+/// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result
+/// on the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
 struct SecondMesh {
   double extrapolation = 0, error = 0, error_of_one_mesh = 0;
 };

@@ -1,5 +1,5 @@
-// Springs of all stiffnesses beside rigid bodies, hinges and arms, in a fluid with a given resistance
-// and in steps of all lengths, against closed forms.
+// Springs of all stiffnesses beside rigid bodies, hinges and arms, in a fluid with a given
+// resistance and in steps of all lengths, against closed forms.
 #include <gtest/gtest.h>
 
 #include <array>
