@@ -31,8 +31,8 @@ struct RowWorker {
 /// at once to the worker's journal beside `table_path`. `report` is called after each row, never
 /// twice at once. A row that fails does not stop the others and is no error here: RowRecord::failed
 /// has it. Throws Error(kExternalProgram) if FreeFEM cannot be run at all, and Error(kInterrupted)
-/// if worker.freefem.stop requests a stop. The
-/// caller removes the journals after it has written the table.
+/// if worker.freefem.stop requests a stop. The caller removes the journals after it has written the
+/// table.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

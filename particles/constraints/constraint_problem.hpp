@@ -113,17 +113,18 @@ inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double 
          (p_n > block.capacity || block.capacity <= block.lowest);
 }
 
-/// A point of the cone |p_t| <= mu_s s, s = p_n - capacity, the set of allowed impulses in (5.9).
+/// A point of the cone |p_t| <= mu_s p_s, the set of allowed impulses in (5.9), where p_s = p_n -
+/// capacity is the load of the solids.
 struct FrictionCone {
   enum class Part { kApex, kInside, kSurface };
   Part part = Part::kApex;
-  double load = 0;        ///< s >= 0 [M L/T]
+  double load = 0;        ///< p_s >= 0 [M L/T]
   double tangential = 1;  ///< factor by which p_t was shortened
 
-  /// Point of the cone nearest to impulses with the load `s` and |p_t| = `length` in the norm
-  /// w_n s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
+  /// Point of the cone nearest to impulses with the load `p_s` and |p_t| = `length` in the norm
+  /// w_n p_s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
   /// mobilities of the rows.
-  static FrictionCone nearest(double mu_s, double s, double length, double w_n, double w_t);
+  static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t);
 };
 
 /// Value of a row without its offset.

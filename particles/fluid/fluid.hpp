@@ -41,9 +41,9 @@ struct WallVelocity {
   std::array<double, 2> value{};  ///< [L/T]
 };
 
-/// The velocity G x of all walls, with the constant matrix G; where the domain is periodic both
-/// ways, the mean velocity gradient. A shear rate s is G = (0, s; 0, 0), u = (s y, 0), and a strain
-/// rate s is G = (s, 0; 0, -s), u = (s x, -s y). All zero: walls at rest.
+/// The velocity E x of all walls, with the constant matrix E; where the domain is periodic both
+/// ways, the mean velocity gradient. A shear rate s is E = (0, s; 0, 0), u = (s y, 0), and a strain
+/// rate s is E = (s, 0; 0, -s), u = (s x, -s y). All zero: walls at rest.
 struct LinearFlow {
   std::array<double, 4> gradient{};  ///< du/dx, du/dy, dv/dx, dv/dy [1/T]
 };
