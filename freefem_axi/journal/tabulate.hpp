@@ -11,17 +11,20 @@
 
 namespace viscontact::freefem_axi {
 
+/// How far a tabulation is.
 struct TabulateProgress {
-  std::size_t rows_done = 0, rows = 0;
-  double seconds_left = 0;  ///< [s], estimated from the finished rows; 0 before the first
+  std::size_t rows_done = 0;  ///< rows that were there before, or are computed or failed
+  std::size_t rows = 0;       ///< rows that were asked for
+  double seconds_left = 0;    ///< [s], estimated from the finished rows; 0 before the first
 };
 
+/// Is told the progress.
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
 /// One of the processes that compute rows.
 struct RowWorker {
-  FreeFem freefem;
-  int jobs = 1;  ///< number of FreeFEM processes at once
+  FreeFem freefem;  ///< how FreeFEM is run
+  int jobs = 1;     ///< number of FreeFEM processes at once
   /// Writer of the worker's journal (row_journal.hpp); empty for the journal of this machine.
   std::string name;
 };

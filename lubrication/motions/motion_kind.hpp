@@ -14,14 +14,16 @@ namespace viscontact::lubrication {
 /// about z).
 enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
 
+/// A motion and its name.
 struct NamedMotion {
   std::string_view name;  ///< in case files, and of the table's file
-  MotionKind kind;
+  MotionKind kind;        ///< the motion
 };
 
 /// All motions, in the order of MotionKind.
 std::span<const NamedMotion> all_motions();
 
+/// The name of a motion.
 std::string_view to_string(MotionKind motion);
 
 /// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.

@@ -116,6 +116,7 @@ inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double 
 /// A point of the cone |p_t| <= mu_s p_s, the set of allowed impulses in (5.9), where p_s = p_n -
 /// capacity is the load of the solids.
 struct FrictionCone {
+  /// Where the point is.
   enum class Part { kApex, kInside, kSurface };
   Part part = Part::kApex;
   double load = 0;        ///< p_s >= 0 [M L/T]

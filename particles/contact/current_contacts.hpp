@@ -18,6 +18,7 @@ enum class ContactFriction : std::int8_t {
   kSlides  ///< friction is at Coulomb's bound
 };
 
+/// A contact as files show it.
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second;     ///< number of a particle
@@ -25,7 +26,7 @@ struct CurrentContact {
   double gamma;            ///< [M L/T], of discs in a fluid [M/T]
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
-  ContactFriction friction = ContactFriction::kNone;
+  ContactFriction friction = ContactFriction::kNone;  ///< in the last step
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle

@@ -56,8 +56,8 @@ class FluidSimulation {
   /// a double; and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
-  const State& state() const { return state_; }
-  const Setting& setting() const { return setting_; }
+  const State& state() const { return state_; }        ///< after the last step
+  const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
   /// The flow of the last step: where the particles were at the beginning of the step.
   FlowField flow() { return solver_->flow(); }
@@ -78,7 +78,9 @@ class FluidSimulation {
   /// those extrapolated from two meshes, which do not enter the next step.
   Particles reported_particles() const;
 
+  /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const { return solver_->unknowns(); }
+  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
   double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
 
  private:
