@@ -80,10 +80,10 @@ struct RigidBodyRequest {
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. In a periodic cell (Particles::cell) the images of the members that are nearest to
-/// the first one make the body, which must be smaller than the cell (diameter()). Their velocities
-/// are those of the images. The particles must
-/// turn (add_rotation), unless their dimension is 1, and belong to no other body.
+/// rigid motion. In a periodic cell (Particles::cell) the images of the members that are nearest
+/// to the first one make the body, which must be smaller than the cell (diameter()). Their
+/// velocities are those of the images. The particles must turn (add_rotation), unless their
+/// dimension is 1, and belong to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].

@@ -90,7 +90,8 @@ FlowEstimate estimate_flow(FluidSolver& solver, std::span<const double> forces,
   const double penalty_factor = solver.vary_penalty();
   const Results softer = penalty_factor > 0 ? ask() : placed;
   const SecondMesh mesh = solver.vary_mesh();
-  const Results second = ask();
+  const bool has_second = mesh.extrapolation > 0 || mesh.error > 0 || mesh.error_of_one_mesh > 0;
+  const Results second = has_second ? ask() : placed;
 
   const auto best = [&](std::vector<double> of, std::span<const double> changes) {
     for (std::size_t i = 0; i < of.size(); ++i) of[i] += mesh.extrapolation * changes[i];

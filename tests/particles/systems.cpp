@@ -101,9 +101,11 @@ Vector angular_momentum(const Particles& particles) {
 double power_of_arm(const Setting& setting, const State& state) {
   for (const auto& table : time_tables(setting, state.particles))
     if (table.name == "arms.csv") {
-      const auto rows = table.rows(setting, state);
-      const auto first = rows.substr(0, rows.find('\n'));
-      return std::stod(first.substr(first.rfind(',') + 1));
+      // time, arm, length, force, power, ...
+      const auto rows = table.rows(setting, state, {});
+      std::size_t power = 0;
+      for (int comma = 0; comma < 4; ++comma) power = rows.find(',', power) + 1;
+      return std::stod(rows.substr(power));
     }
   return std::numeric_limits<double>::quiet_NaN();
 }
