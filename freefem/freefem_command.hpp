@@ -42,7 +42,8 @@ Command make_command(const std::string& executable, const std::filesystem::path&
 
 /// A package of Debian.
 struct Package {
-  std::string name, version;
+  std::string name;     ///< "freefem++"
+  std::string version;  ///< with the revision of Debian, "4.11+dfsg1-3"
 };
 
 /// The package that has installed an executable, which is a path or a name to look for on PATH.

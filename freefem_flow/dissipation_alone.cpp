@@ -18,7 +18,7 @@ double area_of(const particles::Domain& domain) {
   return 0;  // the walls of a cylinder are at rest
 }
 
-/// 2 E:E of the gradient G = (g0, g1; g2, g3).
+/// 2 D:D for the symmetric part D of the gradient E = (g0, g1; g2, g3) [1/T^2].
 double twice_strain_squared(const particles::LinearFlow& flow) {
   const auto& g = flow.gradient;
   const double shear = (g[1] + g[2]) / 2;

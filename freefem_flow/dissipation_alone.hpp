@@ -10,8 +10,8 @@ namespace viscontact::freefem_flow {
 /// 2 mu times the integral of D(u):D(u) over the whole domain, for the Stokes flow u without
 /// particles and with the same velocities of the walls, per unit length [M L/T³]. It is known
 ///
-/// - for walls or a periodic cell with a linear flow u = G x: 2 mu E:E |domain|, where E is the
-///   symmetric part of G;
+/// - for walls or a periodic cell with a linear flow u = E x: 2 mu D:D |domain|, where D is the
+///   symmetric part of E;
 /// - for a box that is periodic along one axis, whose two walls move along it at constant speeds:
 ///   plane Couette flow.
 ///

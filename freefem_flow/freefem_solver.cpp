@@ -38,8 +38,8 @@ double extent_of(const particles::Domain& domain) {
   return 0;  // refused when the solver starts
 }
 
-/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest particle. All lengths are
-/// in the unit of the case.
+/// Throws Error(kBadInput) if FreeFEM would refuse the edges on the smallest particle. All lengths
+/// are in the unit of the case.
 void refuse_small_particles(const particles::Fluid& fluid, const particles::Domain& domain,
                             std::span<const double> radii) {
   if (radii.empty()) return;

@@ -16,9 +16,9 @@ namespace viscontact::freefem_flow {
 /// to run. Throws Error(kExternalProgram) if there is no such script.
 SolverCommand solver_command(const particles::Fluid& fluid, int dimension);
 
-/// The limit of an answer, and of the time until the solver is ready, is VISCONTACT_FREEFEM_TIME_LIMIT
-/// in seconds if it is set, for a solver of the user's own as well. Throws Error(kWrongUsage) if it is not a whole number from 1 to 10
-/// million.
+/// The limit of an answer, and of the time until the solver is ready, is
+/// VISCONTACT_FREEFEM_TIME_LIMIT in seconds if it is set, for a solver of the user's own as well.
+/// Throws Error(kWrongUsage) if it is not a whole number from 1 to 10 million.
 SolverLimits solver_limits(const StopToken& stop = {});
 
 /// Starts the solver of `fluid`, and waits until it is ready. FreeFEM computes in units of its own

@@ -11,6 +11,7 @@ namespace viscontact::lubrication {
 /// The rows by their names, "gap 0.01, velocity -1" with all digits, and the reason of each.
 using FailedRows = std::map<std::string, std::string>;
 
+/// How the keys of these lines begin; the name of the row follows.
 inline constexpr std::string_view kFailedRow = "failed row, ";
 
 /// Adds the lines of these rows to `comments`, the lines "# key: value" of a table by their keys.

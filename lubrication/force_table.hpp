@@ -50,7 +50,7 @@ struct ForceTable {
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions of the tabulation, if there were several: each has a table of its own.
   std::vector<MotionKind> tabulated_motions{};
-  FailedRows failed_rows{};  ///< rows that the table should have and has not
+  FailedRows failed_rows{};           ///< rows that the table should have and has not
   std::vector<ForceTableRow> rows{};  ///< at least one
 };
 

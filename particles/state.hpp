@@ -11,7 +11,8 @@
 
 namespace viscontact::particles {
 
-/// A pair of the neighbour list: two particles, or a particle and a plane, and their memory.
+/// A pair of the neighbour list: two particles, or a particle and a plane, and their memory. In a
+/// fluid, gamma and the impulses of discs are per unit length: M stands for M/L there.
 struct Pair {
   std::int32_t first = 0;   ///< number of a particle, or -1 - k for plane k
   std::int32_t second = 0;  ///< number of a particle, > first
@@ -28,8 +29,8 @@ struct Pair {
   /// Impulse of friction on `second` in the last step [M L/T], tangential; the first guess of the
   /// next one. Zero without friction.
   Vector friction{};
-  /// Part of the impulse of the last step that the solids carried [M L/T], >= 0: s of docs/physics.md
-  /// (5.7), which bounds the friction. Zero without friction.
+  /// Part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
+  /// docs/physics.md (5.7), which bounds the friction. Zero without friction.
   double carried = 0;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }

@@ -155,9 +155,10 @@ void check_arrangement(const TomlSection& root, const ParticlesCase& c) {
                           gap, fluid.threshold_gap));
   if (const double solid = gap_of_solids(c); gap < solid)
     root.section("arrangement")
-        .fail("smallest_gap", fmt::format("is {}; it must be at least twice "
-                                          "viscous_contact.roughness, {}, at which the solids touch",
-                                          gap, solid));
+        .fail("smallest_gap",
+              fmt::format("is {}; it must be at least twice "
+                          "viscous_contact.roughness, {}, at which the solids touch",
+                          gap, solid));
   if (fluid.mesh == particles::FluidMesh::kFitted && gap < least)
     root.section("arrangement")
         .fail("smallest_gap", fmt::format("is {}; it must be at least a thousandth of the radius, "

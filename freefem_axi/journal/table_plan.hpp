@@ -19,21 +19,23 @@ namespace viscontact::freefem_axi {
 /// between the spheres [L].
 using RowPoint = std::vector<double>;
 
+/// A row that was computed.
 struct FinishedRow {
-  RowPoint point;
+  RowPoint point;  ///< which row
   /// What was computed, in an order that the plan defines.
   std::vector<double> numbers;
   std::string freefem_version;  ///< version of the FreeFEM that computed the row
 };
 
+/// A row that could not be computed.
 struct FailedRow {
-  RowPoint point;
+  RowPoint point;      ///< which row
   std::string reason;  ///< one line, for the user
 };
 
 /// The finished and failed rows of a table, by their points.
 struct RowRecord {
-  std::map<RowPoint, FinishedRow> finished;
+  std::map<RowPoint, FinishedRow> finished;  ///< each by its own point
   /// The reasons of failed rows. A row that was finished later is not among them.
   std::map<RowPoint, std::string> failed;
 };
@@ -49,7 +51,8 @@ using Versions = std::map<std::string, std::string>;
 
 /// Another file with the same rows as the table, but other columns.
 struct CompanionTable {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< of the file
+  /// The text of the file, as TablePlan::write.
   std::function<std::string(const RowRecord&, const Versions&)> write;
 };
 
@@ -59,7 +62,7 @@ struct TablePlan {
   std::string hash;
   /// All rows, in the order of the table.
   std::vector<RowPoint> points;
-  RowShape shape;
+  RowShape shape;                ///< of every row
   double relative_accuracy = 0;  ///< asked of every row [1]
   double typical_seconds = 0;    ///< time of a row on one core [s], for estimates
   /// Computes the numbers of one row. Throws Error(kExternalProgram) if FreeFEM fails, and other

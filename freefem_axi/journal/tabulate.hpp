@@ -11,17 +11,20 @@
 
 namespace viscontact::freefem_axi {
 
+/// How far a tabulation is.
 struct TabulateProgress {
-  std::size_t rows_done = 0, rows = 0;
-  double seconds_left = 0;  ///< [s], estimated from the finished rows; 0 before the first
+  std::size_t rows_done = 0;  ///< rows that were there before, or are computed or failed
+  std::size_t rows = 0;       ///< rows that were asked for
+  double seconds_left = 0;    ///< [s], estimated from the finished rows; 0 before the first
 };
 
+/// Is told the progress.
 using TabulateReport = std::function<void(const TabulateProgress&)>;
 
 /// One of the processes that compute rows.
 struct RowWorker {
-  FreeFem freefem;
-  int jobs = 1;  ///< number of FreeFEM processes at once
+  FreeFem freefem;  ///< how FreeFEM is run
+  int jobs = 1;     ///< number of FreeFEM processes at once
   /// Writer of the worker's journal (row_journal.hpp); empty for the journal of this machine.
   std::string name;
 };
@@ -31,8 +34,8 @@ struct RowWorker {
 /// at once to the worker's journal beside `table_path`. `report` is called after each row, never
 /// twice at once. A row that fails does not stop the others and is no error here: RowRecord::failed
 /// has it. Throws Error(kExternalProgram) if FreeFEM cannot be run at all, and Error(kInterrupted)
-/// if worker.freefem.stop requests a stop. The
-/// caller removes the journals after it has written the table.
+/// if worker.freefem.stop requests a stop. The caller removes the journals after it has written the
+/// table.
 void compute_rows(const RowWorker& worker, const TablePlan& plan,
                   const std::vector<RowPoint>& points, const std::filesystem::path& table_path,
                   const TabulateReport& report);

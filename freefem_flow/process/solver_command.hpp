@@ -8,6 +8,7 @@
 
 namespace viscontact::freefem_flow {
 
+/// How a fluid solver is started, and what is known of it.
 struct SolverCommand {
   /// The program, which is looked up on PATH, and its arguments. At least one.
   std::vector<std::string> arguments;

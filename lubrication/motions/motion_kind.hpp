@@ -14,22 +14,26 @@ namespace viscontact::lubrication {
 /// about z).
 enum class MotionKind { kApproach, kSlide, kRoll, kSpin };
 
+/// A motion and its name.
 struct NamedMotion {
   std::string_view name;  ///< in case files, and of the table's file
-  MotionKind kind;
+  MotionKind kind;        ///< the motion
 };
 
 /// All motions, in the order of MotionKind.
 std::span<const NamedMotion> all_motions();
 
+/// The name of a motion.
 std::string_view to_string(MotionKind motion);
 
 /// The motion with this name. Throws Error(kBadInput), which lists the names, if there is none.
 MotionKind parse_motion(std::string_view name);
 
-/// "approach, slide", as the head of a table names the motions of its tabulation, and back. The
-/// text must be one that motions_in_words() made; throws Error(kBadInput) as parse_motion() does.
+/// "approach, slide": how the head of a table names the motions of its tabulation. Empty without
+/// motions.
 std::string motions_in_words(const std::vector<MotionKind>& motions);
+/// The motions of a text that motions_in_words() made. Throws Error(kBadInput) as parse_motion()
+/// does.
 std::vector<MotionKind> parse_motions_in_words(const std::string& words);
 
 }  // namespace viscontact::lubrication

@@ -21,16 +21,19 @@ namespace viscontact::lubrication {
 /// turns at w0 [1/T]; torque = -8 pi mu r^2 u0 * torque, or -8 pi mu r^3 w0 * torque. r is always
 /// the radius of the first sphere.
 struct ActionFactors {
-  double force = 0, torque = 0;
-  /// Error estimates, over the sphere's force factor if it slides, or torque factor if it turns.
-  double force_error_estimate = 0, torque_error_estimate = 0;
+  double force = 0;   ///< factor of the force [1]
+  double torque = 0;  ///< factor of the torque [1]
+  /// Error of `force`, over the sphere's force factor if it slides, or torque factor if it turns.
+  double force_error_estimate = 0;
+  double torque_error_estimate = 0;  ///< error of `torque`, over the same factor
 };
 
+/// The forces and torques at one gap.
 struct MotionTableRow {
   double gap = 0;  ///< q [L], > 0
   /// u0 [L/T] of a sphere that slides, w0 [1/T] of one that turns; not 0.
   double reference_velocity = 0;
-  ActionFactors sphere;
+  ActionFactors sphere;                    ///< on the sphere
   std::optional<ActionFactors> neighbour;  ///< nothing if the neighbour is no sphere
   double degrees_of_freedom = 0;           ///< unknowns on the finest mesh
   double seconds = 0;                      ///< wall time of the row [s]
@@ -52,14 +55,16 @@ struct MotionTable {
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions of the tabulation, if there were several: each has a table of its own.
   std::vector<MotionKind> tabulated_motions;
-  FailedRows failed_rows;  ///< rows that the table should have and has not
-  std::vector<MotionTableRow> rows;
+  FailedRows failed_rows;            ///< rows that the table should have and has not
+  std::vector<MotionTableRow> rows;  ///< at least one
 };
 
 /// The dimensional unit of force and torque of a motion: force = -unit * u0 * force factor.
 struct ActionUnits {
-  double force = 0, torque = 0;
+  double force = 0;   ///< over the velocity or angular velocity of the motion
+  double torque = 0;  ///< likewise
 };
+/// The units of a motion, which is not kApproach.
 ActionUnits action_units(MotionKind motion, double viscosity, double radius);
 
 /// True if the path is a regular file that begins as the tables that write_motion_table() writes. A

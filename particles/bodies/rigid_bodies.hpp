@@ -18,6 +18,7 @@ struct Particles;
 /// A matrix of three rows, row by row.
 using Matrix3 = std::array<double, 9>;
 
+/// Product of a matrix and a vector.
 inline Vector operator*(const Matrix3& a, const Vector& x) {
   return {a[0] * x[0] + a[1] * x[1] + a[2] * x[2], a[3] * x[0] + a[4] * x[1] + a[5] * x[2],
           a[6] * x[0] + a[7] * x[1] + a[8] * x[2]};
@@ -49,12 +50,12 @@ struct RigidBody {
 
 /// The rigid bodies of a case, and which particle belongs to which.
 struct RigidBodies {
-  std::vector<RigidBody> bodies;
+  std::vector<RigidBody> bodies;  ///< in the order of the case
   /// Number of the body of each particle, -1: none. Empty if there are no bodies.
   std::vector<std::int32_t> of_particle;
 
-  bool empty() const { return bodies.empty(); }
-  std::size_t count() const { return bodies.size(); }
+  bool empty() const { return bodies.empty(); }        ///< whether there are no bodies
+  std::size_t count() const { return bodies.size(); }  ///< number of bodies
   /// The body of a particle; -1 if it belongs to none.
   std::int32_t body_of(std::int32_t particle) const {
     return of_particle.empty() ? -1 : of_particle[static_cast<std::size_t>(particle)];

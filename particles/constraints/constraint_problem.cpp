@@ -37,9 +37,9 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   return w;
 }
 
-FrictionCone FrictionCone::nearest(double mu_s, double s, double length, double w_n, double w_t) {
-  if (length <= mu_s * s) return {Part::kInside, s, 1};
-  const double load = (w_n * s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);
+FrictionCone FrictionCone::nearest(double mu_s, double p_s, double length, double w_n, double w_t) {
+  if (length <= mu_s * p_s) return {Part::kInside, p_s, 1};
+  const double load = (w_n * p_s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);
   if (!(load > 0)) return {Part::kApex, 0, 0};
   return {Part::kSurface, load, mu_s * load / length};
 }

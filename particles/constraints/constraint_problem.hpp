@@ -106,24 +106,26 @@ struct ConstraintProblem {
   bool lifts_sliding = false;
 };
 
-/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load or
-/// it has no film. Otherwise its film carries the impulse, and there is no friction.
+/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load
+/// or it has no film. Otherwise its film carries the impulse, and there is no friction.
 inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
   return lifts_sliding && block.is_contact && block.rows > 1 &&
          (p_n > block.capacity || block.capacity <= block.lowest);
 }
 
-/// A point of the cone |p_t| <= mu_s s, s = p_n - capacity, the set of allowed impulses in (5.9).
+/// A point of the cone |p_t| <= mu_s p_s, the set of allowed impulses in (5.9), where p_s = p_n -
+/// capacity is the load of the solids.
 struct FrictionCone {
+  /// Where the point is.
   enum class Part { kApex, kInside, kSurface };
   Part part = Part::kApex;
-  double load = 0;        ///< s >= 0 [M L/T]
+  double load = 0;        ///< p_s >= 0 [M L/T]
   double tangential = 1;  ///< factor by which p_t was shortened
 
-  /// Point of the cone nearest to impulses with the load `s` and |p_t| = `length` in the norm
-  /// w_n s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
+  /// Point of the cone nearest to impulses with the load `p_s` and |p_t| = `length` in the norm
+  /// w_n p_s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
   /// mobilities of the rows.
-  static FrictionCone nearest(double mu_s, double s, double length, double w_n, double w_t);
+  static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t);
 };
 
 /// Value of a row without its offset.
@@ -161,8 +163,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 
 /// Residual of a block [L] for values `v` of its rows, their impulses `p` and mobilities `w`: of a
 /// contact the larger of |min(gap, w (p_n - lowest))| and, with friction, of w |p_t - P(p_t -
-/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of w |p -
-/// P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
+/// v_t/w)|, where P projects on |p_t| <= mu_s p_s; of a contact in the cone of (5.9) those of
+/// w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
   double normal = 0, tangential = 0;

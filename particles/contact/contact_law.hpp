@@ -1,5 +1,6 @@
 // The value gamma_min of a pair at which its film gives way to solid contact (Maury 2007, Lefebvre
-// 2008): docs/physics.md (5.5) without a fluid and (6.8) in one. Units are any one consistent system.
+// 2008): docs/physics.md (5.5) without a fluid and (6.8) in one. Units are any one consistent
+// system.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace viscontact::particles {
 /// The film between two surfaces that approach each other: its resistance R to leading order at
 /// small gaps q, by Reynolds' equation.
 enum class FilmShape {
-  /// Spheres: R = 6 pi mu r_eff^2/q [M/T]. Discs without a fluid count as spheres whose centres stay
-  /// in a plane.
+  /// Spheres: R = 6 pi mu r_eff^2/q [M/T]. Discs without a fluid count as spheres whose centres
+  /// stay in a plane.
   kSpheres,
   /// Discs in the plane of a fluid, which are cylinders: R = 3 sqrt(2) pi mu (r_eff/q)^(3/2)
   /// [M/(L T)] per length (Jeffrey & Onishi 1981).
@@ -22,7 +23,8 @@ enum class FilmShape {
 };
 
 /// Gamma(`to`) - Gamma(`from`), the integral of R over the gap: < 0 if the gap closes. For spheres
-/// [M L/T], for discs [M/T], which is an impulse per length. Viscosity, r_eff and both gaps are > 0.
+/// [M L/T], for discs [M/T], which is an impulse per length. Viscosity, r_eff and both gaps
+/// are > 0.
 inline double impulse_of_film(FilmShape shape, double viscosity, double r_eff, double from,
                               double to) {
   using std::numbers::pi;

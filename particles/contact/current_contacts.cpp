@@ -51,8 +51,8 @@ double largest_overlap(const Setting& setting, const State& state) {
   double smallest = 0;
   const auto& p = state.particles;
   ThreadPool pool(1);
-  // The search for close pairs in a period takes the images where they were at the start. Images that
-  // have moved are compared one by one.
+  // The search for close pairs in a period takes the images where they were at the start. Images
+  // that have moved are compared one by one.
   std::vector<ClosePair> close;
   if (p.cell.is_sheared()) {
     smallest = smallest_gap_of_images(p);

@@ -18,14 +18,15 @@ enum class ContactFriction : std::int8_t {
   kSlides  ///< friction is at Coulomb's bound
 };
 
+/// A contact as files show it.
 struct CurrentContact {
   std::int32_t first;      ///< number of a particle, or -1 - k for obstacle k
   std::int32_t second;     ///< number of a particle
   double gap;              ///< [L]
-  double gamma;            ///< [M L/T]
-  double gamma_error = 0;  ///< Pair::gamma_error [M L/T]
+  double gamma;            ///< [M L/T], of discs in a fluid [M/T]
+  double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
-  ContactFriction friction = ContactFriction::kNone;
+  ContactFriction friction = ContactFriction::kNone;  ///< in the last step
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
@@ -37,7 +38,7 @@ std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
 /// pairs of particles, then particles at obstacles, each in the order of the state.
 std::vector<CurrentContact> contacts_of(const Setting& setting, const State& state);
 
-/// Largest Pair::gamma_error of all pairs [M L/T].
+/// Largest Pair::gamma_error of all pairs, in the unit of gamma.
 double largest_gamma_error(const State& state);
 
 /// Largest overlap of two particles, or of a particle and an obstacle, divided by the mean radius;

@@ -10,9 +10,10 @@ enum class FrictionMethod {
   kConvex,
 };
 
+/// Coulomb's friction of all contacts.
 struct FrictionLaw {
-  double coefficient = 0;  ///< mu_s, >= 0
-  FrictionMethod method = FrictionMethod::kFixedPoint;
+  double coefficient = 0;                               ///< mu_s, >= 0
+  FrictionMethod method = FrictionMethod::kFixedPoint;  ///< how a step is solved
 };
 
 }  // namespace viscontact::particles

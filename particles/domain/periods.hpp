@@ -22,12 +22,14 @@ struct PeriodicCell {
   std::array<double, 4> gradient{};
   double moved_for = 0;  ///< time since the shifts of the images were `lengths` [T], >= 0
 
+  /// True if there is a period.
   bool is_periodic() const { return lengths[0] > 0 || lengths[1] > 0; }
   /// True if images move relative to their particles.
   bool is_sheared() const {
     return gradient[0] * lengths[0] != 0 || gradient[2] * lengths[0] != 0 ||
            gradient[1] * lengths[1] != 0 || gradient[3] * lengths[1] != 0;
   }
+  /// True if all members are equal.
   bool operator==(const PeriodicCell&) const = default;
 };
 
@@ -59,8 +61,8 @@ inline Vector velocity_at(const PeriodicCell& cell, const Vector& shift) {
 /// Numbers of periods along x and y by which an image is shifted.
 using Periods = std::array<double, 2>;
 
-/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of particles
-/// are compared of which one is that of an image: in contacts, rigid bodies and links.
+/// Velocity of an image relative to its particle [L/T]. It is added wherever velocities of
+/// particles are compared of which one is that of an image: in contacts, rigid bodies and links.
 inline Vector velocity_of_image(const PeriodicCell& cell, const Periods& periods) {
   return velocity_at(cell, {periods[0] * cell.lengths[0], periods[1] * cell.lengths[1], 0});
 }
@@ -71,11 +73,12 @@ inline Vector shift_of(const PeriodicCell& cell, const Periods& periods) {
   return at_start + cell.moved_for * velocity_of_image(cell, periods);
 }
 
-/// The same of the image with a number.
+/// Velocity of the image with a number (image_number) relative to its particle [L/T].
 inline Vector velocity_of_image(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y] = periods_of_image(image);
   return velocity_of_image(cell, Periods{double(x), double(y)});
 }
+/// Shift of the image with a number [L].
 inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   const auto [x, y] = periods_of_image(image);
   return shift_of(cell, Periods{double(x), double(y)});

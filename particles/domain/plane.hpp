@@ -16,7 +16,8 @@ struct PlanePosition {
   Vector normal;      ///< unit normal into the free side
   double radius = 0;  ///< of the circle [L], > 0; 0: a plane
 
-  bool is_curved() const { return radius > 0; }
+  bool is_curved() const { return radius > 0; }  ///< whether it is a circle
+  /// True if all members are equal.
   bool operator==(const PlanePosition&) const = default;
 };
 

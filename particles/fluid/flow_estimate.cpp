@@ -1,5 +1,5 @@
-// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those of
-// the case.
+// Computes a flow up to three times and compares the results (flow_estimate.hpp). Units are those
+// of the case.
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ std::vector<double> difference(std::span<const double> of, std::span<const doubl
   return result;
 }
 
-/// Of each component, the length of the vector that it belongs to: velocity or force, and apart from
-/// it angular velocity or torque.
+/// Of each component, the length of the vector that it belongs to: velocity or force, and apart
+/// from it angular velocity or torque.
 std::vector<double> lengths(std::span<const double> of, std::size_t components) {
   std::vector<double> result;
   for (const double x : of) result.push_back(std::abs(x));
@@ -45,8 +45,8 @@ double largest(std::span<const double> of, const Particles& particles, int power
   return result;
 }
 
-/// Of each component of the loads of a particle in the plane, the largest change of all of them, where
-/// torques count divided by the radius. A change that is small by chance then hides no error.
+/// Of each component of the loads of a particle in the plane, the largest change of all of them,
+/// where torques count divided by the radius. A change that is small by chance then hides no error.
 std::vector<double> of_loads(std::span<const double> changes, const Particles& particles) {
   auto result = lengths(changes, motion_components(particles.dimension));
   if (particles.dimension == 1) return result;

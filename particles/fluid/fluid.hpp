@@ -19,6 +19,7 @@ enum class RigidConstraint {
   kRigid,    ///< the rigid motions of the bodies are unknowns
 };
 
+/// Whether the mesh of the fluid follows the particles.
 enum class FluidMesh {
   kFitted,  ///< follows the surfaces of the particles with curved edges
   kFixed,   ///< does not know the particles (the lecture's method)
@@ -32,18 +33,19 @@ enum class Coupling {
 
 /// Velocity of a wall: (a, b) constant, or a parabola along the wall that is 0 at both ends.
 struct WallVelocity {
+  /// What is given on the wall.
   enum class Kind {
     kConstant,   ///< `value` everywhere
     kParabolic,  ///< along the inward normal, with the largest speed value[0] in the middle
     kOpen,       ///< no stress acts on this side, and fluid flows through it freely
   };
-  Kind kind = Kind::kConstant;
-  std::array<double, 2> value{};  ///< [L/T]
+  Kind kind = Kind::kConstant;    ///< what is given
+  std::array<double, 2> value{};  ///< the velocity, or the speed of a parabola first [L/T]
 };
 
-/// The velocity G x of all walls, with the constant matrix G; where the domain is periodic both
-/// ways, the mean velocity gradient. A shear rate s is G = (0, s; 0, 0), u = (s y, 0), and a strain
-/// rate s is G = (s, 0; 0, -s), u = (s x, -s y). All zero: walls at rest.
+/// The velocity E x of all walls, with the constant matrix E; where the domain is periodic both
+/// ways, the mean velocity gradient. A shear rate s is E = (0, s; 0, 0), u = (s y, 0), and a strain
+/// rate s is E = (s, 0; 0, -s), u = (s x, -s y). All zero: walls at rest.
 struct LinearFlow {
   std::array<double, 4> gradient{};  ///< du/dx, du/dy, dv/dx, dv/dy [1/T]
 };
@@ -52,15 +54,18 @@ struct LinearFlow {
 /// sides are not used.
 using SideVelocities = std::array<WallVelocity, 4>;
 
+/// The fluid around the particles, and how its flow is computed: `[fluid]` of a case.
 struct Fluid {
   double viscosity = 0;  ///< mu [M/(L T)], > 0
   double density = 0;    ///< rho_f; 0: Stokes flow, the only possibility so far
+  /// How particles are kept rigid; kRigid needs the fitted mesh.
   RigidConstraint constraint = RigidConstraint::kPenalty;
-  double penalty = 1e-7;  ///< > 0, docs/physics.md (6.1); used by kPenalty only
-  FluidMesh mesh = FluidMesh::kFitted;
-  int edges_per_particle = 24;  ///< on the circumference of the smallest particle, >= 6
-  Coupling coupling = Coupling::kConstrained;
+  double penalty = 1e-7;                ///< > 0, docs/physics.md (6.1); used by kPenalty only
+  FluidMesh mesh = FluidMesh::kFitted;  ///< whether it follows the particles
+  int edges_per_particle = 24;          ///< on the circumference of the smallest particle, >= 6
+  Coupling coupling = Coupling::kConstrained;  ///< how contact acts
   double threshold_gap = 0;  ///< D_c [L], >= 0: contact is made where a gap reaches it
+  /// Velocities of the walls, or of a cell that is periodic both ways.
   std::variant<LinearFlow, SideVelocities> boundary;
   /// Command of a solver of the user's own; empty: FreeFEM.
   std::vector<std::string> solver;

@@ -20,8 +20,8 @@ class HeldSolver;
 class StepEquation;
 struct StepContacts;
 
-/// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are empty
-/// if they were not made.
+/// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are
+/// empty if they were not made.
 struct ForceErrors {
   std::vector<double> of_fluid;  ///< of FluidSimulation::fluid_forces()
   std::vector<double> of_links;  ///< of State::link_forces
@@ -51,13 +51,13 @@ class FluidSimulation {
 
   /// Computes one step of length h, shorter if `end` [T] is nearer; see Simulation::step. In the
   /// first step of a simulation and in the step that reaches `end`, it estimates the error of the
-  /// velocities and forces. Throws Error(kNotConverged) if no solution of the contacts is found that keeps
-  /// overlaps below the mean radius, or if a particle moves too far for the precision of a double;
-  /// and the errors of FluidSolver. The state is then that before the step.
+  /// velocities and forces. Throws Error(kNotConverged) if no solution of the contacts is found
+  /// that keeps overlaps below the mean radius, or if a particle moves too far for the precision of
+  /// a double; and the errors of FluidSolver. The state is then that before the step.
   StepReport step(double end);
 
-  const State& state() const { return state_; }
-  const Setting& setting() const { return setting_; }
+  const State& state() const { return state_; }        ///< after the last step
+  const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
   /// The flow of the last step: where the particles were at the beginning of the step.
   FlowField flow() { return solver_->flow(); }
@@ -78,7 +78,9 @@ class FluidSimulation {
   /// those extrapolated from two meshes, which do not enter the next step.
   Particles reported_particles() const;
 
+  /// Number of unknowns of the last mesh; 0 if the solver does not say.
   std::size_t unknowns() const { return solver_->unknowns(); }
+  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
   double solver_peak_memory_mebibytes() const { return solver_->peak_memory_mebibytes(); }
 
  private:

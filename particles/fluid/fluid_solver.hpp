@@ -19,8 +19,8 @@ constexpr std::size_t motion_components(int dimension) { return dimension == 1 ?
 
 /// The particles at one time, as the fluid sees them.
 struct FluidParticles {
-  const Particles* particles = nullptr;
-  std::span<const double> angles;  ///< of each particle; empty on an axis
+  const Particles* particles = nullptr;  ///< not null when place() is called
+  std::span<const double> angles;        ///< of each particle; empty on an axis
   /// Motions of particles that are driven, by the number of the particle; the others are free.
   std::map<std::int32_t, std::array<double, 3>> driven;
   /// Mass and moment of inertia over the time step of each component of each particle [M/T], added
@@ -40,17 +40,22 @@ struct FlowQuantities {
 
 /// How results on a second mesh improve those on the mesh of a placement. With the change d of a
 /// result from the mesh of the placement to the second one, result + extrapolation * d is the most
-/// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result on
-/// the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
+/// accurate value; error * |d| estimates its error, and error_of_one_mesh * |d| that of the result
+/// on the mesh of the placement. All are without dimension and >= 0. All are 0 if there is no mesh.
 struct SecondMesh {
-  double extrapolation = 0, error = 0, error_of_one_mesh = 0;
+  double extrapolation = 0;      ///< factor of d in the most accurate value
+  double error = 0;              ///< factor of |d| in the error of the most accurate value
+  double error_of_one_mesh = 0;  ///< factor of |d| in the error on the mesh of the placement
 };
 
 /// Velocity and pressure at the nodes of a mesh of quadratic triangles. On an axis, x is the
 /// distance from it and y is z.
 struct FlowField {
-  std::vector<double> x, y;                              ///< of each node [L]
-  std::vector<double> velocity_x, velocity_y, pressure;  ///< [L/T], [M/(L T^2)]
+  std::vector<double> x;           ///< of each node [L]
+  std::vector<double> y;           ///< of each node [L]
+  std::vector<double> velocity_x;  ///< along x, of each node [L/T]
+  std::vector<double> velocity_y;  ///< along y, of each node [L/T]
+  std::vector<double> pressure;    ///< of each node [M/(L T^2)]
   /// The nodes of each triangle: three corners counter-clockwise, then the middles of the sides
   /// between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.
   std::vector<std::array<std::int32_t, 6>> triangles;

@@ -34,8 +34,8 @@ class HeldMotion {
   /// is the mean of `velocities`, which may be those of an earlier step.
   void make_rigid(std::span<double> velocities) const;
 
-  /// Velocity of the centre and angular velocity of a body: the means over the images of its members
-  /// at their places in the body, whose offsets cancel in the first.
+  /// Velocity of the centre and angular velocity of a body: the means over the images of its
+  /// members at their places in the body, whose offsets cancel in the first.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
   /// Rate at which the length of arm `k` grows with these velocities [L/T].

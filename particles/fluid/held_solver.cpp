@@ -65,8 +65,8 @@ double HeldSolver::theta(Index r) const {
   return (1 + z) / (2 + z);
 }
 
-/// By how much the sums of the rows without stiffness differ from their rates; of springs, minus the
-/// sum.
+/// By how much the sums of the rows without stiffness differ from their rates; of springs, minus
+/// the sum.
 Eigen::VectorXd HeldSolver::missing(std::span<const double> velocities) const {
   Eigen::VectorXd missing = -sums(velocities);
   for (std::size_t r = 0; r < rows_.size(); ++r)
@@ -222,8 +222,8 @@ SecondMesh HeldSolver::vary_mesh() {
 
 /// Corrects forces of the rows that were computed with the mobility of the placement, for a mesh or
 /// a penalty that differs from it. Each correction multiplies what is missing by about the relative
-/// difference of both mobilities, which is an error of discretisation. `right` is what the rows, with
-/// their compliance, must add up to under `forces`.
+/// difference of both mobilities, which is an error of discretisation. `right` is what the rows,
+/// with their compliance, must add up to under `forces`.
 void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> forces,
                          Eigen::VectorXd& of_rows) {
   constexpr int kCorrections = 2;

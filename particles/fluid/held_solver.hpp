@@ -35,10 +35,10 @@ struct HeldRow {
 /// for each question to this solver, and another one where walls and driven particles move. Springs
 /// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation.
 ///
-/// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its rank
-/// is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or smaller
-/// than all other entries: the rows without stiffness are eliminated first, and the springs see the
-/// mobility that is left.
+/// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its
+/// rank is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
+/// smaller than all other entries: the rows without stiffness are eliminated first, and the springs
+/// see the mobility that is left.
 class HeldSolver : public FluidSolver {
  public:
   /// `relative_error` > 0 is that of the answers of `solver`.
@@ -90,8 +90,8 @@ class HeldSolver : public FluidSolver {
   std::vector<HeldRow> rows_;
   std::vector<std::vector<double>> responses_;  // S A^T of each row
   Eigen::MatrixXd matrix_;                      // A S A^T
-  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of both kinds, and
-  // what is left of that of the springs while the others hold.
+  // The parts of the matrix in scaled rows: of the rows without stiffness (fixed), of both kinds,
+  // and what is left of that of the springs while the others hold.
   std::vector<Eigen::Index> fixed_, springs_;
   Eigen::VectorXd scale_;
   Eigen::MatrixXd fixed_matrix_, coupling_, spring_responses_, spring_matrix_;

@@ -47,9 +47,9 @@ class StepEquation {
                                         std::span<const double> flow) const;
 
   /// The velocities at which the forces on the particles do their work in the step, for the
-  /// velocities `flow` = U and the forces `drag` of the particles on the fluid: U for the part of the
-  /// forces that the fluid resists, (u^n + u^{n+1})/2 for the part that accelerates. Work at U alone
-  /// would contain the energy that a step with theta > 1/2 loses where the velocity jumps.
+  /// velocities `flow` = U and the forces `drag` of the particles on the fluid: U for the part of
+  /// the forces that the fluid resists, (u^n + u^{n+1})/2 for the part that accelerates. Work at U
+  /// alone would contain the energy that a step with theta > 1/2 loses where the velocity jumps.
   std::vector<double> velocities_of_work(std::span<const double> flow,
                                          std::span<const double> drag) const;
 

@@ -28,8 +28,9 @@ struct TimeTable {
 /// - springs.csv: time,id,length,force
 /// - arms.csv: time,id,length,force,power
 ///
-/// In a fluid the tables of links end with the column force_error_estimate, that of hinges also with
-/// torque_error_estimate: errors of one mesh in the units of the results, empty where not known.
+/// In a fluid the tables of links end with the column force_error_estimate, that of hinges also
+/// with torque_error_estimate: errors of one mesh in the units of the results, empty where not
+/// known.
 ///
 /// Ids are numbers from 0 in the order of the case. The force of a hinge is that on its body; the
 /// forces of springs and arms are positive where they push the ends apart. Forces are those of the

@@ -14,8 +14,8 @@ namespace viscontact::particles {
 
 /// Particles, and the number of the line in the file of each particle.
 struct ParticleFile {
-  Particles particles;
-  std::vector<int> lines;
+  Particles particles;     ///< in the order of the file
+  std::vector<int> lines;  ///< from 1, of each particle
 };
 
 /// Reads the columns x,y[,z],radius,mass and, if they exist, vx,vy[,vz] and id. Without velocities
@@ -37,9 +37,11 @@ ParticleFile read_particles(const std::filesystem::path& path, int dimension,
                             bool in_fluid = false);
 
 /// Forces and torques of the fluid on particles and estimates of their errors, motion_components()
-/// numbers for each particle [M L/T^2, M L^2/T^2]. An empty list is not known: its fields are empty.
+/// numbers for each particle [M L/T^2, M L^2/T^2]. An empty list is not known: its fields are
+/// empty.
 struct FluidForces {
-  std::span<const double> values, errors;
+  std::span<const double> values;  ///< forces and torques
+  std::span<const double> errors;  ///< estimates of their errors, >= 0
 };
 
 /// CSV text with the columns id,x,y[,z],vx,vy[,vz],radius,mass, or id,z,vz,radius,mass on an axis.
@@ -53,14 +55,15 @@ struct FluidForces {
 std::string write_particles(const Particles& particles,
                             const std::optional<FluidForces>& forces = {});
 
-/// The line with the names of the columns of motion.csv, and the rows of all particles at `time`
-/// [T]: time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
+/// The line with the names of the columns of motion.csv:
+/// time,id,x,y,angle,vx,vy,angular_velocity for discs in a fluid; time,id,z,vz on an axis.
 std::string motion_header(int dimension);
+/// The rows of motion.csv of all particles at `time` [T].
 std::string motion_rows(double time, const Particles& particles);
 
-/// The rows of contacts.csv at `time` [T], without the line of its columns:
-/// time,i,j,gap,gamma. i and j are as in write_contacts().
+/// The line with the names of the columns of contacts.csv.
 inline constexpr const char* kContactsHeader = "time,i,j,gap,gamma\n";
+/// The rows of contacts.csv at `time` [T]. i and j are as in write_contacts().
 std::string contact_rows(double time, const Particles& particles,
                          std::span<const CurrentContact> contacts);
 

@@ -22,8 +22,9 @@ struct RowPart {
   Periods image{};
 };
 
-/// One equation of a link: value + first + second + compliance * impulse = 0 after the step. `first`
-/// and `second` are motions of images: in a sheared cell, those of the particles and image_rate().
+/// One equation of a link: value + first + second + compliance * impulse = 0 after the step.
+/// `first` and `second` are motions of images: in a sheared cell, those of the particles and
+/// image_rate().
 struct LinkRow {
   RowPart first, second;
   double value = 0;       ///< before the step, with the length at its end [L], or angle [rad]

@@ -23,8 +23,8 @@ struct LinkedPoint {
 /// Holds a point of a particle or body at a place, about which it turns freely, or against a
 /// torsion spring (discs only).
 struct Hinge {
-  LinkedPoint point;
-  Vector at{};           ///< [L]
+  LinkedPoint point;     ///< the point that is held
+  Vector at{};           ///< the place where it is held [L]
   double stiffness = 0;  ///< of the torsion spring [M L^2/T^2], >= 0
   /// Angle at which the spring is relaxed [rad]. The angle of a body is 0 at the start, that of a
   /// particle is its own.
@@ -47,10 +47,11 @@ struct Arm {
 
 /// The links of a case.
 struct Links {
-  std::vector<Hinge> hinges;
-  std::vector<Spring> springs;
-  std::vector<Arm> arms;
+  std::vector<Hinge> hinges;    ///< in the order of the case
+  std::vector<Spring> springs;  ///< in the order of the case
+  std::vector<Arm> arms;        ///< in the order of the case
 
+  /// True if there are no links.
   bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
   /// Number of forces in State::link_forces, in `dimension` dimensions: those of all hinges
   /// (`dimension` components and, in the plane, the torque of the spring), of all springs and of all

@@ -95,8 +95,8 @@ class Run {
     write("particles.svg", TextKind::kSvg,
           report::particles_picture(frames_.playback(), case_.title, kPanels));
     auto json = run_json(case_, with_costs(), state);
-    // Forces of the fluid are not in restart.bin. A run that is killed before this line computes its
-    // last step again.
+    // Forces of the fluid are not in restart.bin. A run that is killed before this line computes
+    // its last step again.
     write("run.json", TextKind::kJson, json);
     save();
     return json;

@@ -66,9 +66,9 @@ PolynomialLoop project_loop(const std::function<Eigen::VectorXd(double s)>& shap
                             Eigen::Index polynomials);
 
 /// The root mean square along the loop of what Euler and Lagrange's equation of the problem "least
-/// energy at a given displacement" leaves over, d/ds (2 Phi v - eta A) - grad_x (v.Phi v - eta A.v) with
-/// v = dx/ds (docs/physics.md (7.7)), over that of 2 Phi dv/ds. `eta` is the multiplier [M L/T^2],
-/// dE/d(displacement).
+/// energy at a given displacement" leaves over, d/ds (2 Phi v - eta A) - grad_x (v.Phi v - eta A.v)
+/// with v = dx/ds (docs/physics.md (7.7)), over that of 2 Phi dv/ds. `eta` is the multiplier [M
+/// L/T^2], dE/d(displacement).
 double euler_lagrange_residual(const Swimmer& swimmer, const PolynomialLoop& loop, double eta);
 
 }  // namespace viscontact::reduced_model

@@ -1,5 +1,5 @@
-// Computes colours by the scale viridis, and the ticks of the scale of gamma [M L/T]
-// (film_colours.hpp). The picture and the page must have the same colours.
+// Computes colours by the scale viridis, and the ticks of the scale of gamma (film_colours.hpp).
+// The picture and the page must have the same colours.
 #include "viscontact/report/particles/film_colours.hpp"
 
 #include <fmt/format.h>

@@ -31,7 +31,7 @@ struct PanelSettings {
   ViewBox box;
   Projection view;
   double width = 0, height = 0;  ///< size of a panel in page units
-  double lowest = 0;             ///< lowest gamma of the motion [M L/T]
+  double lowest = 0;             ///< lowest gamma of the motion, in the unit of Pair::gamma
   std::size_t every = 1;         ///< one particle in `every` is drawn
   bool is_in_fluid = false;      ///< colours that are seen before the flow
 };

@@ -1,4 +1,4 @@
-// Arranges frames of a motion side by side in an SVG, with the scale of gamma [M L/T] below. Sizes
+// Arranges frames of a motion side by side in an SVG, with the scale of gamma below. Sizes
 // are in units of the page.
 #include "viscontact/report/particles/particles_picture.hpp"
 

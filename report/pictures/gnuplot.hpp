@@ -44,8 +44,8 @@ struct Panel {
 };
 
 /// Settings of a panel that put the legend below the plot, and the name of the horizontal axis
-/// between the numbers of the axis and the legend. gnuplot itself leaves no room between the name and
-/// the legend, which would cover a part of it.
+/// between the numbers of the axis and the legend. gnuplot itself leaves no room between the name
+/// and the legend, which would cover a part of it.
 inline constexpr const char* kLegendBelow =
     "set key below Left reverse noopaque height 0.6\nset xlabel offset 0,0.35";
 

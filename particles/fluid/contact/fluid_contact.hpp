@@ -18,11 +18,12 @@ struct FluidContact {
   std::int32_t second = 0;  ///< number of a particle
   Vector normal{};          ///< unit normal from first to second
   double gap = 0;           ///< D - D_c at the beginning of the step [L]
-  /// Velocity at which the gap opens because `second` is an image, which a mean flow moves by G times
-  /// its shift relative to the particle [L/T].
+  /// Velocity at which the gap opens because `second` is an image, which a mean flow moves relative
+  /// to the particle [L/T]: the part along `normal` of velocity_of_image().
   double image_opening = 0;
-  double gamma = 0;    ///< [M L/T], <= 0: the impulse is at least this
-  double impulse = 0;  ///< h lambda [M L/T]: before the solution a guess, then the solution
+  double gamma = 0;  ///< [M L/T], of discs [M/T], <= 0: the impulse is at least this
+  /// h lambda, in the unit of gamma: before the solution a guess, then the solution.
+  double impulse = 0;
   /// Change of the gap per impulse of this contact [T/M]; 0 as long as the contact takes no part.
   double w = 0;
 };

@@ -31,9 +31,9 @@ class DragAtDistance {
 
   double velocity(const ContactSetting& setting, double distance, double momentum) const {
     // m v + Gamma_res(D + h v) - Gamma_res(D) increases with v, so the root is between 0 and the
-    // velocity without drag. Where the resistance falls with the gap, the function is concave, and Newton's method
-    // from rest converges to the root from below. The bracket makes the method safe for fits
-    // without this property.
+    // velocity without drag. Where the resistance falls with the gap, the function is concave, and
+    // Newton's method from rest converges to the root from below. The bracket makes the method safe
+    // for fits without this property.
     const double free = momentum * setting.per_mass;
     const double low = std::max(-distance * setting.per_step, std::min(0.0, free));
     const double high = std::max(0.0, free);

@@ -63,9 +63,9 @@ struct NoDrag {
 ///
 /// The drag enters by its impulse, so the impulse that the film absorbs at impact and gives back at
 /// release is exact for every step length: the balance m u + Gamma_res(D) + gamma = int f is exact
-/// to round-off as long as no solid carries load. A step that would raise gamma above 0 releases the
-/// sphere with the momentum that remains. A step that would lower gamma below `gamma_min` sets it
-/// to `gamma_min`, and the solid carries the rest.
+/// to round-off as long as no solid carries load. A step that would raise gamma above 0 releases
+/// the sphere with the momentum that remains. A step that would lower gamma below `gamma_min` sets
+/// it to `gamma_min`, and the solid carries the rest.
 template <class Drag>
 ContactStep contact_step(const ContactState& state, double push, const ContactSetting& setting,
                          const Drag& drag) {

@@ -16,9 +16,9 @@ namespace viscontact::reduced_model {
 /// drag then acts even on a sphere at rest in contact, and in each step gamma lacks the fraction
 /// h (R - k/q)/m of the load. Here the drag enters by its impulse along the path of the sphere.
 /// Film and gamma therefore agree with the first integral for every step length: m u + Gamma_res(q)
-/// + gamma = P(t). Below the fit's interval R - k/q is constant. `force` must outlive the model. Throws
-/// Error(kBadInput) if the fit's resistance has no positive coefficient of 1/q, or if the motion
-/// goes above the fit's interval.
+/// + gamma = P(t). Below the fit's interval R - k/q is constant. `force` must outlive the model.
+/// Throws Error(kBadInput) if the fit's resistance has no positive coefficient of 1/q, or if the
+/// motion goes above the fit's interval.
 ContactModel viscous_contact_regular_drag(const Motion& motion,
                                           const lubrication::LubricationForce& force);
 

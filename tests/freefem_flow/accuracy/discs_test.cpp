@@ -62,7 +62,8 @@ TEST(OneDisc, AtTheCentreMovesAsExactAndTheErrorFallsAsTheFourthPower) {
   }
 }
 
-/// A case of data/reference/discs.csv as a flow: the numbers of all discs, one disc after the other.
+/// A case of data/reference/discs.csv as a flow: the numbers of all discs, one disc after the
+/// other.
 struct Mobility {
   explicit Mobility(const std::string& name) {
     const auto found = reference_discs(VISCONTACT_SOURCE_FOLDER, name);
@@ -92,8 +93,7 @@ TEST(Discs, MoveAsExactWithEachConstraint) {
       const auto of_one_mesh = flow.velocities(exact.forces);
       const auto estimated = flow.estimate(exact.forces);
       EXPECT_LT(error_of(estimated.velocities, exact.velocities), kBounds.at(24));
-      EXPECT_LT(error_of(of_one_mesh, exact.velocities),
-                1.1 * estimated.of_velocities.of_one_mesh);
+      EXPECT_LT(error_of(of_one_mesh, exact.velocities), 1.1 * estimated.of_velocities.of_one_mesh);
     }
 }
 
@@ -106,8 +106,9 @@ TEST(Discs, InANarrowGapMoveAsExact) {
 }
 
 TEST(Disc, AsSmallAsFreeFemCanMeshHasAMobilityThatGrowsWithTheLogarithm) {
-  // FreeFEM writes warnings where the edges grow from a small disc to a large domain. The mobilities
-  // of small discs at one place differ by ln(ratio of radii)/(4 pi), but for (radius/domain)^2 = 6e-6.
+  // FreeFEM writes warnings where the edges grow from a small disc to a large domain. The
+  // mobilities of small discs at one place differ by ln(ratio of radii)/(4 pi), but for
+  // (radius/domain)^2 = 6e-6.
   const BoxDomain box = {{0, 0}, {4, 4}, {}};
   double difference = 0, error = 6e-6;
   for (const auto& [radius, sign] : {std::pair(4e-6, 1), std::pair(1e-2, -1)}) {
@@ -144,8 +145,8 @@ struct Approach {
 
 TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
   // gamma_min of (6.8) is minus the impulse of the film from D_c = 10 gap to 2 s = gap, to leading
-  // order: the drag of a plane exceeds its leading order by the part 1.05 q/r_eff, which makes 0.66 %
-  // of this impulse, and the rest of the container adds less than 0.5 %.
+  // order: the drag of a plane exceeds its leading order by the part 1.05 q/r_eff, which makes 0.66
+  // % of this impulse, and the rest of the container adds less than 0.5 %.
   const double infinite = std::numeric_limits<double>::infinity();
   const std::vector<Approach> approaches = {
       {"wall", BoxDomain{{-8, 0}, {8, 16}, {}}, {0, 1}, 0, 1, {}, infinite},
@@ -180,8 +181,8 @@ TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
 }
 
 TEST(Disc, MidwayInAChannelHasTheExactDragAndSpin) {
-  // The exact channel is periodic, of 6 widths; this one ends 4 widths away, where the flow has decayed
-  // to 1e-5. Both let no fluid pass in the mean.
+  // The exact channel is periodic, of 6 widths; this one ends 4 widths away, where the flow has
+  // decayed to 1e-5. Both let no fluid pass in the mean.
   const double width = 10, half = 40;
   const double drag = 1 / Mobility("channel, force").velocities[0];
   const double torque = 1 / Mobility("channel, torque").velocities[2];

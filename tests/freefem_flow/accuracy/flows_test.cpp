@@ -208,8 +208,8 @@ TEST(Inertia, AddsToTheResistance) {
   }
 }
 
-// Drag over 6 pi mu r U of a sphere on the axis of a closed cylinder of radius 5 and height 10, from
-// data/reference/sphere_in_cylinder.csv.
+// Drag over 6 pi mu r U of a sphere on the axis of a closed cylinder of radius 5 and height 10,
+// from data/reference/sphere_in_cylinder.csv.
 const std::map<double, double> kDragAtGap = {{0.1, 11.5022038}, {1, 2.24503189}, {4, 1.68919777}};
 
 TEST(Sphere, InAClosedCylinderHasTheExactDrag) {

@@ -33,7 +33,8 @@ PlacedFlow::Driven driven_with(const std::vector<double>& velocities) {
   return driven;
 }
 
-/// Expects estimates that are true, and of the order of the errors. `exact` are forces of the fluid.
+/// Expects estimates that are true, and of the order of the errors. `exact` are forces of the
+/// fluid.
 void expect_true(PlacedFlow& flow, const std::vector<double>& exact) {
   const auto of_one_mesh = [&] {
     flow.velocities();

@@ -1,5 +1,6 @@
-// Rigid bodies, hinges, springs and arms in the fluid of FreeFEM: across the sides of sheared cells,
-// and springs of all stiffnesses. The mobility that they need is that of FreeFEM, with its errors.
+// Rigid bodies, hinges, springs and arms in the fluid of FreeFEM: across the sides of sheared
+// cells, and springs of all stiffnesses. The mobility that they need is that of FreeFEM, with its
+// errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,9 +100,9 @@ double difference(const std::vector<double>& one, const std::vector<double>& oth
 }
 
 // The mesh is another one where a side cuts what links join: the narrow parts between the discs are
-// then meshed along the edges where it is cut. Results of the two meshes differ by 4e-5 for the body of
-// two discs with 12 edges, and for the links below by 4e-3 with 12 edges and by less than 3e-4 with 24,
-// as errors of the mesh do, which fall as the fourth power.
+// then meshed along the edges where it is cut. Results of the two meshes differ by 4e-5 for the
+// body of two discs with 12 edges, and for the links below by 4e-3 with 12 edges and by less than
+// 3e-4 with 24, as errors of the mesh do, which fall as the fourth power.
 constexpr double kOfMesh = 3e-4;
 
 TEST(ShearedCell, TurnsABodyAcrossItsSideAsOneInside) {
@@ -135,8 +136,8 @@ TEST(ShearedCell, HasTheSameLinksWhereverItBegins) {
   }
 }
 
-/// The force of a hinge and the torque of its spring move a body inside a cell in such a way that the
-/// point of the hinge has minus the mean flow where it was held.
+/// The force of a hinge and the torque of its spring move a body inside a cell in such a way that
+/// the point of the hinge has minus the mean flow where it was held.
 TEST(ShearedCell, HoldsAHingeAcrossItsSide) {
   CellOfDiscs c{RigidConstraint::kRigid, {0, 1, 0, 0}, {0, 0.9, 0}};
   c.discs = {{0, -0.3, 0}, {0.1, 0.25, 0}};

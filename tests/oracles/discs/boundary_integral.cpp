@@ -100,8 +100,8 @@ Complex singularities(const DiscProblem& problem, Complex z) {
   return velocity;
 }
 
-/// Nodes are denser towards the nearest other disc, by the conformal map of the disc onto itself that
-/// moves its centre by `shift` radii.
+/// Nodes are denser towards the nearest other disc, by the conformal map of the disc onto itself
+/// that moves its centre by `shift` radii.
 void add_disc(const DiscProblem& problem, std::size_t k, int count, std::vector<Node>& nodes) {
   const auto& disc = problem.discs[k];
   double gap = disc.radius;
@@ -159,8 +159,8 @@ DiscAnswer discs_by_boundary_integral(const DiscProblem& problem, int disc_nodes
   std::vector<double> perimeter(static_cast<std::size_t>(discs) + 1, 0.0);
   for (const auto& node : nodes) perimeter[static_cast<std::size_t>(node.curve)] += node.weight;
 
-  // A channel has two more unknowns, the coefficients of the flows y and y^2 along x: a double layer
-  // on both walls makes no shear, and no pressure gradient.
+  // A channel has two more unknowns, the coefficients of the flows y and y^2 along x: a double
+  // layer on both walls makes no shear, and no pressure gradient.
   const Eigen::Index extra = channel ? 2 : 0;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * count + extra, 2 * count + extra);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * count + extra);

@@ -88,8 +88,8 @@ class Equations {
   Eigen::VectorXd right_;
 };
 
-/// What a pair of functions phi and psi contributes to the velocity at a point, and to the force along
-/// an arc that ends there.
+/// What a pair of functions phi and psi contributes to the velocity at a point, and to the force
+/// along an arc that ends there.
 struct Contribution {
   Complex velocity, force;
 };
@@ -121,8 +121,9 @@ class Collocation {
 
   Eigen::Index columns() const { return columns_; }
 
-  /// Calls f(column, contribution) for every unknown but the motions of the discs, and f(-1, ...) for
-  /// the given forces and torques. On the left side of a cell the logarithm has its cut elsewhere.
+  /// Calls f(column, contribution) for every unknown but the motions of the discs, and f(-1, ...)
+  /// for the given forces and torques. On the left side of a cell the logarithm has its cut
+  /// elsewhere.
   template <class F>
   void at(Complex z, F&& f, bool left = false) const {
     const bool channel = problem_.domain == DiscDomain2d::kChannel;
@@ -233,7 +234,8 @@ class Collocation {
     }
     equations.set_right(row, -given);
   }
-  /// Periodicity of velocity and force between opposite sides of a square cell, and no mean velocity.
+  /// Periodicity of velocity and force between opposite sides of a square cell, and no mean
+  /// velocity.
   void add_cell(Equations& equations, Eigen::Index& row, int points) const {
     const double half = problem_.size / 2;
     const Complex force = problem_.discs[0].force;

@@ -14,8 +14,8 @@ enum class DiscDomain2d {
   kSquareCell,      ///< periodic both ways with the period `size`; one disc at 0
 };
 
-/// A point or vector (x, y) is the complex number x + i y. The viscosity is 1; forces and torques are
-/// per unit length. Length, force and time are in any units.
+/// A point or vector (x, y) is the complex number x + i y. The viscosity is 1; forces and torques
+/// are per unit length. Length, force and time are in any units.
 struct DiscProblem {
   struct Disc {
     std::complex<double> centre;
@@ -42,18 +42,19 @@ struct DiscAnswer {
   double residual = 0;  ///< of collocation: largest error of the velocity at a boundary
 };
 
-/// Sums of poles within each disc (and its periodic images) and of functions that are regular in the
-/// domain; their coefficients are fitted by least squares to the velocities on all boundaries, in a
-/// square cell also to the periodicity of velocity and traction. `poles` is the highest power of each
-/// disc, `regular` that of the domain.
+/// Sums of poles within each disc (and its periodic images) and of functions that are regular in
+/// the domain; their coefficients are fitted by least squares to the velocities on all boundaries,
+/// in a square cell also to the periodicity of velocity and traction. `poles` is the highest power
+/// of each disc, `regular` that of the domain.
 ///
 /// In a channel no fluid passes through in the mean. In a cell the mean velocity of fluid and discs
 /// is 0, and a uniform pressure gradient balances the force.
 DiscAnswer discs_by_collocation(const DiscProblem& problem, int poles, int regular);
 
 /// Completed double layer (Power & Miranda 1987, SIAM J. Appl. Math. 47, 689) with the trapezoidal
-/// rule, `nodes` of them on each disc and `wall_nodes` on the container or each wall. The kernels are
-/// summed over all periodic images. Same meaning of the answer as above; shares no code with it.
+/// rule, `nodes` of them on each disc and `wall_nodes` on the container or each wall. The kernels
+/// are summed over all periodic images. Same meaning of the answer as above; shares no code with
+/// it.
 DiscAnswer discs_by_boundary_integral(const DiscProblem& problem, int nodes, int wall_nodes);
 
 }  // namespace viscontact

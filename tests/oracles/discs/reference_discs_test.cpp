@@ -1,5 +1,5 @@
-// data/reference/discs.csv, computed anew by both methods, and what is known of it in closed form or
-// was published.
+// data/reference/discs.csv, computed anew by both methods, and what is known of it in closed form
+// or was published.
 #include "tests/oracles/discs/reference_discs.hpp"
 
 #include <gtest/gtest.h>
@@ -65,8 +65,8 @@ TEST(ReferenceDiscs, AtTheCentreOfAContainerAreTheClosedForms) {
               kRounding);
 }
 
-// One disc in a cell of the lattice: drag over viscosity and mean velocity of Sangani & Acrivos 1982,
-// Int. J. Multiphase Flow 8, 193, which has four digits.
+// One disc in a cell of the lattice: drag over viscosity and mean velocity of Sangani & Acrivos
+// 1982, Int. J. Multiphase Flow 8, 193, which has four digits.
 TEST(ReferenceDiscs, OfALatticeHaveThePublishedDrag) {
   EXPECT_NEAR(1 / velocity("lattice 0.1, force").real(), 24.83, 5e-3);
   EXPECT_NEAR(1 / velocity("lattice 0.3, force").real(), 102.90, 2e-4 * 102.90);

@@ -133,8 +133,8 @@ TEST(HeldInFluid, ThePowerOfAnArmAddsUpToDissipationAndKineticEnergy) {
       // alone would be too large by 0.33 mass at the start.
       EXPECT_NEAR(work, dissipated + mass / 2 * v[0] * v[0] + mass * v[1] * v[1],
                   1e-3 * (1 + mass));
-      // A kink causes no oscillation: the velocity is that of the length in each step but the one in
-      // which the kink lies.
+      // A kink causes no oscillation: the velocity is that of the length in each step but the one
+      // in which the kink lies.
       const double t = simulation.state().time;
       EXPECT_NEAR(v[1] - v[0], t < 0.505 ? -1 : t < 1.005 ? 3 : 0, 0.01) << t;
     }

@@ -1,6 +1,6 @@
-// Rigid bodies, hinges, springs, arms and contacts across the sides of a sheared or strained cell, in
-// a fluid with a given resistance. Where the cell begins decides which image of a particle is in it,
-// and nothing else: relative to the mean flow at the places of the particles, all is the same.
+// Rigid bodies, hinges, springs, arms and contacts across the sides of a sheared or strained cell,
+// in a fluid with a given resistance. Where the cell begins decides which image of a particle is in
+// it, and nothing else: relative to the mean flow at the places of the particles, all is the same.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -191,8 +191,8 @@ TEST(ShearedCell, HoldsAHingeWhereverItBeginsAlongTheFlow) {
   }
 }
 
-/// A shift of the cell changes the mean flow at a hinge, which is at rest. With its force and torque
-/// in place of the hinge, the point moves with minus the mean flow that it had.
+/// A shift of the cell changes the mean flow at a hinge, which is at rest. With its force and
+/// torque in place of the hinge, the point moves with minus the mean flow that it had.
 TEST(ShearedCell, HoldsAHingeWithTheForceThatABodyInsideNeeds) {
   for (const auto& gradient : kGradients)
     for (const Vector& origin : {Vector{1.3, 1.4, 0}, Vector{0, 1.4, 0}, Vector{1.3, 0, 0}}) {

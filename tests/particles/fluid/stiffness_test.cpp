@@ -1,5 +1,5 @@
-// Springs of all stiffnesses beside rigid bodies, hinges and arms, in a fluid with a given resistance
-// and in steps of all lengths, against closed forms.
+// Springs of all stiffnesses beside rigid bodies, hinges and arms, in a fluid with a given
+// resistance and in steps of all lengths, against closed forms.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -50,7 +50,7 @@ InFluid body_and_disc(double h) {
   return system;
 }
 
-/// Of a spring with z = h k (A S A^T), docs/physics.md (6.7).
+/// Of a spring with z = h stiffness (A S A^T), docs/physics.md (6.7).
 double theta_of(double z) { return (1 + z) / (2 + z); }
 
 template <class Check>

@@ -81,8 +81,8 @@ TEST(Springs, OfAllStiffnessesHaveTheirForceInStepsOfAllLengthsBesideABody) {
       add_rigid_body(state.particles, {{0, 1}});
       Simulation simulation(setting, state, 1);
       expect_converged(simulation.step(h));
-      // (5.13) at rest with the extension 1 and the mobility 1/4 + 1/2: in the first step, half of the
-      // change of the extension counts.
+      // (5.13) at rest with the extension 1 and the mobility 1/4 + 1/2: in the first step, half of
+      // the change of the extension counts.
       const double force = -k / (1 + h * h * k * 0.75 / 2);
       // The tolerance of the solver of 1e-10 mean radii is one of 1e-11 of the extension.
       EXPECT_NEAR(simulation.state().link_forces[0], force, -1e-9 * force) << h << " " << k;

@@ -92,8 +92,8 @@ TEST_F(ShippedFluidCase, TheLectureIsPushedToTheFloor) {
   EXPECT_NEAR(last("contacts.csv", 4), -203.5, 2);
 }
 
-// docs/physics.md (6.8): the film of 3.2e-3 that the smooth sphere has at t = 2 is thinner than twice
-// the roughness, so that the solids touch, and the sphere comes off before t = 3.
+// docs/physics.md (6.8): the film of 3.2e-3 that the smooth sphere has at t = 2 is thinner than
+// twice the roughness, so that the solids touch, and the sphere comes off before t = 3.
 TEST_F(ShippedFluidCase, TheLecturesSphereTouchesTheFloorIfItIsRough) {
   auto text = cut("lecture", 0.05, 54);
   text = replaced_matches(text, "edges_per_particle = 24", "edges_per_particle = 12");

@@ -21,8 +21,8 @@ using ::testing::HasSubstr;
 
 const std::string kData = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/";
 
-/// Makes the page of the shipped swimmer in the folder swimmer/ and that of the sphere on an incline
-/// in incline/. The shipped tables are taken, so that FreeFEM is not needed.
+/// Makes the page of the shipped swimmer in the folder swimmer/ and that of the sphere on an
+/// incline in incline/. The shipped tables are taken, so that FreeFEM is not needed.
 class PagePictures : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -125,8 +125,8 @@ std::array<double, 3> gammas(double length, double mass, double time) {
 }
 
 TEST(RoughContactInFluid, OfDiscsHasTheirFilmInAnyUnits) {
-  // -6 sqrt(2) pi mu r_eff^(3/2) (1/sqrt(2 s) - 1/sqrt(D_c)), with r_eff of a floor, of discs of radii
-  // 1 and 0.5, and of a disc of radius 1 inside a circle of radius 3.
+  // -6 sqrt(2) pi mu r_eff^(3/2) (1/sqrt(2 s) - 1/sqrt(D_c)), with r_eff of a floor, of discs of
+  // radii 1 and 0.5, and of a disc of radius 1 inside a circle of radius 3.
   const double film = 1 / std::sqrt(0.01) - 1 / std::sqrt(0.05);
   const auto expected = [&](double r_eff) {
     return -6 * std::sqrt(2.0) * kPi * 0.5 * std::pow(r_eff, 1.5) * film;
