@@ -102,12 +102,12 @@ struct ConstraintProblem {
   std::vector<ConstraintBlock> blocks;
   std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
   /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
-  /// impulses in friction_cone(), and a sliding contact opens by h mu_s |v_t|.
+  /// impulses in the FrictionCone, and a sliding contact opens by h mu_s |v_t|.
   bool lifts_sliding = false;
 };
 
-/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load or
-/// it has no film. Otherwise its film carries the impulse, and there is no friction.
+/// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load
+/// or it has no film. Otherwise its film carries the impulse, and there is no friction.
 inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
   return lifts_sliding && block.is_contact && block.rows > 1 &&
          (p_n > block.capacity || block.capacity <= block.lowest);

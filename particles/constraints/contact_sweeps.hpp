@@ -11,8 +11,9 @@ namespace viscontact::particles {
 
 /// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
 /// each block in turn gets the impulses that solve it while all others keep theirs, with Coulomb's
-/// law or in the cone of the convex relaxation (5.9). Every other sweep goes backwards. Sweeps converge in practice always, but slowly in large
-/// packings; a few of them give the solver a good start.
+/// law or in the cone of the convex relaxation (5.9). Every other sweep goes backwards. Sweeps
+/// converge in practice always, but slowly in large packings; a few of them give the solver a good
+/// start.
 template <int D>
 class ContactSweeps {
  public:

@@ -234,8 +234,8 @@ double ProximalStep<D>::length_of_step(double before) {
   return length;
 }
 
-/// Length of a step that ends near the minimum of the convex function whose gradient is the negative
-/// error. Its derivative along the direction rises with the length.
+/// Length of a step that ends near the minimum of the convex function whose gradient is the
+/// negative error. Its derivative along the direction rises with the length.
 template <int D>
 double ProximalStep<D>::length_to_minimum() {
   constexpr double kReached = 0.1;

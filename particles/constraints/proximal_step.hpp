@@ -16,8 +16,10 @@ namespace viscontact::particles {
 ///
 /// where w is the mobility of a row and P projects on the allowed impulses: first the normal one on
 /// p_n >= lowest, then the tangential one on |p_t| <= mu_s s with s from p_n, so that Coulomb's law
-/// holds at the fixed point. The new impulses are P(...). The smaller epsilon is, the nearer they
-/// are to the solution, and the harder the equation is to solve; redundant contacts do no harm.
+/// holds at the fixed point. For the convex relaxation (5.9) P projects on the cone of both, and y
+/// is then the minimum of a convex function, along which the length of a step is searched. The new
+/// impulses are P(...). The smaller epsilon is, the nearer they are to the solution, and the harder
+/// the equation is to solve; redundant contacts do no harm.
 ///
 /// Newton's method has a block of its matrix for each unit and two for each pair of units in
 /// contact (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
@@ -31,8 +33,8 @@ class ProximalStep {
 
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
-  /// Solves from `center` and the motions `start`. Returns the number of factorisations and solutions with factors. Sets failed() if Newton's
-  /// method made no progress.
+  /// Solves from `center` and the motions `start`. Returns the number of factorisations and
+  /// solutions with factors. Sets failed() if Newton's method made no progress.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 

@@ -122,7 +122,8 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   const double low = results.fit.gap_interval[0];
   for (const auto& [model, rows] : results.trajectories) {
     const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
-    if (thinnest < low)
+    constexpr double kRounding = 1e-9;  // of a contact at the smallest gap of the fit
+    if (thinnest < (1 - kRounding) * low)
       warnings.push_back(
           fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "
                       "gap, {:.4g}",

@@ -46,9 +46,10 @@ struct Impulses {
 };
 
 /// The impulses of the next step. A contact takes part if it had an impulse in the step before
-/// (`touched`), or if its gap would close without it. Its impulses minimise w_n p_n^2/2 + g p_n + w_t p_t^2/2 + s p_t over
-/// |p_t| <= mu_s p_n, where g and s are the gap and the slip without them. The minimum is where both
-/// become 0 if that is allowed. Otherwise it is on the surface of the cone, p_t = -+ mu_s p_n.
+/// (`touched`), or if its gap would close without it. Its impulses then minimise
+/// w_n p_n^2/2 + g p_n + w_t p_t^2/2 + s p_t over |p_t| <= mu_s p_n, where g and s are the gap and the
+/// slip without them. The minimum is where both become 0 if that is allowed. Otherwise it is on the
+/// surface of the cone, p_t = -+ mu_s p_n.
 Impulses closed_form(const State& state, double h, double mu_s, bool touched) {
   const auto& p = state.particles;
   const Vector apart = p.position(1) - p.position(0);
