@@ -185,18 +185,20 @@ std::string names_of_failed_rows(const lubrication::ForceTable& table) {
   return fmt::format("{}", fmt::join(names, "; "));
 }
 
-void warn_of_coefficients(const lubrication::Fit& fit, const lubrication::FitDiagnostics& d,
+void warn_of_coefficients(const lubrication::Fit& fit, const FittedSystem& system,
+                          const lubrication::FitDiagnostics& d,
                           std::vector<std::string>& warnings) {
   if (d.degrees_of_freedom == 0)
     warnings.emplace_back(
         "there are as many coefficients as rows, so that the residuals and the standard errors "
         "have no meaning");
-  for (const auto& term : fit.terms) {
+  for (const auto& term : system.fitted_terms)
     if (!term.is_fixed && term.standard_error >= std::abs(term.coefficient) &&
         term.standard_error > 0)
       warnings.push_back(
           fmt::format("the coefficient of {} is not determined: {:.4g}, standard error {:.2g}",
                       term.name, term.coefficient, term.standard_error));
+  for (const auto& term : fit.terms) {
     if (term.name != lubrication::kLeadingTerm || term.standard_error == 0 ||
         fit.leading_coefficient.value_or(0) == 0)
       continue;
@@ -240,7 +242,7 @@ lubrication::FitDiagnostics diagnose(const lubrication::ForceTable& table,
                     "that of the other rows",
                     d.failed_rows, d.failed_rows + d.rows, names_of_failed_rows(table)));
   warn_of_shape(fit, shape, d.warnings);
-  warn_of_coefficients(fit, d, d.warnings);
+  warn_of_coefficients(fit, system, d, d.warnings);
   // A formula that misses a row by more than a tenth does not describe lubrication theory. The
   // lecture's five terms on forty gaps miss a row by 0.05, for which there is no warning.
   constexpr double kFar = 0.1;

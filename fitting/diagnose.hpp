@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "viscontact/lubrication/fit/fit.hpp"
 #include "viscontact/lubrication/force_table.hpp"
@@ -21,6 +22,9 @@ struct FittedSystem {
   /// The argument of the loss: weight * (fit - table), without the loss's own weight, divided by
   /// the scale of all residuals.
   Eigen::VectorXd scaled_residual;
+  /// The coefficients with ln(q/r) in place of ln q. Their relative standard errors, unlike those of
+  /// the fit, are the same in all units of length.
+  std::vector<lubrication::FitTerm> fitted_terms{};
 };
 
 /// The diagnostics of a fit whose other members are complete. There is a warning if the fitted

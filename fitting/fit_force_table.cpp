@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
@@ -82,6 +84,19 @@ struct Equations {
   Eigen::VectorXd weight;
 };
 
+/// The place in the basis of the term that takes up ln r if `term`, f(q) ln q, is fitted as
+/// f(q) ln(q/r) = f(q) ln q - ln r f(q): that of f(q). Nothing if the term has no logarithm or the
+/// basis lacks f(q).
+std::optional<std::size_t> partner_of(const lubrication::Term& term, const lubrication::Basis& b) {
+  constexpr std::string_view kLogarithm = "ln q";
+  if (!term.name.ends_with(kLogarithm)) return std::nullopt;
+  auto factor = term.name.substr(0, term.name.size() - kLogarithm.size());
+  factor = factor.empty() ? "1" : factor.substr(0, factor.size() - 1);
+  const auto found = std::ranges::find(b.terms, factor, &lubrication::Term::name);
+  if (found == b.terms.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - b.terms.begin());
+}
+
 bool is_fixed(const lubrication::Term& term, const FitSettings& settings) {
   return settings.fix_leading && term.name == lubrication::kLeadingTerm;
 }
@@ -97,11 +112,12 @@ Equations assemble(const lubrication::ForceTable& table, const FitSettings& sett
                          Eigen::VectorXd::Ones(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto& row = table.rows[static_cast<std::size_t>(i)];
-    const double log_gap = std::log(row.gap);
     equations.force(i) = equations.left(i) = row.force * (u0 / row.reference_velocity);
     Eigen::Index column = 0;
     for (const auto& term : settings.basis.terms) {
-      const double value = term.value.at(row.gap, log_gap);
+      // With ln(q/r) the condition number does not depend on the unit of length.
+      const double unit = partner_of(term, settings.basis) ? table.radius : 1;
+      const double value = term.value.at(row.gap, std::log(row.gap / unit));
       if (is_fixed(term, settings))
         equations.left(i) -= fixed * value;
       else
@@ -114,6 +130,24 @@ Equations assemble(const lubrication::ForceTable& table, const FitSettings& sett
   if (settings.weights == lubrication::Weights::kRelative)
     equations.weight = equations.scale.cwiseAbs().cwiseInverse();
   return equations;
+}
+
+/// Goes over from coefficients of f(q) ln(q/r) to those of f(q) ln q, and their covariance.
+void shift_logarithms(const FitSettings& settings, double radius, lubrication::Fit& fit) {
+  const double shift = std::log(radius);
+  if (shift == 0) return;
+  const auto& terms = settings.basis.terms;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const auto partner = partner_of(terms[i], settings.basis);
+    if (!partner) continue;
+    fit.terms[*partner].coefficient -= shift * fit.terms[i].coefficient;
+    for (std::size_t j = 0; j < terms.size(); ++j)
+      fit.covariance[*partner][j] -= shift * fit.covariance[i][j];
+    for (std::size_t j = 0; j < terms.size(); ++j)
+      fit.covariance[j][*partner] -= shift * fit.covariance[j][i];
+    fit.terms[*partner].standard_error =
+        std::sqrt(std::max(0.0, fit.covariance[*partner][*partner]));
+  }
 }
 
 /// Sets coefficients and covariance. A fixed coefficient has a row and a column of zeros.
@@ -178,7 +212,9 @@ lubrication::Fit fit_force_table(const lubrication::ForceTable& table, const Fit
   fit.leading_coefficient = table.leading_coefficient;
   set_coefficients(solution.least_squares, settings, fixed, fit);
   fit.condition_number = solution.least_squares.condition_number;
-  const auto system = residuals_of(equations, solution);
+  auto system = residuals_of(equations, solution);
+  system.fitted_terms = fit.terms;
+  shift_logarithms(settings, table.radius, fit);
   fit.largest_relative_residual = system.relative_residual.cwiseAbs().maxCoeff();
   fit.rms_relative_residual = std::sqrt(system.relative_residual.array().square().mean());
   if (!std::isfinite(fit.rms_relative_residual) ||

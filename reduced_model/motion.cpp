@@ -40,7 +40,8 @@ std::vector<double> row_times(const Motion& motion, const ModelParameter& parame
   const double spacing = motion.parameter(parameter);
   const int steps = step_count(motion.end_time, spacing);
   auto jumps = motion.external_force.jumps();
-  std::erase_if(jumps, [&](double t) { return t >= motion.end_time; });
+  std::erase_if(jumps,
+                [&](double t) { return t >= motion.end_time || are_one_time(t, motion.end_time); });
   // A time of the grid that differs from a jump by round-off only is dropped in favour of the jump.
   const auto is_a_jump = [&](double t) {
     const auto next = std::ranges::lower_bound(jumps, t);

@@ -39,6 +39,15 @@ void check_outputs(const std::vector<std::string>& paths) {
   }
 }
 
+void check_picture(const std::string& path) {
+  if (path.empty() || std::filesystem::path(path).extension() == ".svg") return;
+  throw Error(ErrorKind::kWrongUsage,
+              fmt::format("--plot: {} does not end in .svg; pictures are written as SVG, which "
+                          "records how it was made (rsvg-convert and inkscape make PDF and PNG of "
+                          "it)",
+                          path));
+}
+
 void check_models(std::string_view option, const std::vector<std::string>& names) {
   for (const auto& name : names)
     from_option(option, [&] { return reduced_model::find_model(name); });

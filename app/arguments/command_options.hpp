@@ -48,6 +48,10 @@ void check_models(std::string_view option, const std::vector<std::string>& names
 /// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file.
 void check_outputs(const std::vector<std::string>& paths);
 
+/// Throws Error(kWrongUsage) unless the file that --plot names ends in .svg. An empty name is no
+/// picture.
+void check_picture(const std::string& path);
+
 /// The default of --jobs: one process or thread for each core.
 int default_jobs();
 

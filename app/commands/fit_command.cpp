@@ -98,6 +98,7 @@ void fit_table(FitOptions& o) {
   if (o.compare_bases) outputs.push_back(plot.string());
   check_outputs(outputs);
   if (fits) results::refuse_other_kind(o.fit, "\"gap_interval\"", "fit");
+  check_picture(o.plot);
   if (o.compare_bases) results::refuse_other_kind(plot, "<svg", "picture");
   std::optional<Error> without_picture;
   try {
@@ -183,6 +184,7 @@ void add_shift(CLI::App& app) {
     if (!o->plot.empty()) outputs.push_back(o->plot);
     check_outputs(outputs);
     results::refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
+    check_picture(o->plot);
     if (!o->plot.empty()) results::refuse_other_kind(o->plot, "<svg", "picture");
     pipeline::shift_stage(o->table, o->fit, o->shift, o->plot, interrupt_token());
   });

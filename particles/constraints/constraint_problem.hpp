@@ -102,7 +102,7 @@ struct ConstraintProblem {
   std::vector<ConstraintBlock> blocks;
   std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
   /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
-  /// impulses in friction_cone(), and a sliding contact opens by h mu_s |v_t|.
+  /// impulses in the FrictionCone, and a sliding contact opens by h mu_s |v_t|.
   bool lifts_sliding = false;
 };
 

@@ -16,9 +16,10 @@ namespace viscontact::particles {
 ///
 /// where w is the mobility of a row (W_rr of docs/physics.md (5.8)) and P projects on the allowed
 /// impulses: first the normal one on p_n >= lowest, then the tangential one on |p_t| <= mu_s p_s
-/// with p_s from p_n, so that Coulomb's law holds at the fixed point. The new impulses are P(...).
-/// The smaller epsilon is, the nearer they are to the solution, and the harder the equation is to
-/// solve; redundant contacts do no harm.
+/// with p_s from p_n, so that Coulomb's law holds at the fixed point. For the convex relaxation
+/// (5.9) P projects on the cone of both, and y is then the minimum of a convex function, along which
+/// the length of a step is searched. The new impulses are P(...). The smaller epsilon is, the nearer
+/// they are to the solution, and the harder the equation is to solve; redundant contacts do no harm.
 ///
 /// Newton's method has a block of its matrix for each unit and two for each pair of units in
 /// contact (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to

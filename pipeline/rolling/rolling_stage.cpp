@@ -105,6 +105,7 @@ std::string rolling_json(const RollingResults& results) {
     });
     auto& object = json["models"][model];
     object = {{"gap", last.gap},
+              {"smallest_gap", std::ranges::min_element(rows, {}, &RollingRow::gap)->gap},
               {"position", last.position},
               {"angle", last.angle},
               {"velocity", last.velocity},
@@ -116,6 +117,8 @@ std::string rolling_json(const RollingResults& results) {
                                  ? nlohmann::ordered_json(nullptr)
                                  : nlohmann::ordered_json(first_contact->time);
   }
+  if (const auto warnings = report::rolling_warnings(results); !warnings.empty())
+    json["warnings"] = warnings;
   for (const auto& model : results.failed) json["failed_models"][model.model] = model.reason;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -176,6 +179,8 @@ void run_rolling(const RollingRequest& request) {
   with_failure(rows_failed, [&] { run_models(results.c, results); });
   write_trajectories(folder, results, provenance);
   for (const auto& [model, rows] : results.trajectories) say_end(model, rows.back());
+  for (const auto& warning : report::rolling_warnings(results))
+    terminal::warn("rolling: warning: " + warning);
   const auto json = rolling_json(results);
   results::write_output(folder.results(), TextKind::kJson, json, provenance);
   report::write_rolling_report(results, folder.path, provenance, request.stop);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "viscontact/common/error.hpp"
@@ -85,7 +86,9 @@ lubrication::LubricationForce force_for(const case_file::Case& c, const lubricat
                                         const lubrication::OutsideInterval& outside) {
   // A fit for another radius cannot be used. A fit for another viscosity could be scaled, but not
   // without the user's knowledge, because the case and the fit contradict each other.
-  if (fit.viscosity != c.viscosity || fit.radius != c.radius)
+  // Conversions of units leave rounding errors, which change no result.
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-12 * std::abs(b); };
+  if (differ(fit.viscosity, c.viscosity) || differ(fit.radius, c.radius))
     throw_bad_input({fit_path.string()},
                     fmt::format("was made for viscosity {} and radius {}, but the case has "
                                 "viscosity {} and radius {}; tabulate and fit for the case",

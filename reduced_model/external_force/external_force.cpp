@@ -114,6 +114,12 @@ ExternalForce ExternalForce::stretched(double factor) const {
 }
 
 void ExternalForce::sum_up() {
+  // The piece before a piece of the length of a rounding error lasts until the end of the latter.
+  for (std::size_t i = 1; i + 1 < pieces_.size();)
+    if (are_one_time(pieces_[i].from, pieces_[i + 1].from))
+      pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(i));
+    else
+      ++i;
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
     const auto& before = pieces_[i - 1];
     const double length = pieces_[i].from - before.from;

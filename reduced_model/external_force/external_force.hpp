@@ -4,10 +4,20 @@
 // round-off.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace viscontact::reduced_model {
+
+/// Whether two times > 0 [T] differ by rounding errors only, as 0.1 + 0.2 and 0.3 do. CVODE cannot
+/// integrate over so short an interval.
+inline bool are_one_time(double a, double b) {
+  return std::abs(a - b) <=
+         4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+}
 
 /// f_ext(t) for t >= 0: a sum of piecewise polynomials and sinusoids. Means and impulses are closed
 /// forms, not quadrature.
@@ -58,7 +68,8 @@ class ExternalForce {
   /// Mean of f_ext over [from, to] [M L/T^2], 0 <= from < to.
   double mean(double from, double to) const;
 
-  /// The times at which f_ext or its slope jumps, in increasing order.
+  /// The times at which f_ext or its slope jumps, in increasing order. No two of them are
+  /// are_one_time().
   std::vector<double> jumps() const;
 
   /// The times in (0, end) at which f_ext changes its sign, by a jump or through 0, in increasing

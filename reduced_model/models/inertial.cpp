@@ -34,7 +34,9 @@ class InertialRun {
 
   Trajectory run() {
     auto stops = motion_.external_force.jumps();
-    std::erase_if(stops, [&](double t) { return t >= motion_.end_time; });
+    std::erase_if(stops, [&](double t) {
+      return t >= motion_.end_time || are_one_time(t, motion_.end_time);
+    });
     stops.push_back(motion_.end_time);
     for (const double stop : stops) {
       stop_ = stop;

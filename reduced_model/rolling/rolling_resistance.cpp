@@ -15,15 +15,12 @@ namespace {
 
 using lubrication::PairEntry;
 
-template <bool slope>
-double sum_of_entry(const lubrication::PairFit& fit, PairEntry entry, double gap, double log_gap) {
-  double sum = 0;
-  for (const auto& term : fit.entries.at(entry).fit.terms) {
-    const auto known = *lubrication::find_term(term.name);
-    sum += term.coefficient *
-           (slope ? known.log_slope.at(gap, log_gap) : known.value.at(gap, log_gap));
-  }
-  return sum;
+/// The coefficients of an entry in the order of lubrication::all_terms().
+std::vector<double> weights_of(const lubrication::PairFit& fit, PairEntry entry) {
+  std::vector<double> weights(lubrication::all_terms().size());
+  for (const auto& term : fit.entries.at(entry).fit.terms)
+    weights[lubrication::place_of(term.name)] += term.coefficient;
+  return weights;
 }
 
 }  // namespace
@@ -37,24 +34,30 @@ RollingFluid::RollingFluid(const lubrication::PairFit& fit) : fit_(fit) {
           fmt::format("the fit lacks the entry {}; it must be made from tables of approach, "
                       "slide and roll",
                       lubrication::pair_entries()[static_cast<std::size_t>(entry)].name));
+  slide_ = weights_of(fit, PairEntry::kSlide);
+  roll_ = weights_of(fit, PairEntry::kRoll);
+  slide_roll_ = weights_of(fit, PairEntry::kSlideRoll);
 }
 
-template <bool slope>
-RollingResistance RollingFluid::sum(double gap) const {
+void RollingFluid::check(double gap) const {
   if (gap > fit_.gap_interval[1])
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the sphere rises above the gap {}, up to which the fit is known; "
                             "tabulate and fit larger gaps",
                             format_number(fit_.gap_interval[1])));
-  const double log_gap = std::log(gap);
-  return {sum_of_entry<slope>(fit_, PairEntry::kSlide, gap, log_gap),
-          sum_of_entry<slope>(fit_, PairEntry::kRoll, gap, log_gap),
-          sum_of_entry<slope>(fit_, PairEntry::kSlideRoll, gap, log_gap)};
 }
 
-RollingResistance RollingFluid::at(double gap) const { return sum<false>(gap); }
+RollingResistance RollingFluid::at(double gap) const {
+  check(gap);
+  const auto sum = [gap](const auto& weights) { return lubrication::sum_values(weights, gap); };
+  return {sum(slide_), sum(roll_), sum(slide_roll_)};
+}
 
-RollingResistance RollingFluid::slopes(double gap) const { return sum<true>(gap); }
+RollingResistance RollingFluid::slopes(double gap) const {
+  check(gap);
+  const auto sum = [gap](const auto& weights) { return lubrication::sum_log_slopes(weights, gap); };
+  return {sum(slide_), sum(roll_), sum(slide_roll_)};
+}
 
 Friction coulomb(double slip, double compliance, double bound) {
   const double sticking = -slip / compliance;

@@ -1,6 +1,8 @@
 // Forces on a sphere that moves along a plane and turns: the fluid's resistance and dry friction.
 #pragma once
 
+#include <vector>
+
 #include "viscontact/lubrication/motions/pair_fit.hpp"
 #include "viscontact/reduced_model/rolling/rolling_motion.hpp"
 
@@ -39,10 +41,11 @@ class RollingFluid {
   double largest_gap() const { return fit_.gap_interval[1]; }
 
  private:
-  template <bool slope>
-  RollingResistance sum(double gap) const;
+  void check(double gap) const;
 
   const lubrication::PairFit& fit_;
+  // The coefficients of the entries in the order of lubrication::all_terms().
+  std::vector<double> slide_, roll_, slide_roll_;
 };
 
 /// The force of the fluid.

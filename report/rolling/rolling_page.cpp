@@ -79,6 +79,15 @@ std::string end_table(const RollingResults& results) {
   return "<div class=scroll><table>\n" + rows + "</table></div>\n";
 }
 
+/// What a reader of the numbers must know, as a section, or nothing.
+std::string warnings_of(const RollingResults& results) {
+  std::string items;
+  for (const auto& warning : rolling_warnings(results))
+    items += "<li>" + escaped(warning) + "</li>\n";
+  if (items.empty()) return "";
+  return "<section class=warnings>\n<h2>Warnings</h2>\n<ul>\n" + items + "</ul></section>\n";
+}
+
 std::string parameters_of_rolling(const RollingResults& results) {
   const auto& m = results.c.motion;
   const auto row = [](const char* name, double value) {
@@ -98,6 +107,7 @@ std::string page_of_rolling(const RollingResults& results, const std::vector<Pic
   std::string page =
       page_head(results.c.title.empty() ? std::string("Rolling sphere") : results.c.title);
   page += "<p class=summary>A sphere that moves along a plane in a viscous fluid and turns</p>\n";
+  page += warnings_of(results);
   page += hints_about(pictures);
   std::string models;
   for (const auto& model : reduced_model::rolling_models())
@@ -111,6 +121,21 @@ std::string page_of_rolling(const RollingResults& results, const std::vector<Pic
 }
 
 }  // namespace
+
+std::vector<std::string> rolling_warnings(const RollingResults& results) {
+  std::vector<std::string> warnings;
+  const double low = results.fit.gap_interval[0];
+  for (const auto& [model, rows] : results.trajectories) {
+    const double thinnest = std::ranges::min_element(rows, {}, &RollingRow::gap)->gap;
+    constexpr double kRounding = 1e-9;  // of a contact at the smallest gap of the fit
+    if (thinnest < (1 - kRounding) * low)
+      warnings.push_back(
+          fmt::format("Extrapolation: {} gets down to a gap of {:.4g}, below the smallest fitted "
+                      "gap, {:.4g}",
+                      model, thinnest, low));
+  }
+  return warnings;
+}
 
 std::vector<Plot> rolling_plots(const RollingResults& results) {
   const double radius = results.c.radius, plane = results.c.motion.plane_velocity;

@@ -24,6 +24,10 @@ struct RollingResults {
   std::vector<results::FailedModel> failed;
 };
 
+/// A sentence for each model that gets below the smallest gap of the fit, where the formula of the
+/// fit is continued.
+std::vector<std::string> rolling_warnings(const RollingResults& results);
+
 /// Gap, velocities and slip over time, with a curve for each model.
 std::vector<Plot> rolling_plots(const RollingResults& results);
 

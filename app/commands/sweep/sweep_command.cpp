@@ -31,6 +31,7 @@ void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
   check_models("--models", o.models);
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
+  check_picture(o.plot);
   if (case_file::is_particles_case(o.case_file))
     sweep_many_particles(o);
   else if (case_file::is_swimmer_case(o.case_file))

@@ -44,6 +44,15 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{"OutputTwiceUnderTwoNames",
                    {"sweep", "case.toml", "-o", "a.csv", "--plot", "./a.csv"},
                    "./a.csv would be written twice"},
+        WrongUsage{"SweepPictureAsPdf",
+                   {"sweep", "case.toml", "-o", "a.csv", "--plot", "a.pdf"},
+                   "--plot: a.pdf does not end in .svg"},
+        WrongUsage{"ShiftPictureAsPng",
+                   {"shift", "table.csv", "--fit", "f.json", "-o", "s.csv", "--plot", "s.png"},
+                   "--plot: s.png does not end in .svg"},
+        WrongUsage{"PictureOfBasesWithoutEnding",
+                   {"fit", "table.csv", "--compare-bases", "--plot", "bases"},
+                   "--plot: bases does not end in .svg"},
         WrongUsage{
             "UnknownOption", {"fit", "table.csv", "-o", "fit.json", "--base", "lecture"}, "--base"},
         WrongUsage{"UnknownOptionOfTheProgram", {"--verbose"}, "subcommand"},
@@ -120,6 +129,12 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUsage{
             "TasksHere", {"tabulate", "case.toml", "-o", "table.csv", "--tasks", "4"}, "--tasks"}),
     [](const auto& test) { return test.param.name; });
+
+TEST(CommandLine, TakesWordsBehindTwoDashesForFiles) {
+  // table.csv is the name of a file, and would be taken from the option --fix in front of --.
+  expect_refusal(run_viscontact({"fit", "-o", "fit.json", "--", "--fix", "table.csv"}),
+                 ErrorKind::kBadInput, HasSubstr("--fix: cannot be read"));
+}
 
 struct Help {
   std::string command;

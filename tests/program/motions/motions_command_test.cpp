@@ -258,6 +258,22 @@ TEST_F(MotionsCommand, RollingWritesTrajectoriesResultsAndAReport) {
               AllOf(HasSubstr("A sphere rolls down an incline"), HasSubstr("plots/slip.svg")));
 }
 
+TEST_F(MotionsCommand, RollingSaysWhereItContinuesTheFit) {
+  // The smooth sphere sinks for ever; the fit begins at the smallest gap of its table.
+  const auto result = run_viscontact({"rolling", kIncline, "-o", path("out")});
+  expect_done(result);
+  const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
+  const double smallest = json["models"]["smooth"]["smallest_gap"];
+  const double low =
+      nlohmann::json::parse(read_file(kData + "fits/pairs/plane.json"))["gap_interval"][0];
+  ASSERT_LT(smallest, low);
+  const auto warning = HasSubstr("Extrapolation: smooth gets down to a gap of ");
+  EXPECT_THAT(result.errors, warning);
+  ASSERT_EQ(json["warnings"].size(), 1U);  // the other models stop at the roughness
+  EXPECT_THAT(json["warnings"][0].get<std::string>(), warning);
+  EXPECT_THAT(read_file(path("out/report.html")), warning);
+}
+
 TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   const auto refused = [&](const std::string& from, const std::string& to,
                            const std::string& message) {

@@ -147,6 +147,19 @@ TEST_F(Stages, SimulateNeedsNoSectionOfNumericalSettings) {
   }
 }
 
+TEST_F(Stages, SimulateTakesAFitWhoseViscosityDiffersByRounding) {
+  fit("asymptotic");
+  const auto simulate_with = [&](const std::string& viscosity) {
+    put("other.toml", replaced(lecture_case_text(), "viscosity = 3.0", "viscosity = " + viscosity));
+    return run_viscontact({"simulate", path("other.toml"), "--fit", path("fit.json"), "-o",
+                           path("run"), "--models", "inertial"});
+  };
+  // The double next to 3, and 1e-11 away, which no conversion of units explains.
+  expect_done(simulate_with("3.0000000000000004"));
+  expect_refusal(simulate_with("3.00000000003"), ErrorKind::kBadInput,
+                 HasSubstr("was made for viscosity 3"));
+}
+
 TEST_F(Stages, SimulateRunsTheAskedModelsOnly) {
   fit("asymptotic");
   expect_done(run_viscontact({"simulate", path("case.toml"), "--fit", path("fit.json"), "-o",

@@ -82,6 +82,31 @@ TEST(Inertial, HasARowWhereItTurns) {
   EXPECT_LT(lowest.gap, row_at(trajectory, 2).gap);
 }
 
+TEST(Inertial, TakesStopsThatDifferByRoundingForOne) {
+  // CVODE refuses an interval shorter than two roundings of its ends.
+  const double last = std::nextafter(0.3, 1);
+  ASSERT_EQ(0.1 + 0.2, last);
+  Motion motion = lecture_motion();
+  motion.end_time = 4;
+  motion.external_force = ExternalForce({{0.3, -200}, {4, 100}});
+  const lubrication::LubricationForce force(leading_term_fit(50));
+  const auto plain = simulate_inertial(motion, force);
+  auto sum = ExternalForce({{0.3, -150}, {4, 50}});
+  sum += ExternalForce({{last, -50}, {4, 50}});
+  EXPECT_EQ(sum.jumps().size(), 1U);
+  for (const auto& jumps : {sum, ExternalForce({{0.3, -200}, {last, -30}, {4, 100}})}) {
+    motion.external_force = jumps;
+    const auto split = simulate_inertial(motion, force);
+    // The jump is later by one rounding.
+    EXPECT_NEAR(split.rows.back().gap / plain.rows.back().gap, 1, 1e-9);
+  }
+  motion.external_force = ExternalForce({{0.3, -200}, {4, 100}});
+  for (const double end : {last, std::nextafter(last, 1)}) {
+    motion.end_time = end;
+    EXPECT_NO_THROW(simulate_inertial(motion, force));
+  }
+}
+
 TEST(Inertial, HasRowsAtEveryStepAndJump) {
   Motion motion = lecture_motion();
   motion.external_force = ExternalForce({{1.00005, -200}, {2, -100}, {4, 200}});
