@@ -53,15 +53,30 @@ std::vector<double> mean_forces(const Setting& setting, const Particles& p,
   return forces;
 }
 
-/// Whether the length of an arm has a kink between the times `from` and `to` [T], not at `to`.
+/// Whether the rate of an arm's length jumps between the times `from` and `to` [T], not at `to`.
 bool has_kink(const Arm& arm, double from, double to) {
   const auto* length = std::get_if<PiecewiseLinearLength>(&arm.length);
   if (length == nullptr) return false;
-  return std::ranges::any_of(length->points, [&](const auto& point) {
-    double time = point[0];
+  const auto& points = length->points;
+  const std::size_t n = points.size();
+  // Rate of the length [L/T] in the interval that begins at point i, or that ends at the first point.
+  const auto rate_after = [&](std::size_t i) {
+    if (i + 1 < n) return (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
+    if (!(length->period > 0)) return 0.0;
+    return (points[0][1] - points[i][1]) / (points[0][0] + length->period - points[i][0]);
+  };
+  // Times of steps and of points differ by rounding errors.
+  const double tiny = 1e-9 * (to - from);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = i == 0 && !(length->period > 0) ? 0 : rate_after(i == 0 ? n - 1 : i - 1);
+    const double after = rate_after(i);
+    // Rates of points on one line differ by rounding errors.
+    if (std::abs(after - before) <= 1e-9 * (std::abs(after) + std::abs(before))) continue;
+    double time = points[i][0] + tiny;
     if (length->period > 0) time += length->period * std::ceil((from - time) / length->period);
-    return time >= from && time < to;
-  });
+    if (time >= from && time < to) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -203,7 +218,8 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
     const double change = flow[i] - velocity(k, i % layout_.components);
     const double accelerating = inertia_[i] * change, all = accelerating + drag[i];
     // Where drag and acceleration nearly balance, several links may exert forces that cancel, of
-    // which no share is meaningful.
+    // which no share is meaningful. The bound keeps their powers finite; its value changes only what
+    // such links report.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
