@@ -12,6 +12,8 @@
 
 namespace viscontact::case_file {
 
+/// Finds the numbers of particles, which count from 0 in the order of ParticlesCase::particles, by
+/// the ids that users gave them.
 class ParticleIds {
  public:
   /// `c` must outlive this object, and its particles must have been read.

@@ -24,9 +24,10 @@ struct ParticlesSweepRequest {
 
 /// Content of a case file of many particles.
 struct ParticlesCase {
-  std::filesystem::path path;
-  std::string text;  ///< content of the file
-  std::string title;
+  std::filesystem::path path;  ///< the case file
+  std::string text;            ///< content of the file
+  std::string title;           ///< a title for pages and pictures
+  /// Everything that the simulation needs besides the particles.
   particles::Setting setting;
   /// The particles of the CSV file, followed by those of the tables [[particle]] and by the random
   /// discs of [arrangement].
@@ -36,6 +37,7 @@ struct ParticlesCase {
   double frame_interval = 0;             ///< [T], > 0
   /// What [arrangement] asks for; its discs are the last particles.
   std::optional<particles::Arrangement> arrangement;
+  /// What the section [sweep] asks for; nothing if the case has no such section.
   std::optional<ParticlesSweepRequest> sweep;
 };
 

@@ -20,8 +20,13 @@ struct ParticleLines {
 /// Describes a particle in a message, and says in which file and line it is given.
 class ParticleNames {
  public:
+  /// Both arguments must outlive the object.
   ParticleNames(const ParticlesCase& c, const ParticleLines& lines) : case_(c), lines_(lines) {}
+  /// Describes particle `k` (from 0) by its id, centre and radius, such as "particle 3 (centre 0,
+  /// 1, radius 0.5)".
   std::string operator()(std::size_t k) const;
+  /// The file and the line in which particle `k` (from 0) is given; line 0 if it has no line of its
+  /// own.
   FilePosition at(std::size_t k) const;
 
  private:

@@ -19,6 +19,7 @@ bool is_particles_case(const std::filesystem::path& path);
 /// Reads the section [sweep] of a case of many particles.
 ParticlesSweepRequest read_particles_sweep(const TomlSection& section);
 
+/// A case file of many particles that was read, and the cases that differ from it in some numbers.
 class ParticlesCaseTemplate {
  public:
   /// Reads and parses the file. Throws Error(kBadInput) if it cannot be read or is not valid TOML.

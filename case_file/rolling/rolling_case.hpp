@@ -13,16 +13,20 @@
 
 namespace viscontact::case_file {
 
+/// Content of a case file of a sphere that rolls along a plane.
 struct RollingCase {
-  std::string title;
-  double viscosity = 0, radius = 0;  ///< of fluid and sphere, > 0
+  std::string title;     ///< a title for pages; may be empty
+  double viscosity = 0,  ///< mu of the fluid [M/(L T)], > 0
+      radius = 0;        ///< r of the sphere [L], > 0
+  /// The motion that the models compute.
   reduced_model::RollingMotion motion;
   std::vector<std::string> models;  ///< names of rolling_models()
   /// Exactly one of these: the tables that are made, or the fit of a pair that is there.
   std::optional<freefem_axi::Tabulation> tabulation;
+  /// File of the fit of a pair; nothing if the tables are made.
   std::optional<std::filesystem::path> fit;
-  std::string text;  ///< content of the file
-  std::filesystem::path path;
+  std::string text;            ///< content of the file
+  std::filesystem::path path;  ///< the case file
 };
 
 /// True if the file has the section [rolling]. Throws Error(kBadInput) if it cannot be read or is

@@ -18,17 +18,21 @@
 
 namespace viscontact::case_file {
 
+/// Content of a case file of a swimmer: spheres in a line, connected by arms.
 struct SwimmerCase {
-  std::string title;
+  std::string title;  ///< a title for pages; may be empty
+  /// The spheres, and the fluid and container for which their resistances are tabulated.
   freefem_axi::CollinearSpheres spheres;
   /// The gaps of the table between each two neighbours [L], rising.
   std::vector<std::vector<double>> gaps;
   // Each of these exists only if the file has its section.
+  /// The stroke that the swimmer makes; nothing without its section.
   std::optional<reduced_model::Stroke> stroke;
+  /// What the optimal stroke must achieve; nothing without its section.
   std::optional<reduced_model::OptimalStrokeRequest> optimal;
-  double optimal_period = 1;  ///< of the optimal stroke [T], > 0
-  std::string text;           ///< content of the file
-  std::filesystem::path path;
+  double optimal_period = 1;                        ///< of the optimal stroke [T], > 0
+  std::string text;                                 ///< content of the file
+  std::filesystem::path path;                       ///< the case file
   std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
 };
 

@@ -19,10 +19,14 @@ namespace viscontact {
 /// left out, so is the white space at the ends of a line, and what is beyond kLongest bytes of it.
 class LastLines {
  public:
-  static constexpr std::size_t kLines = 20, kLongest = 1000;
+  static constexpr std::size_t kLines = 20,  ///< number of lines that are kept
+      kLongest = 1000;                       ///< number of bytes of a line that are kept
 
+  /// The streams: standard output and standard error.
   enum Stream { kOutput, kErrors };
 
+  /// Adds what was read from a stream. `text` may end within a line, and the next text of the
+  /// stream then continues it.
   void add(Stream stream, std::string_view text);
 
   /// The lines without their ends, those that are not complete last.
@@ -41,6 +45,7 @@ class LastLines {
 /// The functions that wait throw Error(kInterrupted) if `stop` requests a stop.
 class ChildProcess {
  public:
+  /// The clock of the deadlines.
   using Clock = std::chrono::steady_clock;
 
   /// Throws Error(kExternalProgram) "PROGRAM cannot be run (REASON)" if there is no such program.
@@ -53,16 +58,17 @@ class ChildProcess {
   /// that a child that writes before it reads cannot block both sides.
   void send(std::string_view text);
 
+  /// How the attempt to read a word or a line ended.
   enum class State {
-    kRead,
+    kRead,      ///< the word or line was read
     kClosed,    ///< the child has closed its standard output before the end of a word or line
     kTimedOut,  ///< the deadline has passed
     kTooLong,   ///< a word or line is longer than kLongestText; `text` is its beginning
   };
   /// What was read. `text` is valid until the next call of a function of the object.
   struct Reading {
-    State state = State::kRead;
-    std::string_view text{};
+    State state = State::kRead;  ///< how reading ended
+    std::string_view text{};     ///< the word or line, or what there is of it
   };
   static constexpr std::size_t kLongestText = 4096;  ///< bytes
 

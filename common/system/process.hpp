@@ -10,6 +10,7 @@
 
 namespace viscontact {
 
+/// How a child process ended, and what it wrote.
 struct ProcessResult {
   /// False if there is no such program or it cannot be run; `output` then says why.
   bool started = false;

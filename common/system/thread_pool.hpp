@@ -67,7 +67,8 @@ class ThreadPool {
 
 /// The largest of the values of all blocks; minus infinity if there are none.
 struct MaximumOfBlocks {
-  double value = -std::numeric_limits<double>::infinity();
+  double value = -std::numeric_limits<double>::infinity();  ///< largest value so far
+  /// Takes the larger value of both.
   MaximumOfBlocks& operator+=(const MaximumOfBlocks& other) {
     value = std::max(value, other.value);
     return *this;
@@ -77,7 +78,8 @@ struct MaximumOfBlocks {
 /// The lists of all blocks, one after the other.
 template <class T>
 struct ConcatenatedBlocks {
-  std::vector<T> values;
+  std::vector<T> values;  ///< in the order of the blocks
+  /// Appends the list of `other`.
   ConcatenatedBlocks& operator+=(const ConcatenatedBlocks& other) {
     values.insert(values.end(), other.values.begin(), other.values.end());
     return *this;

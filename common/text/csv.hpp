@@ -24,15 +24,16 @@ using CsvComments = std::map<std::string, std::string>;
 /// number of its line in the file.
 template <std::size_t columns>
 struct CsvRow {
-  std::array<std::optional<double>, columns> fields;
-  int line = 0;
+  std::array<std::optional<double>, columns> fields;  ///< in the order of the requested columns
+  int line = 0;                                       ///< number of the line, from 1
 };
 
+/// The content of a CSV file, of whose columns only the requested ones are kept.
 template <std::size_t columns>
 struct CsvFile {
-  CsvComments comments;
+  CsvComments comments;                  ///< the lines at its head
   std::set<std::string> contradictions;  ///< keys that occur twice with different values
-  std::vector<CsvRow<columns>> rows;
+  std::vector<CsvRow<columns>> rows;     ///< in the order of the file
 };
 
 /// Reads the lines "# key: value" of `text`, without the commas at their end that spreadsheets add.

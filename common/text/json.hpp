@@ -7,6 +7,7 @@
 
 namespace viscontact {
 
+/// A JSON value, whose objects keep their keys in the order of the text.
 using Json = nlohmann::ordered_json;
 
 /// A JSON text that has been read, with the line of each of its values.
@@ -17,7 +18,9 @@ class JsonDocument {
   /// line if an object has the same key twice.
   static JsonDocument parse(const std::string& text, std::string file);
 
+  /// The value of the whole text.
   const Json& root() const { return root_; }
+  /// Name of the file in messages.
   const std::string& file() const { return file_; }
 
   /// Line of the value at a path such as "terms[2].name"; the path of the whole text is "". If

@@ -11,6 +11,7 @@
 
 namespace viscontact::freefem_axi {
 
+/// What a line of the journal records: a row of the table, or the failure to compute it.
 using JournalEntry = std::variant<FinishedRow, FailedRow>;
 
 /// The text of the line with its line end. `hash` is that of the row's TablePlan. The line contains

@@ -14,11 +14,13 @@ namespace viscontact::freefem_axi {
 /// The groups that contain one of the tabulation's motions.
 std::vector<MotionGroup> motion_groups(const Tabulation& tabulation);
 
+/// The file of the table of a motion.
+using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
+
 /// The plan of the group's tables, and their files. The first motion of the tabulation that is in
 /// the group is in the file `path_of(motion)` that callers give to the plan, and the other one, if
 /// it is asked for, in the plan's companion. Both motions are solved in any case, so that the rows
 /// do not depend on which of them is asked for.
-using TablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
 TablePlan motion_table_plan(const Tabulation& tabulation, MotionGroup group,
                             const TablePath& path_of);
 

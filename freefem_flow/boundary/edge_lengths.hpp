@@ -14,12 +14,13 @@
 
 namespace viscontact::freefem_flow {
 
+/// The coordinates of a point [L]: x and y in the plane, r and z in a cylinder.
 using Point = std::array<double, 2>;
 
 /// A particle or its image, with the point (0, z) for a sphere on the axis.
 struct Circle {
-  Point centre;
-  double radius;
+  Point centre;   ///< [L]
+  double radius;  ///< [L], > 0
 };
 
 /// The smallest extent of the domain [L].
@@ -49,6 +50,7 @@ class EdgeLengths {
   /// On a mesh that does not know the particles: the same length everywhere.
   double uniform() const { return longest_; }
 
+  /// All particles and images, which bound the fluid.
   const std::vector<Circle>& circles() const { return circles_; }
 
  private:

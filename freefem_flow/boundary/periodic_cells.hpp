@@ -13,7 +13,8 @@ namespace viscontact::freefem_flow {
 
 /// An edge of the region that the cells of all particles cover together.
 struct CellEdge {
-  Point from, to;  ///< the region is on the left
+  Point from,  ///< first end [L]; the region is on the left of the way from here to `to`
+      to;      ///< last end [L]
   /// Label of the wall that the edge lies on; kPeriodicLabel elsewhere.
   int label = 0;
   /// The edge at the same place of the period, which has the opposite direction; -1 for a wall.

@@ -16,7 +16,8 @@ struct SolverCommand {
   std::string folder{};                    ///< working folder; empty: that of this process
   /// What a user can do if the program cannot be run, and if it does not answer in time: each ends
   /// the message of the error. May be empty.
-  std::string remedy_if_missing{}, remedy_if_silent{};
+  std::string remedy_if_missing{},  ///< if the program cannot be run
+      remedy_if_silent{};           ///< if the program does not answer in time
   /// A solver that has solved a system of more unknowns gives other rounding errors afterwards, and
   /// is replaced by a new process before the next placement. A run that is continued after an
   /// interrupt then gives the same bits.

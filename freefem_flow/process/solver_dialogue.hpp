@@ -36,9 +36,11 @@ class SolverDialogue {
   /// lines that begin with another word than `word` and `error` are left out.
   void expect(std::string_view word, bool skip_lines = false);
 
+  /// The next word of the answer.
   std::string word();
   double number();            ///< a finite number
   double number_from_zero();  ///< a finite number >= 0
+  /// The next `count` words of the answer, as finite numbers.
   std::vector<double> numbers(std::size_t count);
   /// A whole number from 0 to `largest`.
   std::int64_t whole_number(std::int64_t largest);

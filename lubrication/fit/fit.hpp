@@ -18,6 +18,7 @@ namespace viscontact::lubrication {
 /// Which residuals the least squares minimises: kRelative, fit/force - 1; kAbsolute, fit - force.
 enum class Weights { kRelative, kAbsolute };
 
+/// The word for it in fit files: "relative" or "absolute".
 std::string_view to_string(Weights weights);
 
 /// Translates "relative" or "absolute". Throws Error(kBadInput) for another word.
@@ -61,8 +62,11 @@ struct Fit {
   double viscosity = 0;                     ///< mu [M/(L T)], > 0
   double radius = 0;                        ///< r [L], > 0
   std::array<double, 2> gap_interval = {};  ///< [L], 0 < first < second
+  /// The residuals that the least squares minimised.
   Weights weights = Weights::kRelative;
+  /// The loss function that was applied to them.
   Loss loss = Loss::kSquared;
+  /// The terms with their coefficients, at least one.
   std::vector<FitTerm> terms;
   /// Largest |fit/force - 1| of all rows, outliers included, >= 0.
   double largest_relative_residual = 0;

@@ -53,6 +53,7 @@ struct WorstToEstimate {
 /// a linear solver makes them equal; standard errors and leave-one-out residuals are then too
 /// small.
 struct FitDiagnostics {
+  /// Number of rows of the table, outliers included.
   std::size_t rows = 0;
   /// Rows that the table should have and has not, because they could not be computed.
   std::size_t failed_rows = 0;
@@ -69,14 +70,16 @@ struct FitDiagnostics {
   /// Root mean square and largest size of the relative residuals that each row has in the fit of
   /// the other rows, r_i/(1 - h_i) with the leverage h_i (PRESS, Allen 1974). Nothing if a row is
   /// needed to determine the coefficients.
-  std::optional<double> leave_one_out_rms{}, leave_one_out_largest{};
+  std::optional<double> leave_one_out_rms{},  ///< the root mean square, >= 0
+      leave_one_out_largest{};                ///< the largest size, >= 0
   /// Gap [L] of the row with the largest of them.
   std::optional<double> leave_one_out_gap{};
   /// The inner row and the end row with the largest of these residuals. The fit of the other rows
   /// interpolates to an inner row and extrapolates to an end row, which is alone at the smallest or
   /// largest gap. Only the inner row shows how large the error of the formula may be between the
   /// rows. Nothing if leave_one_out_rms is nothing, or if the table has no such row.
-  std::optional<LeftOutRow> left_out_inner{}, left_out_end{};
+  std::optional<LeftOutRow> left_out_inner{},  ///< the inner row
+      left_out_end{};                          ///< the end row
   /// Number of rows, without outliers, whose |residual| is larger than their own error estimate.
   std::size_t rows_beyond_estimate = 0;
   /// Nothing if no row that is not an outlier has an error estimate, or if an earlier version of

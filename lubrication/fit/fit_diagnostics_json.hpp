@@ -10,6 +10,7 @@ namespace viscontact::lubrication {
 /// Throws Error(kBadInput), which names the key, for a missing, unknown or wrong value.
 FitDiagnostics read_diagnostics(const JsonObject& json);
 
+/// The JSON object from which read_diagnostics() reads the same diagnostics.
 Json write_diagnostics(const FitDiagnostics& diagnostics);
 
 }  // namespace viscontact::lubrication

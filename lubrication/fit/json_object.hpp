@@ -27,6 +27,7 @@ inline std::string shown(const Json& value) {
 /// has another type or is not allowed. The document must outlive the object.
 class JsonObject {
  public:
+  /// The whole document, whose value must be an object.
   explicit JsonObject(const JsonDocument& document) : JsonObject(document, document.root(), "") {}
 
   /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object
@@ -37,11 +38,13 @@ class JsonObject {
                     fmt::format("{} {}", where.empty() ? "the file" : where, what));
   }
 
+  /// The value of the key, of any type.
   const Json& at(const std::string& key) const {
     if (!has(key)) fail(key, "is missing; a fit file must have this key");
     return json_.at(key);
   }
 
+  /// A finite number.
   double number(const std::string& key) const { return finite(key, at(key)); }
 
   /// `value` as a finite number. `key` is its name in messages.
@@ -59,6 +62,7 @@ class JsonObject {
     return value;
   }
 
+  /// A text, which may be empty.
   std::string text(const std::string& key) const {
     if (!at(key).is_string())
       fail(key, fmt::format("is {}; it must be a text in quotes", shown(at(key))));
@@ -70,12 +74,14 @@ class JsonObject {
     return at(key).is_null() ? std::nullopt : std::optional(number(key));
   }
 
+  /// A whole number >= 0.
   std::size_t count(const std::string& key) const {
     if (!at(key).is_number_unsigned())
       fail(key, fmt::format("is {}; it must be a whole number >= 0", shown(at(key))));
     return at(key).get<std::size_t>();
   }
 
+  /// True or false.
   bool boolean(const std::string& key) const {
     if (!at(key).is_boolean())
       fail(key, fmt::format("is {}; it must be true or false", shown(at(key))));
@@ -96,8 +102,10 @@ class JsonObject {
     }
   }
 
+  /// True if the object has the key.
   bool has(const std::string& key) const { return json_.contains(key); }
 
+  /// An array, which may be empty.
   const Json& array(const std::string& key) const {
     if (!at(key).is_array()) fail(key, fmt::format("is {}; it must be an array", shown(at(key))));
     return at(key);

@@ -50,7 +50,8 @@ struct MotionTable {
   bool neighbour_moves = false;            ///< true if the neighbour has a velocity of its own
   /// Theory's coefficient of ln q (sliding, rolling) or q ln q (spinning) in the force factor and
   /// in the torque factor, with q in the unit of the table; nothing if not known.
-  std::optional<double> leading_force_factor, leading_torque_factor;
+  std::optional<double> leading_force_factor,  ///< the coefficient in the force factor
+      leading_torque_factor;                   ///< the coefficient in the torque factor
   std::string case_hash;  ///< SHA-256 of the inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions of the tabulation, if there were several: each has a table of its own.

@@ -22,18 +22,21 @@ namespace viscontact::lubrication {
 ///   T_y = slide_roll u - roll w,   T_z = -spin w_z.
 enum class PairEntry { kSqueeze, kSlide, kRoll, kSlideRoll, kSpin };
 
+/// A resistance of a pair, and what its fits may contain.
 struct NamedEntry {
   std::string_view name;         ///< "slide_roll"; in files and in exported code
   std::string_view description;  ///< one line
   /// Terms of bases that theory does not have in this entry near contact.
   std::vector<std::string_view> absent_terms;
   std::string_view leading_term;  ///< the most singular term that theory has
+  /// The condition that a fit of this entry must fulfil.
   FittedShape shape;
 };
 
 /// All entries, in the order of PairEntry.
 std::span<const NamedEntry> pair_entries();
 
+/// Name of the basis that is fitted if the user chooses none.
 inline constexpr std::string_view kDefaultPairBasis = "asymptotic_cubic";
 
 /// The names of the bases for the entries of a pair: asymptotic and asymptotic_extended as in
@@ -56,13 +59,14 @@ struct EntryFit {
   std::optional<double> theory;
 };
 
+/// The fits of the resistances of a pair: the content of a fit file of a pair.
 struct PairFit {
-  double viscosity = 0;                     ///< mu [M/(L T)], > 0
-  double radius = 0;                        ///< r [L], > 0
-  std::string geometry;                     ///< the neighbour in words; may be empty
-  std::array<double, 2> gap_interval = {};  ///< [L]: the gaps at which all entries are known
-  std::map<PairEntry, EntryFit> entries;    ///< those of the tables that were fitted
-  std::map<std::string, std::string> versions;
+  double viscosity = 0;                         ///< mu [M/(L T)], > 0
+  double radius = 0;                            ///< r [L], > 0
+  std::string geometry;                         ///< the neighbour in words; may be empty
+  std::array<double, 2> gap_interval = {};      ///< [L]: the gaps at which all entries are known
+  std::map<PairEntry, EntryFit> entries;        ///< those of the tables that were fitted
+  std::map<std::string, std::string> versions;  ///< program name to version
 };
 
 /// The value of an entry [see EntryFit] at a gap [L]. Throws Error(kBadInput) if the fit lacks the

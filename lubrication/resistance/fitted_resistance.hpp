@@ -21,8 +21,10 @@ struct ResistanceWithSlopes {
 /// Evaluates a ResistanceFit.
 class FittedResistance {
  public:
+  /// Copies what it needs from `fit`, so that `fit` need not outlive the object.
   explicit FittedResistance(const ResistanceFit& fit);
 
+  /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return radii_; }
 
   /// The smallest and the largest value of gap k [L] in the table.

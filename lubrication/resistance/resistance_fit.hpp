@@ -33,7 +33,8 @@ struct ResistanceFit {
   double largest_relative_residual = 0;
   /// The same for rows that are predicted from the other rows with the same other gaps, >= 0; the
   /// largest, and the root mean square.
-  double largest_left_one_out_error = 0, rms_left_one_out_error = 0;
+  double largest_left_one_out_error = 0,        ///< the largest
+      rms_left_one_out_error = 0;               ///< the root mean square
   std::string table_sha256;                     ///< checksum of the table file; may be empty
   std::map<std::string, std::string> versions;  ///< program name to version
 };

@@ -32,17 +32,20 @@ struct ResistanceRow {
   double largest_error_estimate() const;
 };
 
+/// A table of resistance matrices of spheres in a line, with the problem that it was computed for.
 struct ResistanceTable {
   double viscosity = 0;       ///< mu [M/(L T)], > 0
   std::vector<double> radii;  ///< of the spheres along the line [L], at least 2, > 0
   std::string container;      ///< walls around the fluid, in words; may be empty
   std::string case_hash;      ///< SHA-256 of the inputs; empty if the table has none
   std::map<std::string, std::string> versions;  ///< program name to version
+  /// One row for each combination of gaps that was computed.
   std::vector<ResistanceRow> rows;
 };
 
 /// The fewest and the most spheres of a table.
-inline constexpr std::size_t kFewestSpheres = 2, kMostSpheres = 10;
+inline constexpr std::size_t kFewestSpheres = 2,  ///< the fewest
+    kMostSpheres = 10;                            ///< the most
 
 /// Position of R_ij in ResistanceRow::entries of `spheres` spheres; i and j count from 0, in any
 /// order.

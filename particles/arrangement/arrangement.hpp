@@ -17,6 +17,7 @@ struct Arrangement {
   std::size_t count = 0;    ///< number of discs, >= 1
   double radius = 0;        ///< r of each disc [L], > 0
   double smallest_gap = 0;  ///< least gap of two discs, and of a disc and a wall [L], >= 0
+  /// Seed of the random numbers: the same seed gives the same arrangement, bit for bit.
   std::uint64_t seed = 1;
 };
 

@@ -40,11 +40,16 @@ class Places {
     }
   }
 
+  /// True if there is no place for a centre.
   bool are_empty() const { return !(from_[0] <= to_[0] && from_[1] <= to_[1]); }
+  /// Period in direction `d` [L]; 0 if the domain is not periodic in it. `d` is 0 for x, 1 for y.
   double period(std::size_t d) const { return periods_[d]; }
+  /// Smallest coordinate of a place in direction `d` [L].
   double from(std::size_t d) const { return from_[d]; }
+  /// Largest less smallest coordinate of a place in direction `d` [L].
   double length(std::size_t d) const { return to_[d] - from_[d]; }
 
+  /// True if a centre may be at `x`.
   bool contain(const Point& x) const {
     if (!round_) return from_[0] <= x[0] && x[0] <= to_[0] && from_[1] <= x[1] && x[1] <= to_[1];
     const double dx = x[0] - centre_[0], dy = x[1] - centre_[1];
@@ -79,6 +84,7 @@ class Places {
     return {centre_[0] + factor * dx, centre_[1] + factor * dy};
   }
 
+  /// A random place, uniformly distributed.
   Point random(SplitMix64& random) const {
     for (;;) {
       Point x{};

@@ -28,6 +28,7 @@ class BlockFactor {
   /// an edge may occur several times.
   void analyse(std::size_t bodies, std::span<const Edge> edges);
 
+  /// Number of bodies that analyse() was given.
   std::size_t bodies() const { return order_.size(); }
   /// Number of blocks of L, and of U.
   std::size_t entries() const { return rows_.size(); }

@@ -22,7 +22,9 @@ using Motion = std::array<double, static_cast<std::size_t>(D + kTurns<D>)>;
 /// What moves as one: a particle, or a rigid body of several particles.
 template <int D>
 struct RigidUnit {
+  /// Number of components of a rotation: 1 in the plane, 3 in space.
   static constexpr auto kTurnDirections = static_cast<std::size_t>(kTurns<D>);
+  /// Number of entries of the matrix that takes a moment to a rotation.
   static constexpr std::size_t kTurnEntries = kTurnDirections * kTurnDirections;
   Motion<D> free{};     ///< h (u*, w*) of the motion without constraints
   double mobility = 0;  ///< h/m [T/M]
@@ -60,24 +62,27 @@ template <int D>
 struct ConstraintRow {
   std::int32_t first = -1;  ///< number of a unit; -1: an obstacle, or a fixed point
   std::int32_t second = 0;  ///< number of a unit
-  Motion<D> of_first{}, of_second{};
-  double offset = 0;
+  /// Coefficients of the motions of both units: [1] for displacements, [L] for rotations.
+  Motion<D> of_first{},  ///< those of the motion of `first`
+      of_second{};       ///< those of the motion of `second`
+  double offset = 0;     ///< value of the row if no unit moves [L]
 };
 
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
 /// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
 /// kMostRows rows, which must be 0, or proportional to their impulses.
 struct ConstraintBlock {
-  std::size_t row = 0;   ///< number of its first row
-  std::size_t rows = 1;  ///< number of its rows
-  bool is_contact = true;
-  double lowest = 0;    ///< lower bound gamma^n of the normal impulse [M L/T]
-  double friction = 0;  ///< mu_s >= 0
+  std::size_t row = 0;     ///< number of its first row
+  std::size_t rows = 1;    ///< number of its rows
+  bool is_contact = true;  ///< false: a bilateral constraint
+  double lowest = 0;       ///< lower bound gamma^n of the normal impulse [M L/T]
+  double friction = 0;     ///< mu_s >= 0
   /// Impulse gamma^n - gamma_min that the film of the contact can still absorb [M L/T], >= 0.
   double capacity = 0;
   /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows, and
   /// of the tangential rows of a contact.
-  double allowed = 0, allowed_slip = 0;
+  double allowed = 0,    ///< of the gap or bilateral rows [L]
+      allowed_slip = 0;  ///< of the tangential rows [L]
   /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p
   /// [T/M], >= 0.
   double compliance = 0;
@@ -97,10 +102,10 @@ inline constexpr std::size_t kMostRows = 3;
 /// law, and every bilateral row is 0 or, with a compliance, -compliance p.
 template <int D>
 struct ConstraintProblem {
-  std::vector<RigidUnit<D>> units;
-  std::vector<ConstraintRow<D>> rows;
-  std::vector<ConstraintBlock> blocks;
-  std::vector<double> impulses;  ///< of the rows [M L/T]: a guess, then the solution
+  std::vector<RigidUnit<D>> units;      ///< all particles and bodies that take part
+  std::vector<ConstraintRow<D>> rows;   ///< those of each block follow each other
+  std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
+  std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
   /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
   /// impulses in the FrictionCone, and a sliding contact opens by h mu_s |v_t|.
   bool lifts_sliding = false;
@@ -118,9 +123,9 @@ inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double 
 struct FrictionCone {
   /// Where the point is.
   enum class Part { kApex, kInside, kSurface };
-  Part part = Part::kApex;
-  double load = 0;        ///< p_s >= 0 [M L/T]
-  double tangential = 1;  ///< factor by which p_t was shortened
+  Part part = Part::kApex;  ///< where the point is
+  double load = 0;          ///< p_s >= 0 [M L/T]
+  double tangential = 1;    ///< factor by which p_t was shortened
 
   /// Point of the cone nearest to impulses with the load `p_s` and |p_t| = `length` in the norm
   /// w_n p_s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
@@ -167,7 +172,8 @@ std::vector<double> row_mobilities(const ConstraintProblem<D>& problem);
 /// w |p - P(p - v/w)|, where P projects on the cone; of a bilateral constraint the largest |v +
 /// compliance p|.
 struct BlockResidual {
-  double normal = 0, tangential = 0;
+  double normal = 0,   ///< of the gap or bilateral rows [L], >= 0
+      tangential = 0;  ///< of the tangential rows [L], >= 0; 0 without friction
   /// The larger of both, divided by what is allowed.
   double share(const ConstraintBlock& block) const {
     const double of_normal = normal / block.allowed;
@@ -175,6 +181,8 @@ struct BlockResidual {
     return of_normal > of_slip ? of_normal : of_slip;
   }
 };
+/// The residual of `block`. `lifts_sliding` is that of ConstraintProblem; `v`, `p` and `w` point to
+/// the numbers of the first row of the block.
 BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
                           const double* p, const double* w);
 

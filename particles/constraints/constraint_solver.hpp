@@ -9,11 +9,12 @@
 
 namespace viscontact::particles {
 
+/// What solve_constraints() found, besides the impulses.
 template <int D>
 struct ConstraintSolution {
-  SolverResult result;  ///< SolverResult::residual is divided by what is allowed
-  std::vector<Motion<D>> motions;
-  std::vector<BlockResidual> residuals;
+  SolverResult result;                   ///< SolverResult::residual is divided by what is allowed
+  std::vector<Motion<D>> motions;        ///< y of the units ([L], [rad])
+  std::vector<BlockResidual> residuals;  ///< of the blocks [L]
 };
 
 /// Improves problem.impulses until the residual of each block is allowed, or until about

@@ -24,13 +24,17 @@ namespace viscontact::particles {
 /// simulation: before the solution they hold the motion without constraints, after it that of the
 /// solution.
 struct ConstraintStep {
+  /// Law of friction between the solids.
   FrictionLaw friction;
+  /// Law of the film in contact.
   ContactLaw law;
+  /// The planes, which may move.
   std::span<const Plane> obstacles;
-  double begin = 0, end = 0;  ///< of the step [T]
-  bool is_first = false;      ///< LinkTimes::is_first
-  double kick = 0;            ///< time for which forces act on the velocities in it [T]
-  std::span<double> turns;    ///< h w of all particles [rad]
+  double begin = 0,         ///< time at which the step begins [T]
+      end = 0;              ///< time at which the step ends [T]
+  bool is_first = false;    ///< LinkTimes::is_first
+  double kick = 0;          ///< time for which forces act on the velocities in it [T]
+  std::span<double> turns;  ///< h w of all particles [rad]
   std::span<const double> turn_mobilities;  ///< h/I [T/(M L^2)]
   std::span<BodyStep> bodies;               ///< of all rigid bodies
   const Links* links = nullptr;             ///< must be there, but may be empty
@@ -38,6 +42,7 @@ struct ConstraintStep {
   std::span<double> link_forces;
 };
 
+/// The contacts, rigid bodies and links of a step as one ConstraintProblem, and its solution.
 template <int D>
 class ConstraintSystem {
  public:
@@ -54,6 +59,7 @@ class ConstraintSystem {
 
   /// The equations of the links, and what their residuals may be [L], to be set before solve().
   const std::vector<LinkEquations>& links() const { return links_; }
+  /// The allowed residual of each link [L], > 0, in the order of links().
   std::vector<double> links_allowed;
 
   /// Takes the place of ContactSystem::solve. Also sets the turns of all particles that take part

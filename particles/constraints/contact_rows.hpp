@@ -19,9 +19,10 @@ template <int D>
 struct ContactTangents {
   std::array<Vector, static_cast<std::size_t>(D - 1)> directions;  ///< unit vectors
   /// Distances of the contact point from the centres of both particles [L].
-  double first_arm = 0, second_arm = 0;
-  Vector surface{};     ///< displacement of the surface of the obstacle in the step [L]
-  double capacity = 0;  ///< ConstraintBlock::capacity
+  double first_arm = 0,  ///< from the centre of the first particle
+      second_arm = 0;    ///< from the centre of the second particle
+  Vector surface{};      ///< displacement of the surface of the obstacle in the step [L]
+  double capacity = 0;   ///< ConstraintBlock::capacity
 };
 
 /// The tangents of a contact in a step from time `begin` to `end` [T].

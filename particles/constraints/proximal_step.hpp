@@ -38,8 +38,11 @@ class ProximalStep {
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 
+  /// True if Newton's method made no progress in the last solve().
   bool failed() const { return failed_; }
+  /// Impulses of the rows that the last solve() found [M L/T].
   const std::vector<double>& impulses() const { return projected_; }
+  /// Motions of the units that the last solve() found [L], [rad].
   const std::vector<Motion<D>>& motions() const { return y_; }
 
  private:

@@ -11,21 +11,23 @@ namespace viscontact::particles {
 
 /// The inside of a circle, in two dimensions. Its wall is obstacle -1.
 struct DiscDomain {
-  Vector centre{};
+  Vector centre{};    ///< [L]
   double radius = 0;  ///< [L], > 0
 };
 
 /// A rectangle, in two dimensions. Its walls are the obstacles -1, -2, ... in the order left,
 /// right, bottom, top; a side that is periodic is no obstacle and has no number.
 struct BoxDomain {
-  std::array<double, 2> from{}, to{};  ///< corners [L], from < to in both components
-  std::array<bool, 2> periodic{};      ///< whether the left and right, bottom and top sides are one
+  std::array<double, 2> from{},    ///< lower left corner [L], < `to` in both components
+      to{};                        ///< upper right corner [L]
+  std::array<bool, 2> periodic{};  ///< whether the left and right, bottom and top sides are one
 };
 
 /// A closed cylinder about the axis z, with its floor at z = 0. All particles are spheres on the
 /// axis. Its side is obstacle -1, which no particle reaches; its floor is -2 and its lid is -3.
 struct CylinderDomain {
-  double radius = 0, height = 0;  ///< [L], > 0
+  double radius = 0,  ///< [L], > 0
+      height = 0;     ///< [L], > 0
 };
 
 /// monostate: no domain, so that only planes bound the particles.

@@ -35,6 +35,7 @@ namespace viscontact::particles {
 template <int D>
 class ContactGraph {
  public:
+  /// D components of a vector in space.
   using Vec = std::array<double, D>;
 
   /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
@@ -42,9 +43,12 @@ class ContactGraph {
   ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                std::span<const double> mobilities, ThreadPool& pool);
 
+  /// Number of contacts.
   std::size_t count() const { return rows_.size(); }
+  /// Number of bodies, of which the last one stands for all planes.
   std::size_t bodies() const { return offsets_.size() - 1; }
   std::size_t displacement_count() const { return bodies() * D; }  ///< numbers in a vector y = B z
+  /// The threads that work on the blocks of contacts.
   ThreadPool& pool() const { return *pool_; }
 
   std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
@@ -95,13 +99,16 @@ class ContactGraph {
   std::vector<double> block_bodies(std::size_t begin) const {
     return std::vector<double>(block_bodies_[begin / ThreadPool::kBlock] * D);
   }
+  /// to_contact() from the displacements `y` of the bodies of the block of contact `c`.
   double to_contact_in_block(std::size_t c, const double* y) const {
     return product(rows_[c], y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
   }
+  /// Adds B (change of z_c) to the displacements `y` of the bodies of the block of contact `c`.
   void add_in_block(std::size_t c, double change, double* y) const {
     add(rows_[c], change, y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
   }
 
+  /// True if z_c is above its bound.
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
   /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. W_cc is

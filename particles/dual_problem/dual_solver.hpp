@@ -7,8 +7,9 @@
 
 namespace viscontact::particles {
 
+/// How the solution of a dual problem ended.
 struct SolverResult {
-  int iterations = 0;
+  int iterations = 0;  ///< number of iterations done, >= 0
   /// Largest ContactGraph::residual. All contacts have converged if it is at most 1.
   double residual = 0;
 };

@@ -27,6 +27,7 @@ class FreeSetFactor {
   /// or if W cannot be factorised. Calls with the same number of contacts share one order of
   /// elimination.
   bool factorise(const ContactGraph<D>& graph, const std::vector<char>& free);
+  /// True if the last factorise() succeeded.
   bool exists() const;
 
   /// Sets solved = (W + epsilon)^-1 gradient between the contacts of the factor, 0 for all others.

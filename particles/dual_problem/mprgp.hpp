@@ -28,6 +28,7 @@ namespace viscontact::particles {
 template <class Graph, class Preconditioner>
 class Mprgp {
  public:
+  /// Starts from graph.z, projected on its bounds. `graph` must outlive the object.
   Mprgp(Graph& graph, Preconditioner preconditioner)
       : graph_(graph),
         preconditioner_(std::move(preconditioner)),
@@ -61,8 +62,10 @@ class Mprgp {
     restart_ = true;
   }
 
+  /// Largest residual, divided by what is allowed: at most 1 if all contacts have converged.
   double residual() const { return statistics_.residual; }
 
+  /// Solves the problem without the regularisation from now on.
   void drop_regularisation() {
     regularisation_ = 0;
     refresh();

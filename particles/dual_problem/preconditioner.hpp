@@ -19,8 +19,10 @@ namespace viscontact::particles {
 template <int D>
 class Preconditioner {
  public:
+  /// Tells Mprgp that sweeps() may be true.
   static constexpr bool kMaySweep = true;
 
+  /// Both arguments must outlive the object.
   Preconditioner(const ContactGraph<D>& graph, FreeSetFactor<D>& factor)
       : graph_(graph), factor_(factor), half_swept_(graph.count()) {}
 

@@ -12,17 +12,22 @@ namespace viscontact::particles {
 
 /// The velocities and forces of a step.
 struct FluidSimulation::Motion {
-  std::vector<double> flow;    ///< velocities in the fluid's problem: U, with contact
-  std::vector<double> drag;    ///< forces of the particles on the fluid
-  std::vector<double> free;    ///< U^+ without contact
-  std::vector<double> moved;   ///< velocities with which the particles move: U^+ with contact
-  std::vector<double> linear;  ///< `moved` without the finite turns of rigid bodies
-  std::vector<double> link_forces, arm_powers;
-  std::vector<double> at_end;    ///< u^{n+1}
+  std::vector<double> flow;         ///< velocities in the fluid's problem: U, with contact
+  std::vector<double> drag;         ///< forces of the particles on the fluid
+  std::vector<double> free;         ///< U^+ without contact
+  std::vector<double> moved;        ///< velocities with which the particles move: U^+ with contact
+  std::vector<double> linear;       ///< `moved` without the finite turns of rigid bodies
+  std::vector<double> link_forces,  ///< State::link_forces after the step
+      arm_powers;                   ///< State::arm_powers after the step [M L^2/T^3]
+  std::vector<double> at_end;       ///< u^{n+1}
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
+  /// The contacts of the step, solved.
   StepContacts contact;
+  /// What the step reports.
   FluidStepReport fluid;
+  /// Dissipation, apparent viscosity and forces of the flow.
   FlowQuantities quantities;
+  /// Estimates of the errors of the forces; empty if they were not made.
   ForceErrors force_errors;
 };
 

@@ -53,7 +53,10 @@ class StepEquation {
   std::vector<double> velocities_of_work(std::span<const double> flow,
                                          std::span<const double> drag) const;
 
+  /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
+  /// True if particle `k` has theta = 1 because its velocity may jump: it, or its rigid body, has a
+  /// contact in the step before or in put_in_contact(), or the length of its arm has a kink.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
   /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the

@@ -18,9 +18,11 @@
 
 namespace viscontact::particles {
 
-/// Collects the <AppendedData> of a file and makes the elements that refer to it.
+/// Collects the `AppendedData` of a file and makes the elements that refer to it.
 class AppendedData {
  public:
+  /// Appends `values` and returns the element `DataArray` that refers to them. `type` is their type
+  /// in VTK, such as Float64, and `components` the number of values at a point or cell.
   template <class Number>
   std::string array(const char* type, const char* name, int components,
                     const std::vector<Number>& values) {
@@ -51,12 +53,17 @@ class AppendedData {
 
 /// The cells of PolyData: vertices, which VTK numbers first, and lines between two points.
 struct PolyCells {
-  std::vector<std::int64_t> vertices, vertex_ends, lines, line_ends;
+  std::vector<std::int64_t> vertices,  ///< numbers of the points that are vertices, from 0
+      vertex_ends,  ///< for each vertex, the number of entries of `vertices` up to it
+      lines,        ///< numbers of the two points of each line, from 0
+      line_ends;    ///< for each line, the number of entries of `lines` up to it
 
+  /// Adds a vertex at the point with this number.
   void add_vertex(std::int64_t point) {
     vertices.push_back(point);
     vertex_ends.push_back(std::ssize(vertices));
   }
+  /// Adds a line between the points with these numbers.
   void add_line(std::int64_t first, std::int64_t second) {
     lines.insert(lines.end(), {first, second});
     line_ends.push_back(std::ssize(lines));
@@ -104,13 +111,13 @@ class AppendedReader {
     bytes_ = text.substr(mark + kMark.size());
   }
 
-  /// True if the element <section> or <section ...> has the array `name`.
+  /// True if an element `section`, with or without attributes, has the array `name`.
   bool has_array(std::string_view section, std::string_view name) const {
     return after_name(section, name).has_value();
   }
 
-  /// The array `name` in the element <section> or <section ...>. Throws Error(kBadInput), which
-  /// names the file, if there is none or it is cut short.
+  /// The array `name` in the element `section`, with or without attributes. Throws
+  /// Error(kBadInput), which names the file, if there is none or it is cut short.
   template <class Number>
   std::vector<Number> array(std::string_view section, std::string_view name) const {
     const auto element = after_name(section, name);
@@ -127,6 +134,7 @@ class AppendedReader {
     return values;
   }
 
+  /// Throws Error(kBadInput), which names the file and says that it is not whole.
   [[noreturn]] void refuse() const {
     throw_bad_input({file_}, "is not a whole " + what_ + " that viscontact particles wrote");
   }

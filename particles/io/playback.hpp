@@ -32,19 +32,22 @@ struct Frame {
 struct DrawnLinks {
   using Ends = std::array<std::int32_t, 2>;  ///< numbers of two particles
   std::vector<Vector> hinges{};              ///< their places [L]
-  std::vector<Ends> springs{}, arms{};
+  std::vector<Ends> springs{},               ///< the particles of each spring
+      arms{};                                ///< the particles of each arm
+  /// True if there is nothing to draw.
   bool empty() const { return hinges.empty() && springs.empty() && arms.empty(); }
 };
 
 /// All frames that a page or a picture shows.
 struct Playback {
-  int dimension = 2;
+  int dimension = 2;                ///< of space: 1, 2 or 3
   std::vector<float> radii;         ///< [L]
   std::vector<Frame> frames;        ///< in order of time, from the start on
   std::vector<std::int32_t> ids{};  ///< as in Particles
   PeriodicCell cell{};              ///< as in Particles
   /// Number of the rigid body of each particle, -1: none; empty if there are no bodies.
   std::vector<std::int32_t> bodies{};
+  /// The links; empty if there are none.
   DrawnLinks links{};
   bool has_friction = false;  ///< whether contacts stick and slide
 };

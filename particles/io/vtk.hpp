@@ -28,7 +28,8 @@ struct VtpContent {
   /// Flat array [L], `dimension` numbers for each particle.
   std::vector<double> positions;
   /// Of each particle, counter-clockwise [rad], [1/T]; empty if they do not turn, or are in space.
-  std::vector<double> angles, angular_velocities;
+  std::vector<double> angles,  ///< of each particle [rad]
+      angular_velocities;      ///< of each particle [1/T]
   /// Unit quaternions (w, x, y, z) of spheres in space; empty if they do not turn.
   std::vector<double> orientations;
   /// In the order of contacts_of: first pairs of particles, then particles at obstacles.

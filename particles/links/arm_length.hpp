@@ -18,10 +18,13 @@ struct PiecewiseLinearLength {
 
 /// mean + amplitude sin(angular_frequency t + phase).
 struct SinusoidalLength {
-  double mean = 0, amplitude = 0;           ///< [L]
-  double angular_frequency = 0, phase = 0;  ///< [1/T], [rad]
+  double mean = 0,               ///< [L]
+      amplitude = 0;             ///< [L]
+  double angular_frequency = 0,  ///< [1/T]
+      phase = 0;                 ///< [rad]
 };
 
+/// Length of an arm as a function of time.
 using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
 
 /// Length at time `t` >= 0 [T].

@@ -17,7 +17,7 @@ struct RowPart {
   std::int32_t particle = -1;  ///< of the unit; -1: no unit, a fixed place
   Vector direction{};          ///< a unit vector; with `is_turn`, not used
   Vector arm{};                ///< [L]
-  bool is_turn = false;
+  bool is_turn = false;        ///< true: the turn about z; false: the displacement
   /// Periods from the particle to its image that the equation means.
   Periods image{};
 };
@@ -26,7 +26,8 @@ struct RowPart {
 /// `first` and `second` are motions of images: in a sheared cell, those of the particles and
 /// image_rate().
 struct LinkRow {
-  RowPart first, second;
+  RowPart first,          ///< of the first unit, or of a fixed place
+      second;             ///< of the second unit
   double value = 0;       ///< before the step, with the length at its end [L], or angle [rad]
   double compliance = 0;  ///< [T/M]; 0: the equation holds whatever impulse it needs
   // Of springs: what value and compliance follow from.
@@ -36,10 +37,12 @@ struct LinkRow {
 
 /// The equations of one link, all of them between the same units, and what they are called.
 struct LinkEquations {
+  /// The kind of link; kTorsion is the torsion spring of a hinge.
   enum class Kind { kHinge, kTorsion, kSpring, kArm };
-  Kind kind = Kind::kArm;
+  Kind kind = Kind::kArm;       ///< the kind of this link
   std::size_t number = 0;       ///< of the link in its list
   std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
+  /// The equations, at least one.
   std::vector<LinkRow> rows{};
 };
 
@@ -67,7 +70,8 @@ double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Displacements and turns of the unit of a particle: 3 numbers each, of discs in the plane.
 struct UnitMotion {
-  Vector displacement{}, turn{};
+  Vector displacement{},  ///< [L]
+      turn{};             ///< [rad]; only the component z in the plane
 };
 
 /// Values of the rows of a link for the motions of its first and second unit, with their finite

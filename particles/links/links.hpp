@@ -34,15 +34,17 @@ struct Hinge {
 
 /// Pulls or pushes the centres of two particles with the force stiffness * (distance - length).
 struct Spring {
-  std::int32_t first = 0, second = 0;  ///< numbers of particles, not of one body
-  double stiffness = 0;                ///< [M/T^2], > 0
-  double length = 0;                   ///< at which it is relaxed [L], >= 0
+  std::int32_t first = 0,  ///< number of a particle
+      second = 0;          ///< number of another particle, not of the same body
+  double stiffness = 0;    ///< [M/T^2], > 0
+  double length = 0;       ///< at which it is relaxed [L], >= 0
 };
 
 /// Keeps the distance of the centres of two particles at a length prescribed in time.
 struct Arm {
-  std::int32_t first = 0, second = 0;  ///< numbers of particles, not of one body
-  ArmLength length;                    ///< > 0 at all times
+  std::int32_t first = 0,  ///< number of a particle
+      second = 0;          ///< number of another particle, not of the same body
+  ArmLength length;        ///< > 0 at all times
 };
 
 /// The links of a case.
@@ -59,12 +61,15 @@ struct Links {
   std::size_t force_count(int dimension) const {
     return hinges.size() * forces_of_hinge(dimension) + springs.size() + arms.size();
   }
+  /// Number of forces of one hinge in State::link_forces.
   static std::size_t forces_of_hinge(int dimension) {
     return static_cast<std::size_t>(dimension) + (dimension == 2 ? 1 : 0);
   }
+  /// Place of the force of spring `k` (from 0) in State::link_forces.
   std::size_t place_of_spring(std::size_t k, int dimension) const {
     return hinges.size() * forces_of_hinge(dimension) + k;
   }
+  /// Place of the force of arm `k` (from 0) in State::link_forces.
   std::size_t place_of_arm(std::size_t k, int dimension) const {
     return place_of_spring(springs.size(), dimension) + k;
   }

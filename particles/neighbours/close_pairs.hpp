@@ -14,8 +14,10 @@ namespace viscontact::particles {
 
 /// Two particles that are close to each other.
 struct ClosePair {
-  std::int32_t first, second;  ///< first < second
-  std::int32_t image = 0;      ///< of second (periods.hpp)
+  std::int32_t first,      ///< number of a particle, < second
+      second;              ///< number of a particle
+  std::int32_t image = 0;  ///< of second (periods.hpp)
+  /// True if the particles and the image are the same.
   bool operator==(const ClosePair&) const = default;
 };
 

@@ -29,6 +29,7 @@ class ContactSystem {
         rigid_bodies_(rigid_bodies),
         body_of_(mobilities.size(), -1) {}
 
+  /// Adds a contact and makes its particles take part. Particles of a contact are in one island.
   void add(const Contact<D>& contact);
 
   /// Makes two particles take part, in one island. `first` may be -1: only `second`.

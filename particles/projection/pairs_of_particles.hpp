@@ -16,6 +16,7 @@ namespace viscontact::particles {
 /// projection would find only the next one.
 class PairsOfParticles {
  public:
+  /// `state` must outlive the object, and its list of pairs must not change.
   explicit PairsOfParticles(const State& state)
       : state_(&state),
         pair_count_(state.pairs.size()),

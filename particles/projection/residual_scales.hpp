@@ -24,6 +24,7 @@ struct ResidualScale {
   }
 };
 
+/// Computes the ResidualScale of each contact of a step.
 template <int D>
 class ResidualScales {
  public:

@@ -23,9 +23,9 @@ namespace viscontact::particles {
 
 /// Result of the projection of a step.
 struct ProjectionResult {
-  int iterations = 0;
-  bool converged = true;
-  double residual = 0;  ///< largest residual of all pairs [L]
+  int iterations = 0;     ///< number of iterations of all solutions, >= 0
+  bool converged = true;  ///< false: some residuals are larger than allowed
+  double residual = 0;    ///< largest residual of all pairs [L]
   /// Largest residual as an impulse, divided by the impulses at work in the contact.
   double impulse_residual = 0;
   double excess = 0;        ///< largest residual, divided by the allowed residual of its contact
@@ -36,6 +36,7 @@ struct ProjectionResult {
   /// Largest residual of a link [L]. If some are not allowed: the names of the hinges and arms that
   /// hold the same particles as these links.
   double link_residual = 0;
+  /// Those names; empty if the residuals of all links are allowed.
   std::vector<std::string> unsolved_links;
   std::vector<Pair*> pairs;            ///< pairs in the projection; their impulses are the solution
   std::vector<double> impulse_errors;  ///< residual of each impulse [M L/T], as `pairs`
@@ -62,6 +63,8 @@ class StepProjection {
   /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
   /// object.
   void add_constraints(const ConstraintStep& step);
+  /// Solves the projection and sets the displacements h v. `mean_radius` [L], > 0, is the length
+  /// that the tolerances of `settings` refer to.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 
  private:

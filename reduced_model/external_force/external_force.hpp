@@ -99,12 +99,15 @@ class ExternalForce {
 /// is constant.
 class ForceWalk {
  public:
+  /// Begins at time 0. `force` must outlive the object.
   explicit ForceWalk(const ExternalForce& force) : force_(force) { enter(0); }
 
+  /// The force at `time` [T], >= 0 [M L/T^2].
   double value(double time) {
     go_to(time);
     return constant_ ? level_ : force_.value(time);
   }
+  /// The mean of the force from time `from` to time `to` [M L/T^2].
   double mean(double from, double to) {
     go_to(from);
     return constant_ && to <= end_ ? level_ : force_.mean(from, to);

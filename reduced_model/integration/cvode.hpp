@@ -16,7 +16,8 @@ namespace viscontact::reduced_model {
 /// A stiff system y' = f(t, y) with its Jacobian. Each function may throw an Error for a state in
 /// which it is not defined.
 struct StiffSystem {
-  int dimension = 0;
+  int dimension = 0;  ///< number of components of y, > 0
+  /// Computes f(t, y).
   std::function<void(double time, std::span<const double> y, std::span<double> derivative)>
       derivative;
   /// Stored by columns: entry (i, j) = d f_i/d y_j.
@@ -56,7 +57,9 @@ class Cvode {
   /// at() if the state is needed at many times.
   std::vector<double> expansion(std::size_t i = 0) const;
 
+  /// Time that the integration has reached [T].
   double time() const { return time_; }
+  /// The state y at time(). The span is valid until the next call of a function that changes it.
   std::span<const double> state() const;
   long steps() const;  ///< number of steps since construction
 

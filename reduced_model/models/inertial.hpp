@@ -17,6 +17,7 @@ inline constexpr ModelParameter kRelativeTolerance = {
     "1",
     {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"},
     [](const Motion&, double) { return 1e-9; }};
+/// The parameters of inertial().
 inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelativeTolerance};
 
 /// Integrates problem (M) (physics.md (4.1)) with CVODE, in the form (S) of inertial_equation.hpp.

@@ -29,6 +29,7 @@ struct InertialInstant {
 /// `relative_tolerance` is that of the gap [1].
 class InertialEquation {
  public:
+  /// The equation for the sphere of `motion` that is subject to `force`.
   InertialEquation(const Motion& motion, const lubrication::LubricationForce& force,
                    double relative_tolerance);
 

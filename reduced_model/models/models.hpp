@@ -80,9 +80,9 @@ inline constexpr std::string_view kSmoothSuffix = "_smooth";
 struct ModelChoice {
   /// Name of the model with its suffixes.
   std::string name;
-  const Model* model = nullptr;
-  bool exact_drag = false;
-  bool smooth = false;
+  const Model* model = nullptr;  ///< the model without its suffixes
+  bool exact_drag = false;       ///< true: the exact drag in place of the fit (kExactDragSuffix)
+  bool smooth = false;           ///< true: smooth surfaces, whatever the roughness (kSmoothSuffix)
 };
 
 /// The model with this name, which may have suffixes; nothing if there is none.

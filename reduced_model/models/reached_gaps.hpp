@@ -12,7 +12,7 @@ namespace viscontact::reduced_model {
 struct ReachedGaps {
   /// Nothing for a model that evaluates no drag in a thin film.
   std::optional<double> smallest;
-  double largest = 0;
+  double largest = 0;  ///< [L], >= 0
 };
 
 /// Runs the model with `force`, which must be defined for every gap > 0: it must be the exact drag,

@@ -15,11 +15,13 @@ namespace viscontact::reduced_model {
 
 /// The components of the state: s, u - V, w, x and the angle.
 enum RollingState : std::size_t { kLogGap, kMove, kTurn, kPosition, kAngle, kStates };
+/// The state y of the sphere, in the order of RollingState.
 using RollingStateVector = std::array<double, kStates>;
 
 /// What the solids of sphere and plane do at present.
 struct SolidState {
-  bool touches = false;
+  bool touches = false;  ///< true: the gap is constant
+  /// How the solids move along each other; kNone if they do not touch.
   SolidContact contact = SolidContact::kNone;
   double sliding_direction = 0;  ///< the sign of the slip while the sphere slides
 };
@@ -31,7 +33,9 @@ class RollingEquation {
   /// the sphere starts above the interval of gaps of `fit`.
   RollingEquation(const RollingMotion& motion, const lubrication::PairFit& fit, double contact_gap);
 
+  /// The state at time 0.
   RollingStateVector initial_state() const;
+  /// The gap q in the state `y` [L], > 0.
   double gap_of(std::span<const double> y) const;
   /// dq/dt [L/T] at time t.
   double normal_velocity(double t, std::span<const double> y) const;
@@ -46,8 +50,10 @@ class RollingEquation {
   /// For CVODE. `step_begin` is the time at which its present step begins.
   StiffSystem system(const double& step_begin) const;
 
+  /// r of the sphere [L], > 0.
   double radius() const { return radius_; }
 
+  /// What the solids do at present. Callers change it between two steps of CVODE.
   SolidState solids;
 
  private:

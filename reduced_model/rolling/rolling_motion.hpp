@@ -30,12 +30,14 @@ struct RollingMotion {
   double end_time = 0;               ///< [T], > 0
   double time_step = 0;              ///< of the contact model, and spacing of rows [T], > 0
   double relative_tolerance = 1e-9;  ///< of CVODE, in (0, 1)
+  /// Asks the models to stop early.
   StopToken stop{};
 };
 
 /// What the solids do.
 enum class SolidContact { kNone, kRolling, kSliding };
 
+/// The state of the sphere at one time.
 struct RollingRow {
   double time = 0;             ///< [T]
   double gap = 0;              ///< q [L]; of a contact model that of the film that gamma stands for
@@ -46,9 +48,11 @@ struct RollingRow {
   double angular_velocity = 0;  ///< w [1/T]
   double contact_force = 0;     ///< of the solids along z [M L/T^2], >= 0
   double friction_force = 0;    ///< of the solids along x [M L/T^2]
+  /// What the solids do at this time.
   SolidContact contact = SolidContact::kNone;
 };
 
+/// The motion of a sphere, in order of time.
 using RollingTrajectory = std::vector<RollingRow>;
 
 /// The model of smooth surfaces: lubrication at every gap, CVODE.
@@ -69,8 +73,9 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
 
 /// A model by name.
 struct RollingModel {
-  std::string_view name;
+  std::string_view name;         ///< as users type it
   std::string_view description;  ///< for pages
+  /// Computes the trajectory. `fit` has the resistances of the sphere near the plane.
   RollingTrajectory (*run)(const RollingMotion& motion, const lubrication::PairFit& fit);
 };
 

@@ -16,7 +16,8 @@ struct RollingVelocity {
 
 /// A force along x and a torque about y, or an impulse and its moment.
 struct RollingForce {
-  double force = 0, torque = 0;
+  double force = 0,  ///< [M L/T^2], of an impulse [M L/T]
+      torque = 0;    ///< [M L^2/T^2], of an impulse [M L^2/T]
 };
 
 /// The symmetric matrix that takes velocities to the force and torque against them.
@@ -37,7 +38,9 @@ class RollingFluid {
   RollingResistance at(double gap) const;
   RollingResistance slopes(double gap) const;  ///< d/d ln q of at()
 
+  /// r of the sphere [L], > 0.
   double radius() const { return fit_.radius; }
+  /// Largest gap at which the resistances are known [L].
   double largest_gap() const { return fit_.gap_interval[1]; }
 
  private:
@@ -58,7 +61,8 @@ inline double slip_of(const RollingVelocity& v, double radius) { return v.move -
 
 /// Dry friction (Coulomb): the force along x on the lowest point of a sphere, and what it does.
 struct Friction {
-  double force = 0;
+  double force = 0;  ///< [M L/T^2], of an impulse [M L/T]
+  /// kRolling if the friction prevents slip, otherwise kSliding.
   SolidContact contact = SolidContact::kRolling;
 };
 

@@ -7,7 +7,8 @@ namespace viscontact::reduced_model {
 
 /// Points and weights on [0, 1].
 struct GaussRule {
-  Eigen::VectorXd points, weights;
+  Eigen::VectorXd points,  ///< in (0, 1)
+      weights;             ///< > 0, with the sum 1
 };
 
 /// The rule with `count` > 0 points, exact for polynomials of degree 2 count - 1.

@@ -18,16 +18,19 @@ struct OptimalStrokeRequest {
   Eigen::Index polynomials = 20;  ///< of each arm (PolynomialLoop), at least kFewestPolynomials
 };
 
+/// The fewest polynomials of an arm, with which the search for the optimal stroke begins.
 inline constexpr Eigen::Index kFewestPolynomials = 4;
 
 /// A result with some number of polynomials, from which the convergence can be judged.
 struct OptimalStrokeStep {
-  Eigen::Index polynomials = 0;
+  Eigen::Index polynomials = 0;        ///< of each arm
   double energy = 0;                   ///< at a period of 1 [M L^2/T^2]
   double euler_lagrange_residual = 0;  ///< [1], polynomial_loop.hpp
 };
 
+/// The loop of least energy for a displacement, and how it was found.
 struct OptimalStroke {
+  /// The shapes of the stroke.
   PolynomialLoop loop;
   /// Multiplier of the displacement at a period of 1 [M L/T^2]: the least energy grows by this per
   /// displacement.

@@ -19,8 +19,11 @@ struct PolynomialLoop {
 
 /// The values of s (1 - s) P_j(2 s - 1) and their first and second derivatives by s, j < count.
 struct LoopBasis {
-  Eigen::VectorXd values, slopes, second_slopes;
+  Eigen::VectorXd values,  ///< [1]
+      slopes,              ///< first derivatives [1]
+      second_slopes;       ///< second derivatives [1]
 };
+/// The first `count` > 0 functions of the basis at `s` from 0 to 1.
 LoopBasis loop_basis(double s, Eigen::Index count);
 
 /// The loop as a stroke of one leg.
@@ -32,15 +35,17 @@ PolynomialLoop with_more_polynomials(const PolynomialLoop& loop, Eigen::Index co
 /// Energy and displacement of a loop that is run in a unit of time, with their gradients by the
 /// coefficients in the order of PolynomialLoop::coefficients, column by column.
 struct LoopSums {
-  double energy = 0;        ///< [M L^2/T^2], times the time over its unit
-  double displacement = 0;  ///< [L]
-  Eigen::VectorXd energy_gradient, displacement_gradient;
+  double energy = 0;                ///< [M L^2/T^2], times the time over its unit
+  double displacement = 0;          ///< [L]
+  Eigen::VectorXd energy_gradient,  ///< [M L/T^2], with the same factor as `energy`
+      displacement_gradient;        ///< [1]
 };
 
 /// Computes LoopSums by a quadrature with so many points that it resolves polynomials of a degree
 /// four times that of the loop.
 class LoopFunctional {
  public:
+  /// For loops with `polynomials` polynomials of each arm. `swimmer` must outlive the object.
   LoopFunctional(const Swimmer& swimmer, Eigen::Index polynomials);
 
   /// True if the table contains the loop at all points of the quadrature.

@@ -39,10 +39,12 @@ inline std::size_t middle_sphere(std::size_t spheres) { return (spheres - 1) / 2
 /// The mechanics of a swimmer as a function of its shape.
 class Swimmer {
  public:
+  /// The swimmer of the spheres of `fit`, which need not outlive the object.
   explicit Swimmer(const lubrication::ResistanceFit& fit) : resistance_(fit) {}
 
   /// Number of arms, one less than there are spheres.
   Eigen::Index arms() const { return static_cast<Eigen::Index>(radii().size()) - 1; }
+  /// The radii of the spheres along the line [L], > 0.
   const std::vector<double>& radii() const { return resistance_.radii(); }
 
   /// The smallest and the largest arm k of the table [L].

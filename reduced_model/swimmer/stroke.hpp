@@ -16,15 +16,16 @@ struct ArmState {
 
 /// A part of a stroke on which the arms are a smooth function of time.
 struct StrokeLeg {
-  double start = 0, end = 0;                   ///< [T], start < end
+  double start = 0,                            ///< [T], < end
+      end = 0;                                 ///< [T]
   std::function<ArmState(double time)> state;  ///< for times from start to end
 };
 
 /// A closed stroke: the legs follow each other from time 0 to the period, and the last one ends at
 /// the shape with which the first one starts.
 struct Stroke {
-  double period = 0;  ///< [T], > 0
-  std::vector<StrokeLeg> legs;
+  double period = 0;            ///< [T], > 0
+  std::vector<StrokeLeg> legs;  ///< in order of time, at least one
 };
 
 /// Straight legs from corner to corner [L] and back to the first one. Each leg takes the same time, at

@@ -21,7 +21,7 @@ namespace viscontact::sweep {
 
 /// What is run in a sweep of particles.
 struct ParticlesSweepPlan {
-  std::filesystem::path case_path;
+  std::filesystem::path case_path;    ///< the case file that is varied
   std::vector<Variation> variations;  ///< may be empty if there are draws
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
   std::uint64_t seed = 1;             ///< seed of the random points
@@ -49,6 +49,7 @@ class ParticlesSweep {
   /// nothing, or if there are draws but the case has no [arrangement].
   explicit ParticlesSweep(ParticlesSweepPlan plan);
 
+  /// What is run, as the constructor was given it.
   const ParticlesSweepPlan& plan() const { return plan_; }
   std::uint64_t points() const { return points_; }  ///< of the grid, or random
   std::uint64_t size() const;                       ///< number of rows: points times draws

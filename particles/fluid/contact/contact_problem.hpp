@@ -47,6 +47,7 @@ class ContactProblem {
   /// mobility throws.
   [[nodiscard]] bool solve(bool is_rough);
 
+  /// All contacts, in the order in which they were added, with the impulses of the last solve().
   const std::vector<FluidContact>& contacts() const { return contacts_; }
   /// Velocities of the particles with the impulses found [L/T, 1/T].
   const std::vector<double>& velocities() const { return velocities_; }

@@ -33,6 +33,7 @@ struct MotionLayout {
   std::size_t components = 3;  ///< motion_components()
   /// Number of components of a contact's normal.
   std::size_t directions() const { return components == 1 ? 1 : 2; }
+  /// Place of component `d` of particle `k`, both from 0.
   std::size_t at(std::int32_t k, std::size_t d) const {
     return static_cast<std::size_t>(k) * components + d;
   }

@@ -14,7 +14,8 @@ namespace viscontact::particles {
 
 /// Pairs of particles, and particles at obstacles, as State holds them.
 struct PairLists {
-  std::vector<Pair> pairs, walls;
+  std::vector<Pair> pairs,  ///< two particles each
+      walls;                ///< a particle and an obstacle each
 };
 
 /// All pairs with a gap below `reach` [L] and those that are glued, with their memory from `state`.

@@ -25,11 +25,18 @@ class MobilityGraph {
                 std::span<const double> allowed, std::size_t motions, const Mobility& mobility,
                 const MotionLayout& layout);
 
+  /// Number of contacts.
   std::size_t count() const { return contacts_.size(); }
+  /// Number of numbers in a vector y = B z: motions of the particles, and impulses on them.
   std::size_t displacement_count() const { return 2 * motions_; }
+  /// One thread, because the solver of the fluid does most of the work.
   ThreadPool& pool() const { return pool_; }
 
-  std::vector<double> z, bound, linear_term, scale, per_allowed;  ///< see ContactGraph
+  std::vector<double> z,  ///< scaled impulses z = sqrt(w) p; see ContactGraph
+      bound,              ///< lower bounds of z
+      linear_term,        ///< the gradient at z = 0
+      scale,              ///< sqrt(w) of each contact
+      per_allowed;        ///< see ContactGraph
 
   /// Computes y = B z by one product with the mobility. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y);
@@ -42,6 +49,7 @@ class MobilityGraph {
     return opening(contacts_[c], y, layout_) / scale[c];
   }
 
+  /// True if z_c is above its bound.
   bool is_free(std::size_t c) const { return z[c] > bound[c]; }
 
   /// h lambda of contact c [M L/T].
@@ -63,7 +71,9 @@ class MobilityGraph {
 /// diagonal 1 already.
 class IdentityPreconditioner {
  public:
+  /// Tells Mprgp to use apply() alone.
   static constexpr bool kMaySweep = false;
+  /// `graph` must outlive the object.
   explicit IdentityPreconditioner(MobilityGraph& graph) : graph_(&graph) {}
 
   /// Sets swept to the gradient of the free contacts, and y = B swept. Returns swept.gradient.

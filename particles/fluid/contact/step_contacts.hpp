@@ -19,6 +19,7 @@ struct ContactConditions {
   std::span<const PlanePosition> obstacles;  ///< at the end of the step
   double mean_radius = 0;                    ///< [L], > 0
   double mobility_error = 0;                 ///< relative error of the mobility's answers, >= 0
+  /// Tolerances, and the largest number of iterations.
   SolverSettings solver;
   /// True for particles that a contact force moves; pairs of others are left out.
   std::function<bool(std::int32_t k)> is_movable;
@@ -35,7 +36,7 @@ struct StepContacts {
   std::vector<FluidContact> contacts;
   std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
   std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
-  int iterations = 0;
+  int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
   bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
 };
 

@@ -50,6 +50,7 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
 
 /// Makes a contact model and runs it.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);
+/// Makes the contact model for `motion` and `force`, and runs it as above.
 inline Trajectory run_contact_model(MakeContactModel make, const Motion& motion,
                                     const lubrication::LubricationForce& force) {
   return run_contact_model(motion, make(motion, force));

@@ -16,17 +16,21 @@ struct ContactState {
 
 /// The constants of all steps of one length.
 struct ContactSetting {
+  /// Computes per_mass and per_step from the other constants, whose ranges are those of the
+  /// members.
   ContactSetting(double mass_, double gamma_min_, double step_)
       : mass(mass_), gamma_min(gamma_min_), step(step_), per_mass(1 / mass_), per_step(1 / step_) {}
   double mass;  ///< m [M], > 0
   /// Value of gamma at which the solids touch [M L/T], <= 0; -infinity without solid contact.
   double gamma_min;
-  double step;                ///< h [T], > 0
-  double per_mass, per_step;  ///< 1/m and 1/h, because a division is slow
+  double step;      ///< h [T], > 0
+  double per_mass,  ///< 1/m [1/M], because a division is slow
+      per_step;     ///< 1/h [1/T]
 };
 
 /// The state at the end of a step, and the impulses [M L/T] that the sphere received in it.
 struct ContactStep {
+  /// The state at the end of the step.
   ContactState state;
   /// From the film that gamma stands for: gamma^n - gamma^{n+1}; < 0 while the film pulls the
   /// sphere.
@@ -37,6 +41,7 @@ struct ContactStep {
 
 /// The resolved drag of problem (P), which is 0. It shows the functions that contact_step() needs.
 struct NoDrag {
+  /// False: there is no resolved drag.
   static constexpr bool kResolved = false;
   /// The velocity v with m v + Gamma_res(D + h v) - Gamma_res(D) = momentum, where D + h v >= 0.
   /// Gamma_res is the impulse of the drag, so dGamma_res/dD is its resistance.

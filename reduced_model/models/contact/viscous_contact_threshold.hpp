@@ -13,6 +13,7 @@ namespace viscontact::reduced_model {
 inline constexpr ModelParameter kThresholdGap = {
     "viscous_contact.threshold_gap", "threshold gap", "L", kPositive,
     [](const Motion& motion, double radius) { return std::min(radius, motion.initial_gap) / 10; }};
+/// The parameters of viscous_contact_threshold().
 inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap};
 
 /// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
