@@ -28,6 +28,11 @@ double largest_of(std::span<const double> numbers) {
   return largest;
 }
 
+/// Adds `numbers` to `sums`, element by element.
+void add(std::span<const double> numbers, std::span<double> sums) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) sums[i] += numbers[i];
+}
+
 }  // namespace
 
 FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<FluidSolver> solver)
@@ -59,14 +64,13 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
   std::vector<double> free(flow.begin(), flow.end());
   auto earlier = state_.earlier_velocities;
   if (earlier.size() != free.size() || state_.earlier_forces.size() != free.size() ||
-      !(state_.earlier_step > 0) || !equation.drives_as_before(state_.earlier_step))
+      !(state_.earlier_step > 0) || !equation.drives_as_before())
     return free;
   auto now = equation.right_side();
   if (held != nullptr) {
     // The momentum of a body turns with it.
     held->make_rigid(earlier);
-    const auto springs = held_->spring_forces();
-    for (std::size_t i = 0; i < springs.size(); ++i) now[i] += springs[i];
+    add(held_->forces_of_step(), now);
   }
   std::vector<double> difference(free.size());
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -77,6 +81,8 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
                                         : solver_->velocities(difference, false);
     for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += added[i];
   }
+  // What the links hold off turns with them; only the answer of the fluid changes.
+  if (held_ != nullptr) held_->hold_velocities(earlier);
   const double share = h / (2 * state_.earlier_step);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto k = static_cast<std::int32_t>(i / layout_.components);
@@ -119,19 +125,63 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
   return solve_contacts(state_, free, mobility, conditions, pool_);
 }
 
-/// Changes velocities until hinges and arms hold after the step, in which bodies turn by finite
-/// angles.
-void FluidSimulation::hold_exactly(const HeldMotion& held, std::vector<double>& velocities,
-                                   double h) const {
+/// Changes velocities until `missing`, by how much the sums of the rows must change, is negligible in
+/// a step of length h. Adds the forces in the rows that do this to `row_forces`.
+void FluidSimulation::hold(
+    const std::function<std::vector<double>(std::span<const double>)>& missing,
+    HeldSolver::Springs springs, std::vector<double>& velocities, double h,
+    std::vector<double>& row_forces) const {
   // Each change gains about a factor of the angle by which a body or an arm turns in the step.
   constexpr int kMostChanges = 20;
   constexpr double kOfTolerance = 1e-3;
   const double enough = kOfTolerance * setting_.solver.tolerance * mean_radius_ / h;
   for (int n = 0; n < kMostChanges; ++n) {
-    const auto missing = held.missing(velocities);
-    if (largest_of(missing) <= enough) return;
-    held_->change(velocities, missing);
+    const auto changes = missing(velocities);
+    if (largest_of(changes) <= enough) return;
+    add(held_->change(velocities, changes, springs), row_forces);
   }
+}
+
+/// Changes velocities until hinges and arms, and the springs of accelerating particles, hold after
+/// the step, in which bodies turn by finite angles. Returns the forces in the rows that this takes
+/// beside those of the last velocities(..., true) of the solver.
+std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
+                                                     const HeldMotion& held,
+                                                     std::span<const double> flow,
+                                                     std::vector<double>& velocities,
+                                                     double h) const {
+  auto forces = held_->row_forces();
+  // The extrapolated velocities have these forces as well.
+  auto extrapolated = velocities;
+  for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
+  add(held_->row_forces_for(extrapolated), forces);
+  const auto thetas = held_->thetas();
+  hold([&](std::span<const double> v) { return held.missing(v, forces, thetas); },
+       equation.accelerates().empty() ? HeldSolver::Springs::kKeepForces
+                                      : HeldSolver::Springs::kFollow,
+       velocities, h, forces);
+  const auto& of_flow = held_->row_forces();
+  for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
+  return forces;
+}
+
+/// Changes the velocities at the end of a step, after which particles have moved with `moved`, until
+/// hinges and arms hold at that time: a velocity across a link that is left would change its sign in
+/// each step. Only accelerating particles change. Returns the mean forces in the rows.
+std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
+                                                 const HeldMotion& held,
+                                                 std::span<const double> moved,
+                                                 std::vector<double>& at_end, double h) const {
+  auto velocities = at_end;
+  std::vector<double> forces(held_->row_forces().size());
+  hold([&](std::span<const double> v) { return held.missing_at_end(moved, v); },
+       HeldSolver::Springs::kStiff, velocities, h, forces);
+  for (std::size_t i = 0; i < at_end.size(); ++i) {
+    velocities[i] -= at_end[i];
+    if (equation.accelerates()[i / layout_.components] == 0) velocities[i] = 0;
+    at_end[i] += velocities[i];
+  }
+  return held_->row_forces_of(equation.forces_of_changes(velocities));
 }
 
 /// Computes a step of length h that ends at `next`.
@@ -142,8 +192,9 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   StepEquation equation(setting_, state_, h, next);
   std::vector<double> forces;
   std::optional<HeldMotion> held;
+  std::vector<double> further_row_forces;
   if (held_ != nullptr) {
-    held.emplace(setting_.links, state_.particles, LinkTimes{h, h, next});
+    held.emplace(setting_.links, state_.particles, LinkTimes{h, h, next}, equation.accelerates());
     held_->hold(held->rows(), h);
   }
   // An impact changes the inertia of its particles, and with it the problem.
@@ -154,7 +205,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
     motion.linear = motion.free;
     if (held) {
-      hold_exactly(*held, motion.linear, h);
+      further_row_forces = hold_after_step(equation, *held, motion.flow, motion.linear, h);
       motion.free = held->with_finite_turns(motion.linear);
     }
     motion.contact = solve_contacts_of(equation, motion.free, h, next);
@@ -176,24 +227,28 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   motion.drag = forces;
   for (std::size_t i = 0; i < forces.size(); ++i)
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
-  if (held) {
-    const auto springs = held_->spring_forces();
-    for (std::size_t i = 0; i < springs.size(); ++i) motion.drag[i] += springs[i];
-    motion.link_forces = held->link_forces(held_->row_forces());
-  }
+  if (held) add(held_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
+  if (held) {
+    auto row_forces = held_->row_forces();
+    if (!equation.accelerates().empty()) {
+      add(further_row_forces, row_forces);
+      add(hold_at_end(equation, *held, motion.linear, motion.at_end, h), row_forces);
+    }
+    motion.link_forces = held->link_forces(row_forces);
+  }
   motion.quantities = solver_->quantities();
   if (held && !setting_.links.arms.empty()) {
     auto drag = motion.quantities.fluid_forces;
     for (auto& force : drag) force = -force;
-    const auto working = equation.velocities_of_work(motion.flow, drag);
+    const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
     const auto& links = setting_.links;
     for (std::size_t k = 0; k < links.arms.size(); ++k)
       motion.arm_powers.push_back(
           motion.link_forces[links.place_of_arm(k, state_.particles.dimension)] *
           held->rate_of_arm(k, working));
   }
-  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, motion);
+  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, h, motion);
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -202,7 +257,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
 
 /// Asks for the flow on two meshes under the same forces, with those of contacts.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
-                               const HeldMotion* held, Motion& motion) {
+                               const HeldMotion* held, double h, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
   if (held != nullptr) link_forces = [&] { return held->link_forces(held_->row_forces()); };
   auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
@@ -215,6 +270,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
   for (std::size_t i = 0; i < moved.size(); ++i)
     moved[i] += estimate.velocities[i] - motion.flow[i];
   motion.reported = equation.velocities_at_end(moved, estimate.velocities);
+  if (held != nullptr && !equation.accelerates().empty())
+    hold_at_end(equation, *held, moved, motion.reported, h);
 }
 
 StepReport FluidSimulation::step(double end) {

@@ -9,8 +9,17 @@
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::particles {
+namespace {
 
-HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times)
+/// Whether a link holds exactly after a step, whatever force it needs.
+bool is_exact(const LinkEquations& link) {
+  return link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
+}
+
+}  // namespace
+
+HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
+                       std::span<const char> accelerates)
     : links_(links),
       particles_(particles),
       times_(times),
@@ -26,6 +35,34 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
     for (std::size_t m = 0; m < body.members.size(); ++m)
       velocities.push_back(
           velocity_of_image(particles.cell, periods_of_member(body, m, particles)));
+  }
+  in_rows_ = equations_;
+  is_turned_.assign(equations_.size(), 0);
+  turn_to_middle(accelerates);
+}
+
+void HeldMotion::turn_to_middle(std::span<const char> accelerates) {
+  if (accelerates.empty()) return;
+  const auto does = [&](const RowPart& part) {
+    return part.particle >= 0 && accelerates[index_of(part.particle)] != 0;
+  };
+  std::vector<double> velocities(particles_.count() * layout_.components);
+  const auto n = layout_.directions();
+  for (std::size_t k = 0; k < particles_.count(); ++k) {
+    for (std::size_t d = 0; d < n; ++d)
+      velocities[k * layout_.components + d] = particles_.velocities[k * n + d];
+    if (layout_.components == 3) velocities[k * 3 + 2] = particles_.angular_velocities[k];
+  }
+  const auto half = [&](const RowPart& part) {
+    const auto motion = motion_of(part, velocities);
+    return UnitMotion{0.5 * motion.displacement, 0.5 * motion.turn};
+  };
+  for (std::size_t l = 0; l < equations_.size(); ++l) {
+    const auto& row = equations_[l].rows.front();
+    if (!does(row.first) && !does(row.second)) continue;
+    is_turned_[l] = 1;
+    in_rows_[l] =
+        turned_equations(equations_[l], links_, particles_, half(row.first), half(row.second));
   }
 }
 
@@ -81,9 +118,11 @@ std::vector<HeldRow> HeldMotion::rows() const {
   std::vector<HeldRow> rows;
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) add_body_rows(bodies[b], b, rows);
-  for (const auto& link : equations_)
+  for (std::size_t l = 0; l < in_rows_.size(); ++l) {
+    const auto& link = in_rows_[l];
     for (const auto& equation : link.rows) {
       HeldRow row;
+      row.is_turned = is_turned_[l] != 0;
       row.name = name_of(link, links_, particles_);
       add_entries(equation.first, row);
       add_entries(equation.second, row);
@@ -93,6 +132,7 @@ std::vector<HeldRow> HeldMotion::rows() const {
       if (!(row.stiffness > 0)) row.rate = -equation.value / times_.h;
       rows.push_back(std::move(row));
     }
+  }
   return rows;
 }
 
@@ -128,20 +168,57 @@ UnitMotion HeldMotion::motion_of(const RowPart& part, std::span<const double> ve
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
-std::vector<double> HeldMotion::missing(std::span<const double> velocities) const {
+std::vector<double> HeldMotion::missing(std::span<const double> velocities,
+                                        std::span<const double> row_forces,
+                                        std::span<const double> thetas) const {
+  std::vector<double> changes(body_rows_, 0.0);
+  for (std::size_t l = 0; l < equations_.size(); ++l) {
+    const auto& link = equations_[l];
+    const auto& row = link.rows.front();
+    const auto first = motion_of(row.first, velocities), second = motion_of(row.second, velocities);
+    if (is_exact(link)) {
+      for (const double off : values_after(link, links_, particles_, times_, first, second))
+        changes.push_back(-off / times_.h);
+    } else if (link.kind == LinkEquations::Kind::kSpring && is_turned_[l] != 0) {
+      const auto r = changes.size();
+      const double theta = thetas[r], h = times_.h;
+      const double grown = extension_after(link, links_, particles_, first, second) - row.extension;
+      changes.push_back(-(row.extension / theta + grown + row_forces[r] / (theta * row.stiffness)) /
+                        h);
+    } else {
+      changes.resize(changes.size() + link.rows.size(), 0.0);
+    }
+  }
+  return changes;
+}
+
+/// The sum of a row for these velocities, with that of the images.
+double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
+  const auto part = [&](const RowPart& of) {
+    const auto motion = motion_of(of, velocities);
+    return of.is_turn ? motion.turn[2]
+                      : dot(of.direction, motion.displacement + cross(motion.turn, of.arm));
+  };
+  return (part(row.first) + part(row.second)) / times_.h;
+}
+
+std::vector<double> HeldMotion::missing_at_end(std::span<const double> velocities,
+                                               std::span<const double> at_end) const {
+  // Rounding must not carry the time beyond a corner of the length.
+  const double end = times_.end - 1e-9 * times_.h;
   std::vector<double> changes(body_rows_, 0.0);
   for (const auto& link : equations_) {
-    const bool is_exact =
-        link.kind == LinkEquations::Kind::kHinge || link.kind == LinkEquations::Kind::kArm;
-    if (!is_exact) {
-      changes.resize(changes.size() + link.rows.size(), 0.0);
-      continue;
-    }
     const auto& row = link.rows.front();
-    for (const double off :
-         values_after(link, links_, particles_, times_, motion_of(row.first, velocities),
-                      motion_of(row.second, velocities)))
-      changes.push_back(-off / times_.h);
+    const auto first = motion_of(row.first, velocities), second = motion_of(row.second, velocities);
+    const auto turned = turned_equations(link, links_, particles_, first, second);
+    double rate = 0;
+    if (link.kind == LinkEquations::Kind::kArm)
+      rate = rate_at(links_.arms[link.number].length, end);
+    else if (link.kind == LinkEquations::Kind::kSpring)
+      rate = (extension_after(link, links_, particles_, first, second) - row.extension) / times_.h;
+    else if (link.kind == LinkEquations::Kind::kTorsion)
+      rate = second.turn[2] / times_.h;
+    for (const auto& of : turned.rows) changes.push_back(rate - sum_of(of, at_end));
   }
   return changes;
 }
@@ -178,13 +255,10 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
 }
 
 double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
-  const auto arm = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
+  const auto arm = std::ranges::find_if(in_rows_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;
   });
-  const auto& row = arm->rows.front();
-  return particles::rate_of_arm(links_.arms[k], particles_, motion_of(row.first, velocities),
-                                motion_of(row.second, velocities)) /
-         times_.h;
+  return sum_of(arm->rows.front(), velocities);
 }
 
 std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {

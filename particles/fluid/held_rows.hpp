@@ -14,17 +14,37 @@
 namespace viscontact::particles {
 
 /// The rows of one step from the present places of the particles, and the motion of their units.
+///
+/// A link of which a unit accelerates, that is has a mass and no given motion, has its rows at the
+/// places that the units reach in half the step with their velocities before the step. The forces
+/// of links then turn with their units like their mean over the step, so that a mass that circles on
+/// a link neither gains nor loses energy up to the second order of the step (the implicit midpoint
+/// rule; Hairer, Lubich & Wanner 2006, section VII.1). Links of particles without mass have their
+/// rows where the particles are, because FluidSimulation extrapolates the velocities of these.
 class HeldMotion {
  public:
-  /// `links` and `particles` must outlive this object. `times.kick` is not used.
-  HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times);
+  /// `links` and `particles` must outlive this object. `times.kick` is not used. `accelerates` says
+  /// of each particle whether it, or its body, accelerates; empty: none does.
+  HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
+             std::span<const char> accelerates = {});
 
   /// First the rows that make bodies rigid, then those of the links.
   std::vector<HeldRow> rows() const;
 
   /// By how much the sums of the rows must change, so that hinges and arms hold after a step with
-  /// these velocities, in which bodies turn by finite angles [L/T, 1/T]; 0 for the other rows.
-  std::vector<double> missing(std::span<const double> velocities) const;
+  /// these velocities, in which bodies turn by finite angles [L/T, 1/T]; 0 for the other rows. For
+  /// springs between units of which one accelerates, whose forces are `row_forces` so far, it is
+  /// what the extension and the force lack of obeying HeldRow::stiffness; `thetas` are those of the
+  /// rows.
+  std::vector<double> missing(std::span<const double> velocities,
+                              std::span<const double> row_forces,
+                              std::span<const double> thetas) const;
+
+  /// By how much the sums of the rows must change, so that hinges and arms hold at the end of the
+  /// step for the velocities `at_end` at that time, after the step with `velocities`, and springs
+  /// have the mean rate of the step; 0 for the rows of bodies.
+  std::vector<double> missing_at_end(std::span<const double> velocities,
+                                     std::span<const double> at_end) const;
 
   /// Replaces the velocities of members of bodies by their displacements in the step, divided by its
   /// length.
@@ -38,7 +58,7 @@ class HeldMotion {
   /// members at their places in the body, whose offsets cancel in the first.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
-  /// Rate at which the length of arm `k` grows with these velocities [L/T].
+  /// Rate at which the length of arm `k` grows with these velocities, by its row [L/T].
   double rate_of_arm(std::size_t k, std::span<const double> velocities) const;
 
   /// The forces of the links in the order of State::link_forces, from those of the rows.
@@ -46,6 +66,8 @@ class HeldMotion {
 
  private:
   UnitMotion motion_of(const RowPart& part, std::span<const double> velocities) const;
+  void turn_to_middle(std::span<const char> accelerates);
+  double sum_of(const LinkRow& row, std::span<const double> velocities) const;
   Vector offset_in_body(std::int32_t particle) const;
   void add_entries(const RowPart& part, HeldRow& row) const;
   void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
@@ -54,7 +76,9 @@ class HeldMotion {
   const Particles& particles_;
   LinkTimes times_;
   MotionLayout layout_;
-  std::vector<LinkEquations> equations_;
+  std::vector<LinkEquations> equations_;      // at the present places
+  std::vector<LinkEquations> in_rows_;        // where the rows have them
+  std::vector<char> is_turned_;               // whether these differ, for each link
   std::vector<std::vector<double>> weights_;  // of the members of each body; their sum is 1
   // Velocities of the members' images at their places in each body, relative to the members.
   std::vector<std::vector<Vector>> image_velocities_;

@@ -25,7 +25,9 @@ struct HeldRow {
   // Of a spring, whose force is -stiffness (extension + theta h sum); stiffness 0: not a spring.
   double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
   double extension = 0;  ///< at the beginning of the step [L], [rad]
-  std::string name{};    ///< in messages
+  /// Whether the row is where its particles will be in the middle of the step (HeldMotion).
+  bool is_turned = false;
+  std::string name{};  ///< in messages
 };
 
 /// Answers as the fluid solver that it owns, with forces in the rows added that keep the conditions.
@@ -61,15 +63,44 @@ class HeldSolver : public FluidSolver {
   /// velocities(forces, false) without springs, whose forces are then among `forces`.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
-  /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
-  /// number for each row [L/T, 1/T]. No question is asked.
-  void change(std::span<double> velocities, std::span<const double> changes) const;
+  /// What springs do while other rows change.
+  enum class Springs {
+    kKeepForces,  ///< their forces remain
+    kFollow,      ///< their forces follow from the motion, with their compliance
+    kStiff,  ///< those too stiff for the step hold as if they were rigid; the others as kKeepForces
+  };
+
+  /// Adds forces in the rows that change the sum of each row by `changes`, one number for each row
+  /// [L/T, 1/T]; of a spring with kFollow, the sum and compliance times force; of a spring whose
+  /// force is kept, nothing. Returns the forces [M L/T^2, M L^2/T^2]. No question is asked.
+  std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
+                             Springs springs) const;
+
+  /// The forces of the rows without stiffness that change their sums as `changes` of the velocities
+  /// do [L/T, 1/T].
+  std::vector<double> row_forces_for(std::span<const double> changes) const;
+
+  /// The forces of the rows without stiffness and of stiff springs that stand for `forces` on the
+  /// particles: both change the sums of these rows alike.
+  std::vector<double> row_forces_of(std::span<const double> forces) const;
+
+  /// The theta of each row, 1/2 to 1; of rows without stiffness 1/2.
+  std::vector<double> thetas() const;
+
+  /// True if row `r` is a spring whose oscillation is too fast for the step, or whose relaxation is
+  /// shorter than it.
+  bool is_stiff(std::size_t r) const { return theta(static_cast<Eigen::Index>(r)) > 2.0 / 3; }
 
   /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2].
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces of the springs on all particles in the last velocities(forces, true).
-  std::vector<double> spring_forces() const;
+  /// The forces of the springs and of the rows that are turned on all particles, in the last
+  /// velocities(forces, true). The extrapolation of FluidSimulation takes them for forces from
+  /// outside, because they belong to the whole step.
+  std::vector<double> forces_of_step() const;
+
+  /// Adds forces in the rows until the rows without stiffness hold. No question is asked.
+  void hold_velocities(std::span<double> velocities) const;
 
  private:
   Eigen::VectorXd sums(std::span<const double> velocities) const;
@@ -78,7 +109,8 @@ class HeldSolver : public FluidSolver {
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
   void correct(const Eigen::VectorXd& right, std::span<const double> forces,
                Eigen::VectorXd& of_rows);
-  Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right, Springs springs) const;
+  Eigen::VectorXd solve_springs(const Eigen::VectorXd& right, Springs springs) const;
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;

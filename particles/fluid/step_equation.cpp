@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <utility>
 #include <variant>
 
 namespace viscontact::particles {
@@ -97,10 +99,12 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
-  // Where the length of an arm has a kink, the velocities of its ends jump as in a contact.
-  for (const auto& arm : setting.links.arms)
-    if (has_kink(arm, state.time - state.earlier_step, next))
-      in_contact_[index_of(arm.first)] = in_contact_[index_of(arm.second)] = 1;
+  for (std::size_t k = 0; k < masses_.size() / layout_.components; ++k) {
+    if (!(masses_[k * layout_.components] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
+    accelerates_.resize(state.particles.count(), 0);
+    accelerates_[k] = 1;
+  }
+  find_companions();
   spread_contact();
   add_inertia();
 }
@@ -122,12 +126,51 @@ void StepEquation::add_inertia() {
     if (masses_[i] > 0) inertia_[i] = masses_[i] / (thetas_[i] * h_);
 }
 
-/// If a member of a body is in contact, all are.
+/// Finds which particles move with each other, and puts those in contact whose velocities jump
+/// because of a link.
+void StepEquation::find_companions() {
+  const auto& p = state_.particles;
+  // The set of each particle, named by one of its particles.
+  std::vector<std::int32_t> set(p.count());
+  std::iota(set.begin(), set.end(), 0);
+  const auto set_of = [&](std::int32_t k) {
+    while (set[index_of(k)] != k) k = set[index_of(k)] = set[index_of(set[index_of(k)])];
+    return k;
+  };
+  const auto unite = [&](std::int32_t first, std::int32_t second, bool jumps) {
+    for (const auto& [one, other] : {std::pair(first, second), std::pair(second, first)})
+      if (jumps || (is_driven(other) && has_jump(other))) in_contact_[index_of(one)] = 1;
+    if (!is_driven(first) && !is_driven(second)) set[index_of(set_of(first))] = set_of(second);
+  };
+  for (const auto& body : p.bodies.bodies)
+    for (const auto member : body.members) unite(body.members.front(), member, false);
+  // Where the length of an arm has a kink, the velocities of its ends jump as in a contact.
+  for (const auto& arm : setting_.links.arms)
+    unite(arm.first, arm.second,
+          has_kink(arm, state_.time - state_.earlier_step, state_.time + h_));
+  for (const auto& spring : setting_.links.springs) {
+    // The oscillation of a stiff spring is too fast for the step, which must damp it.
+    const auto mass_of = [&](std::int32_t k) {
+      const auto body = p.bodies.body_of(k);
+      if (is_driven(k)) return std::numeric_limits<double>::infinity();
+      return body < 0 ? p.masses[index_of(k)] : p.bodies.bodies[index_of(body)].mass;
+    };
+    const double mass = std::min(mass_of(spring.first), mass_of(spring.second));
+    if (h_ * h_ * spring.stiffness > mass) unite(spring.first, spring.second, false);
+  }
+  std::map<std::int32_t, std::vector<std::int32_t>> sets;
+  for (std::size_t k = 0; k < p.count(); ++k)
+    sets[set_of(static_cast<std::int32_t>(k))].push_back(static_cast<std::int32_t>(k));
+  for (auto& [name, particles] : sets)
+    if (particles.size() > 1) companions_.push_back(std::move(particles));
+}
+
+/// If a particle is in contact, all that move with it are.
 void StepEquation::spread_contact() {
-  for (const auto& body : state_.particles.bodies.bodies)
-    if (std::ranges::any_of(body.members,
+  for (const auto& particles : companions_)
+    if (std::ranges::any_of(particles,
                             [&](std::int32_t k) { return in_contact_[index_of(k)] != 0; }))
-      for (const auto member : body.members) in_contact_[index_of(member)] = 1;
+      for (const auto k : particles) in_contact_[index_of(k)] = 1;
 }
 
 double StepEquation::earlier_drag(std::size_t k, std::size_t component) const {
@@ -210,22 +253,32 @@ std::vector<double> StepEquation::velocities_at_end(std::span<const double> moti
 }
 
 std::vector<double> StepEquation::velocities_of_work(std::span<const double> flow,
+                                                     std::span<const double> at_end,
                                                      std::span<const double> drag) const {
   std::vector<double> velocities(flow.begin(), flow.end());
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     const auto k = i / layout_.components;
     if (inertia_[i] == 0 || is_driven(static_cast<std::int32_t>(k))) continue;
-    const double change = flow[i] - velocity(k, i % layout_.components);
-    const double accelerating = inertia_[i] * change, all = accelerating + drag[i];
+    const double before = velocity(k, i % layout_.components);
+    const double accelerating = masses_[i] / h_ * (at_end[i] - before);
+    const double all = accelerating + drag[i];
     // Where drag and acceleration nearly balance, several links may exert forces that cancel, of
     // which no share is meaningful. The bound keeps their powers finite; its value changes only what
     // such links report.
     constexpr double kLargestShare = 10;
     const double share =
         all != 0 ? std::clamp(accelerating / all, -kLargestShare, kLargestShare) : 0;
-    velocities[i] -= share * (1 - 0.5 / thetas_[i]) * change;
+    velocities[i] += share * ((before + at_end[i]) / 2 - flow[i]);
   }
   return velocities;
+}
+
+std::vector<double> StepEquation::forces_of_changes(std::span<const double> changes) const {
+  std::vector<double> forces(changes.size());
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (!is_driven(static_cast<std::int32_t>(i / layout_.components)))
+      forces[i] = masses_[i] / h_ * changes[i];
+  return forces;
 }
 
 bool StepEquation::put_in_contact(std::span<const FluidContact> contacts) {
@@ -247,20 +300,26 @@ std::array<double, 3> StepEquation::given_motion(const GivenMotion& motion, doub
   return {velocity[0], velocity[1], motion.angular_velocity.mean(from, to)[2]};
 }
 
-bool StepEquation::drives_as_before(double earlier_step) const {
-  const double before = std::max(0.0, state_.time - earlier_step);
+/// True if the given velocity of a driven particle differs from that in the step before.
+bool StepEquation::has_jump(std::int32_t driven) const {
+  // Before the first step, nothing jumps that theta = 1 does not damp.
+  if (!(state_.earlier_step > 0)) return false;
+  const double before = std::max(0.0, state_.time - state_.earlier_step);
+  const auto earlier = given_motion(setting_.given_motions.at(driven), before, state_.time);
+  const auto& now = driven_.at(driven);
+  // Means over two steps of the same length differ by rounding errors.
+  constexpr double kSame = 1e-12;
+  for (std::size_t d = 0; d < 3; ++d)
+    if (std::abs(now[d] - earlier[d]) > kSame * (std::abs(now[d]) + std::abs(earlier[d])))
+      return true;
+  return false;
+}
+
+bool StepEquation::drives_as_before() const {
   for (const auto& arm : setting_.links.arms)
-    if (has_kink(arm, state_.time - earlier_step, state_.time + h_)) return false;
-  for (const auto& [particle, motion] : setting_.given_motions) {
-    const auto earlier = given_motion(motion, before, state_.time);
-    const auto& now = driven_.at(particle);
-    // Means over two steps of the same length differ by rounding errors.
-    constexpr double kSame = 1e-12;
-    for (std::size_t d = 0; d < 3; ++d)
-      if (std::abs(now[d] - earlier[d]) > kSame * (std::abs(now[d]) + std::abs(earlier[d])))
-        return false;
-  }
-  return true;
+    if (has_kink(arm, state_.time - state_.earlier_step, state_.time + h_)) return false;
+  return std::ranges::none_of(setting_.given_motions,
+                              [&](const auto& given) { return has_jump(given.first); });
 }
 
 }  // namespace viscontact::particles

@@ -47,28 +47,42 @@ class StepEquation {
                                         std::span<const double> flow) const;
 
   /// The velocities at which the forces on the particles do their work in the step, for the
-  /// velocities `flow` = U and the forces `drag` of the particles on the fluid: U for the part of
-  /// the forces that the fluid resists, (u^n + u^{n+1})/2 for the part that accelerates. Work at U
+  /// velocities `flow` = U and `at_end` = u^{n+1} and the forces `drag` of the particles on the
+  /// fluid: U for the part of the forces that the fluid resists, (u^n + u^{n+1})/2 for the part that
+  /// accelerates. Work at U
   /// alone would contain the energy that a step with theta > 1/2 loses where the velocity jumps.
   std::vector<double> velocities_of_work(std::span<const double> flow,
+                                         std::span<const double> at_end,
                                          std::span<const double> drag) const;
+
+  /// Of each particle, whether it has a mass, its own or a share of that of its body, and no given
+  /// motion; empty if no particle has.
+  const std::vector<char>& accelerates() const { return accelerates_; }
+
+  /// The mean forces in the step that change the velocities at its end by `changes` [L/T, 1/T]; 0
+  /// for a particle that does not accelerate.
+  std::vector<double> forces_of_changes(std::span<const double> changes) const;
 
   /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
-  /// True if particle `k` has theta = 1 because its velocity may jump: it, or its rigid body, has a
-  /// contact in the step before or in put_in_contact(), or the length of its arm has a kink.
+  /// True if particle `k` has theta = 1 because its velocity may jump: it, or a particle that moves
+  /// with it because of rigid bodies, arms and stiff springs, has a contact in the step before or in
+  /// put_in_contact(), or the length of an arm of theirs has a kink, or one of their links leads to a
+  /// particle whose given velocity jumps.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
   /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the
   /// inertia of any.
   bool put_in_contact(std::span<const FluidContact> contacts);
 
-  /// True if all given motions are the same as in the step before, of length `earlier_step` [T].
-  bool drives_as_before(double earlier_step) const;
+  /// True if all given motions are the same as in the step before.
+  bool drives_as_before() const;
 
  private:
   void add_inertia();
+  void find_companions();
   void spread_contact();
+  bool has_jump(std::int32_t driven) const;
   double theta(std::size_t k, std::size_t component, double mass) const;
   double theta_of_body(const RigidBody& body) const;
   /// |F|/|U| of the force F on the fluid and the velocity U in the step before, or of torque and
@@ -86,6 +100,10 @@ class StepEquation {
   std::vector<double> thetas_, inertia_;
   std::map<std::int32_t, std::array<double, 3>> driven_;
   std::vector<char> in_contact_;
+  std::vector<char> accelerates_;
+  // Particles that move with each other because of bodies, arms and stiff springs: sets of two or
+  // more. Driven particles are in none, because nothing that others do changes their velocities.
+  std::vector<std::vector<std::int32_t>> companions_;
 };
 
 }  // namespace viscontact::particles

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace viscontact::particles {
 namespace {
@@ -13,22 +14,44 @@ namespace {
 // More times than these decide nothing that a reader of a case could check.
 constexpr std::size_t kMostTimes = 10000;
 
-double value_at(const PiecewiseLinearLength& length, double t) {
+/// The linear piece that holds at a time, between two points (time, length).
+struct Piece {
+  std::array<double, 2> from, to;
+  double rate() const { return (to[1] - from[1]) / (to[0] - from[0]); }
+};
+
+/// The piece at the time t, which is moved into the first period; none before the first point and
+/// after the last one of a length without period. At a point it is the piece that begins there.
+std::optional<Piece> piece_at(const PiecewiseLinearLength& length, double& t) {
   const auto& points = length.points;
   const double first = points.front()[0];
   if (length.period > 0) t -= length.period * std::floor((t - first) / length.period);
-  if (t <= first) return points.front()[1];
   const auto next = std::ranges::upper_bound(points, t, {}, [](const auto& p) { return p[0]; });
-  if (next == points.end() && !(length.period > 0)) return points.back()[1];
-  const auto& before = *(next - 1);
-  const std::array<double, 2> after =
-      next == points.end() ? std::array{first + length.period, points.front()[1]} : *next;
-  const double share = (t - before[0]) / (after[0] - before[0]);
-  return (1 - share) * before[1] + share * after[1];
+  if (next == points.begin() || (next == points.end() && !(length.period > 0))) return {};
+  if (next == points.end()) return Piece{points.back(), {first + length.period, points.front()[1]}};
+  return Piece{*(next - 1), *next};
+}
+
+double value_at(const PiecewiseLinearLength& length, double t) {
+  const auto piece = piece_at(length, t);
+  if (!piece)
+    return (t < length.points.front()[0] ? length.points.front() : length.points.back())[1];
+  const double share = (t - piece->from[0]) / (piece->to[0] - piece->from[0]);
+  return (1 - share) * piece->from[1] + share * piece->to[1];
 }
 
 double value_at(const SinusoidalLength& length, double t) {
   return length.mean + length.amplitude * std::sin(length.angular_frequency * t + length.phase);
+}
+
+double rate_of(const PiecewiseLinearLength& length, double t) {
+  const auto piece = piece_at(length, t);
+  return piece ? piece->rate() : 0;
+}
+
+double rate_of(const SinusoidalLength& length, double t) {
+  return length.amplitude * length.angular_frequency *
+         std::cos(length.angular_frequency * t + length.phase);
 }
 
 void add_times(const PiecewiseLinearLength& length, double end, std::vector<double>& times) {
@@ -60,6 +83,10 @@ void add_times(const SinusoidalLength& length, double end, std::vector<double>& 
 
 double length_at(const ArmLength& length, double t) {
   return std::visit([&](const auto& of) { return value_at(of, t); }, length);
+}
+
+double rate_at(const ArmLength& length, double t) {
+  return std::visit([&](const auto& of) { return rate_of(of, t); }, length);
 }
 
 std::vector<double> decisive_times(const ArmLength& length, double end) {

@@ -30,6 +30,10 @@ using ArmLength = std::variant<PiecewiseLinearLength, SinusoidalLength>;
 /// Length at time `t` >= 0 [T].
 double length_at(const ArmLength& length, double t);
 
+/// Rate at which the length grows at time `t` >= 0, at a corner that of the piece that begins there
+/// [L/T].
+double rate_at(const ArmLength& length, double t);
+
 /// Least length at times from 0 to `end` >= 0 [T].
 double least_length(const ArmLength& length, double end);
 

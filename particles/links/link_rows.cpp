@@ -142,6 +142,14 @@ LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes&
   return equations;
 }
 
+/// Vector between the ends of an arm or spring before the step [L].
+Vector apart_of(const LinkEquations& equations, const Links& links, const Particles& p) {
+  const auto k = equations.number;
+  return equations.kind == LinkEquations::Kind::kArm
+             ? between(p, links.arms[k].first, links.arms[k].second).apart
+             : between(p, links.springs[k].first, links.springs[k].second).apart;
+}
+
 /// Displacement of the point of a part.
 Vector moved(const RowPart& part, const UnitMotion& motion, int dimension) {
   return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
@@ -189,6 +197,31 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
   return all;
 }
 
+LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
+                               const Particles& particles, const UnitMotion& first,
+                               const UnitMotion& second) {
+  auto turned = equations;
+  const int dimension = particles.dimension;
+  for (auto& row : turned.rows) {
+    // Arms turn with their units.
+    const auto turn_arm = [&](RowPart& part, const UnitMotion& motion) {
+      if (part.particle >= 0 && !part.is_turn)
+        part.arm = part.arm + displacement_at({}, motion.turn, part.arm, dimension);
+    };
+    if (equations.kind == LinkEquations::Kind::kArm ||
+        equations.kind == LinkEquations::Kind::kSpring) {
+      const Vector direction =
+          direction_of(apart_of(equations, links, particles) +
+                       moved(row.second, second, dimension) - moved(row.first, first, dimension));
+      row.first.direction = -1 * direction;
+      row.second.direction = direction;
+    }
+    turn_arm(row.first, first);
+    turn_arm(row.second, second);
+  }
+  return turned;
+}
+
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  const UnitMotion& first, const UnitMotion& second) {
@@ -202,10 +235,9 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
   }
   const auto& row = equations.rows.front();
   if (equations.kind == LinkEquations::Kind::kArm) {
-    const auto& arm = links.arms[equations.number];
-    const Vector apart = between(particles, arm.first, arm.second).apart +
+    const Vector apart = apart_of(equations, links, particles) +
                          moved(row.second, second, dimension) - moved(row.first, first, dimension);
-    return {norm(apart) - length_at(arm.length, times.end)};
+    return {norm(apart) - length_at(links.arms[equations.number].length, times.end)};
   }
   // Springs are linear in the motion of the step.
   const auto part = [](const RowPart& of, const UnitMotion& by) {
@@ -213,6 +245,15 @@ std::vector<double> values_after(const LinkEquations& equations, const Links& li
     return of.is_turn ? by.turn[2] : dot(of.direction, by.displacement + cross(by.turn, of.arm));
   };
   return {row.value + part(row.first, first) + part(row.second, second)};
+}
+
+double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
+                       const UnitMotion& first, const UnitMotion& second) {
+  const auto& row = spring.rows.front();
+  const Vector apart = apart_of(spring, links, particles) +
+                       moved(row.second, second, particles.dimension) -
+                       moved(row.first, first, particles.dimension);
+  return norm(apart) - links.springs[spring.number].length;
 }
 
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,

@@ -74,11 +74,21 @@ struct UnitMotion {
       turn{};             ///< [rad]; only the component z in the plane
 };
 
+/// The equations with the directions and arms that they have after these motions of their first and
+/// second unit, in which units turn by finite angles. Nothing else changes.
+LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
+                               const Particles& particles, const UnitMotion& first,
+                               const UnitMotion& second);
+
 /// Values of the rows of a link for the motions of its first and second unit, with their finite
 /// turns, without the part of the compliance. The units are the images that the rows mean.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
                                  const UnitMotion& first, const UnitMotion& second);
+
+/// Extension of a spring after these motions of the units of its ends, with their finite turns [L].
+double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
+                       const UnitMotion& first, const UnitMotion& second);
 
 /// Rate at which the length of an arm grows, to first order, in the direction of the beginning of a
 /// step [L/T]. `first` and `second` are velocities and angular velocities of the units of its ends.
