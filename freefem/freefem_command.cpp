@@ -48,10 +48,10 @@ std::string pattern_of(const std::string& path) {
   return pattern;
 }
 
-/// The package to which a path belongs by the answer of dpkg-query --search; empty if none is named.
-/// A line of the answer is "PACKAGE: PATH", "PACKAGE:ARCHITECTURE: PATH", "PACKAGE, PACKAGE: PATH" if
-/// several packages have the file, or "diversion by PACKAGE from: PATH" if a package has put its
-/// own file in place of that of another one.
+/// The package to which a path belongs by the answer of dpkg-query --search; empty if none is
+/// named. A line of the answer is "PACKAGE: PATH", "PACKAGE:ARCHITECTURE: PATH", "PACKAGE, PACKAGE:
+/// PATH" if several packages have the file, or "diversion by PACKAGE from: PATH" if a package has
+/// put its own file in place of that of another one.
 std::string owner_in(const std::string& answer, const std::string& path) {
   constexpr std::string_view kDiversion = "diversion by ", kFrom = " from";
   const std::string end = ": " + path;

@@ -22,8 +22,8 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 /// file; if the fit failed, it has only the keys "basis" and "failure".
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
-/// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap, beside the table's error
-/// estimates. Throws Error(kExternalProgram) as draw_picture does.
+/// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap,
+/// beside the table's error estimates. Throws Error(kExternalProgram) as draw_picture does.
 std::string plot_bases(const lubrication::ForceTable& table,
                        const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop = {});

@@ -205,9 +205,9 @@ double limit_within_periods(const ParticlesCase& c, double asked) {
 }
 
 /// Bodies and links are held by forces that are found from velocities of the fluid, and these have
-/// rounding errors of about 1e-15/penalty (particles/fluid/fluid_motion.hpp). Seven touching discs of
-/// a body were held with penalties down to 3e-11; with 1e-11 the errors were taken for constraints
-/// that contradict each other.
+/// rounding errors of about 1e-15/penalty (particles/fluid/fluid_motion.hpp). Seven touching discs
+/// of a body were held with penalties down to 3e-11; with 1e-11 the errors were taken for
+/// constraints that contradict each other.
 void check_penalty(const TomlSection& root, const ParticlesCase& c) {
   constexpr double kLeast = 1e-10;
   const auto& fluid = *c.setting.fluid;

@@ -81,12 +81,12 @@ struct RigidBodyRequest {
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. In a periodic cell (Particles::cell) those images of the members make the body with
-/// which it is shortest along each axis: it ends across the largest distance between neighbours. It
-/// must be smaller than the cell (diameter()). If two distances are the largest
+/// rigid motion. In a periodic cell (Particles::cell) those images of the members make the body
+/// with which it is shortest along each axis: it ends across the largest distance between
+/// neighbours. It must be smaller than the cell (diameter()). If two distances are the largest
 /// (ambiguous_images()), the images depend on the order of the particles. The velocities are those
-/// of the images. The particles must turn (add_rotation), unless their
-/// dimension is 1, and belong to no other body.
+/// of the images. The particles must turn (add_rotation), unless their dimension is 1, and belong
+/// to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
 
 /// An axis of a periodic cell along which members do not determine which images make the body.

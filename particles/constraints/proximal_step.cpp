@@ -97,8 +97,8 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project_relaxed(std::size_t b,
   return {};
 }
 
-/// Error J^T P^{k+1} - M/h (y - y*) after a step `t` along the direction, in the norm of the inverse
-/// masses. With `is_kept`, also sets the impulses and branches there.
+/// Error J^T P^{k+1} - M/h (y - y*) after a step `t` along the direction, in the norm of the
+/// inverse masses. With `is_kept`, also sets the impulses and branches there.
 template <int D>
 double ProximalStep<D>::error_at(double t, bool is_kept) {
   for (std::size_t u = 0; u < y_.size(); ++u) {

@@ -13,7 +13,8 @@ namespace viscontact::particles {
 /// From impulses P^k, a step of the proximal method (Rockafellar 1976) finds the motions y and the
 /// impulses P^{k+1} of docs/physics.md (5.8):
 ///
-///     M/h (y - y*) = J^T P^{k+1},   P^{k+1} = proj(P^k - rho (b + J y)),   rho_r = 1/(epsilon W_rr),
+///     M/h (y - y*) = J^T P^{k+1},   P^{k+1} = proj(P^k - rho (b + J y)),
+///     rho_r = 1/(epsilon W_rr),
 ///
 /// where b + J y are the gaps and h times the slips, W_rr is the mobility of row r, and proj
 /// projects on the allowed impulses: first the normal one on p_n >= lowest, then the tangential one
@@ -35,8 +36,8 @@ class ProximalStep {
 
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
-  /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of factorisations and
-  /// solutions with factors. Sets failed() if Newton's method made no progress.
+  /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of
+  /// factorisations and solutions with factors. Sets failed() if Newton's method made no progress.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 

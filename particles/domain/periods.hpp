@@ -84,8 +84,8 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   return shift_of(cell, Periods{double(x), double(y)});
 }
 
-/// The vector [L] whose image is `apart` after the cell has moved for `moved_for`: the shifts of the
-/// images are (1 + moved_for gradient) times those of the start. Only x and y.
+/// The vector [L] whose image is `apart` after the cell has moved for `moved_for`: the shifts of
+/// the images are (1 + moved_for gradient) times those of the start. Only x and y.
 inline std::array<double, 2> before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;

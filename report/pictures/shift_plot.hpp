@@ -10,9 +10,9 @@
 
 namespace viscontact::report {
 
-/// A picture of the `kind` kSvg, kPdf or kPng with two panels over the gap: the shift of each row beside the common shift [L],
-/// and the relative residuals with the common shift. `wall` names the wall in the title. Throws
-/// Error(kExternalProgram) if gnuplot is missing or fails.
+/// A picture of the `kind` kSvg, kPdf or kPng with two panels over the gap: the shift of each row
+/// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
+/// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
 std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
                             const StopToken& stop = {});
 

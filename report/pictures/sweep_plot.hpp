@@ -18,10 +18,11 @@ struct SweepPlot {
   std::vector<std::string> columns;  ///< at least one
 };
 
-/// A picture of the `kind` kSvg, kPdf or kPng with lines, or with a heat map over the grid of two keys. Axes and colours are
-/// logarithmic if all values are positive and span a decade or more. Throws Error(kBadInput) that
-/// lists the columns of the file if a column does not exist, Error(kBadInput) if there is nothing
-/// to draw, and Error(kExternalProgram) if gnuplot is missing or fails.
+/// A picture of the `kind` kSvg, kPdf or kPng with lines, or with a heat map over the grid of two
+/// keys. Axes and colours are logarithmic if all values are positive and span a decade or more.
+/// Throws Error(kBadInput) that lists the columns of the file if a column does not exist,
+/// Error(kBadInput) if there is nothing to draw, and Error(kExternalProgram) if gnuplot is missing
+/// or fails.
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
                        TextKind kind, const StopToken& stop = {});
 
