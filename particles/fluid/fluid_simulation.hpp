@@ -11,13 +11,13 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
 class HeldMotion;
+class HeldSolver;
 class StepEquation;
 struct StepContacts;
 
