@@ -67,7 +67,7 @@ struct State {
   /// motion_components() numbers for each particle [L/T, 1/T]; empty if there was no step.
   std::vector<double> earlier_velocities;
   /// Forces and torques of the particles on the fluid at these velocities [M L/T^2, M L^2/T^2], as
-  /// many numbers.
+  /// many numbers; without those of bodies, hinges and arms of particles without mass.
   std::vector<double> earlier_forces;
   double earlier_step = 0;  ///< length of the step before [T]; 0 if there was none
 };

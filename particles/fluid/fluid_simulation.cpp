@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "viscontact/common/error.hpp"
@@ -27,7 +28,9 @@ using Clock = std::chrono::steady_clock;
 
 double largest_of(std::span<const double> numbers) {
   double largest = 0;
-  for (const double x : numbers) largest = std::max(largest, std::abs(x));
+  for (const double x : numbers)
+    largest =
+        std::max(largest, std::isnan(x) ? std::numeric_limits<double>::infinity() : std::abs(x));
   return largest;
 }
 
@@ -128,51 +131,43 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
   return solve_contacts(state_, free, mobility, conditions, pool_);
 }
 
-/// Changes velocities until `missing`, by how much the sums of the rows must change, is negligible in
-/// a step of length h. Adds the forces in the rows that do this to `row_forces`. Returns whether the
-/// rows hold within the tolerance. Throws Error(kNotConverged) if a length or place would be off by
-/// more than a mean radius.
-bool FluidSimulation::hold(
-    const std::function<std::vector<double>(std::span<const double>)>& missing, bool with_springs,
-    std::vector<double>& velocities, double h, std::vector<double>& row_forces) const {
-  // Each change gains about a factor of the angle by which a body or an arm turns in the step.
-  constexpr int kMostChanges = 20;
-  constexpr double kOfTolerance = 1e-3;
-  const double enough = kOfTolerance * setting_.solver.tolerance * mean_radius_ / h;
-  for (int n = 0;; ++n) {
-    const auto changes = missing(velocities);
-    const double off = largest_of(changes);
-    if (off <= enough) return true;
-    if (n == kMostChanges && !(h * off <= mean_radius_))
-      throw Error(
-          ErrorKind::kNotConverged,
-          fmt::format("the links do not hold in the step to time {}: a length or place would "
-                      "be off by {:.3g} mean radii; is the time step too long for the "
-                      "velocities, or do lengths, places and given motions contradict each "
-                      "other?",
-                      state_.time + h, h * off / mean_radius_));
-    if (n == kMostChanges) return h * off <= setting_.solver.tolerance * mean_radius_;
-    add(held_->change(velocities, changes, with_springs), row_forces);
-  }
-}
-
-/// Changes velocities until hinges and arms, and the springs of accelerating particles, hold after
-/// the step, in which bodies turn by finite angles. Returns the forces in the rows that this takes
-/// beside those of the last velocities(..., true) of the solver.
+/// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold after
+/// the step, in which bodies turn by finite angles; `holds` says whether they do within the tolerance.
+/// Returns the forces in the rows that this takes beside those of the last velocities(..., true) of
+/// the solver. Throws Error(kNotConverged) if a length or place would be off by more than a mean
+/// radius.
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
                                                      std::vector<double>& velocities, double h,
                                                      bool& holds) const {
-  auto forces = held_->row_forces();
+  const auto of_flow = held_->row_forces();
+  auto forces = of_flow;
   // The extrapolated velocities have these forces as well.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add(held_->row_forces_for(extrapolated), forces);
   const auto thetas = held_->thetas();
-  holds = hold([&](std::span<const double> v) { return held.missing(v, forces, thetas); },
-               !equation.link_times().empty(), velocities, h, forces);
-  const auto& of_flow = held_->row_forces();
+  const bool with_springs = !equation.link_times().empty();
+  // Each change gains about a factor of the angle by which a body or an arm turns in the step.
+  constexpr int kMostChanges = 20;
+  constexpr double kOfTolerance = 1e-3;
+  const double allowed = setting_.solver.tolerance * mean_radius_;
+  double off = 0;  // [L]
+  for (int n = 0; n <= kMostChanges; ++n) {
+    const auto missing = held.missing(velocities, forces, thetas);
+    off = h * largest_of(missing);
+    if (off <= kOfTolerance * allowed || n == kMostChanges) break;
+    add(held_->change(velocities, missing, with_springs), forces);
+  }
+  holds = off <= allowed;
+  if (!(off <= mean_radius_))
+    throw Error(
+        ErrorKind::kNotConverged,
+        fmt::format("the links do not hold in the step to time {}: a length or place would be "
+                    "off by {:.3g} mean radii; is the time step too long for the velocities, "
+                    "or do lengths, places and given motions contradict each other?",
+                    state_.time + h, off / mean_radius_));
   for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
   return forces;
 }

@@ -3,7 +3,6 @@
 // of gluey particles"). Lengths, masses and times are in one consistent system of units.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -97,9 +96,6 @@ class FluidSimulation {
                 const HeldMotion* held, Motion& motion);
   void examine(const Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
-  [[nodiscard]] bool hold(
-      const std::function<std::vector<double>(std::span<const double>)>& missing, bool with_springs,
-      std::vector<double>& velocities, double h, std::vector<double>& row_forces) const;
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,
                                       double h, bool& holds) const;
