@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 
@@ -55,8 +56,10 @@ Pair common_pair(const PairTables& tables) {
   };
   const auto& first = pairs.front();
   for (const auto& pair : pairs) {
-    if (pair.viscosity != first.viscosity) refuse("viscosity", first.viscosity, pair.viscosity);
-    if (pair.radius != first.radius) refuse("radius", first.radius, pair.radius);
+    if (!equal_up_to_rounding(pair.viscosity, first.viscosity))
+      refuse("viscosity", first.viscosity, pair.viscosity);
+    if (!equal_up_to_rounding(pair.radius, first.radius))
+      refuse("radius", first.radius, pair.radius);
     if (pair.geometry != first.geometry) refuse("geometry", first.geometry, pair.geometry);
     if (pair.container != first.container) refuse("container", first.container, pair.container);
   }

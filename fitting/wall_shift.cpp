@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::fitting {
@@ -38,7 +39,8 @@ double smooth_gap_of(const lubrication::LubricationForce& smooth, double resista
 
 WallShift fit_wall_shift(const lubrication::ForceTable& rough,
                          const lubrication::LubricationForce& smooth) {
-  if (rough.viscosity != smooth.viscosity() || rough.radius != smooth.radius())
+  if (!equal_up_to_rounding(rough.viscosity, smooth.viscosity()) ||
+      !equal_up_to_rounding(rough.radius, smooth.radius()))
     throw Error(ErrorKind::kBadInput,
                 fmt::format("the table has viscosity {} and radius {}, and the fit has viscosity "
                             "{} and radius {}; they must be equal",

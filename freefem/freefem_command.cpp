@@ -38,6 +38,37 @@ std::optional<std::filesystem::path> path_of_program(const std::string& name) {
   return {};
 }
 
+/// A path as a pattern of dpkg-query that matches this path only.
+std::string pattern_of(const std::string& path) {
+  std::string pattern;
+  for (const char c : path) {
+    if (std::string_view("*?[\\").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
+/// The package to which a path belongs by the answer of dpkg-query --search; empty if none is
+/// named. A line of the answer is "PACKAGE: PATH", "PACKAGE:ARCHITECTURE: PATH", "PACKAGE, PACKAGE:
+/// PATH" if several packages have the file, or "diversion by PACKAGE from: PATH" if a package has
+/// put its own file in place of that of another one.
+std::string owner_in(const std::string& answer, const std::string& path) {
+  constexpr std::string_view kDiversion = "diversion by ", kFrom = " from";
+  const std::string end = ": " + path;
+  std::string owner;
+  std::istringstream lines(answer);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.ends_with(end)) continue;
+    const auto names = line.substr(0, line.size() - end.size());
+    if (names.starts_with(kDiversion) && names.ends_with(kFrom))
+      return names.substr(kDiversion.size(), names.size() - kDiversion.size() - kFrom.size());
+    // Of a diversion there are other lines, whose first word is no package.
+    const auto first = names.substr(0, names.find(", "));
+    if (owner.empty() && first.find(' ') == std::string::npos) owner = first;
+  }
+  return owner;
+}
+
 }  // namespace
 
 std::string executable_of_user() {
@@ -68,12 +99,9 @@ std::optional<Package> package_of(const std::string& executable, const StopToken
     const auto result = run_process(arguments, {"LC_ALL=C"}, {}, {}, kLongest, stop);
     return result.started && result.exit_status == 0 ? result.output : std::string();
   };
-  // The answer is "PACKAGE: PATH", or "PACKAGE:ARCHITECTURE: PATH".
-  const auto found = ask({"dpkg-query", "--search", file->string()});
-  const auto end = found.find(": " + file->string());
-  if (end == std::string::npos) return {};
-  const auto begin = found.rfind('\n', end) + 1;  // 0 if there is no line before
-  Package package{found.substr(begin, end - begin), {}};
+  const auto answer = ask({"dpkg-query", "--search", pattern_of(file->string())});
+  Package package{owner_in(answer, file->string()), {}};
+  if (package.name.empty()) return {};
   package.version = ask({"dpkg-query", "--show", "--showformat=${Version}", package.name});
   if (package.version.empty()) return {};
   return package;

@@ -34,10 +34,12 @@ std::string duration(double seconds) {
 
 DryRun dry_run(const CaseTable& one) {
   const auto& grid = one.plan.points;
-  DryRun run{one.table.string(), grid.size(), 0, one.plan.typical_seconds,
+  DryRun run{one.table.string(),        grid.size(), 0, 0, one.plan.typical_seconds,
              "the shipped tables' rows"};
   const auto record = freefem_axi::read_row_record(one.table, one.plan);
-  run.finished = grid.size() - freefem_axi::missing_points(record, grid).size();
+  const auto missing = freefem_axi::missing_points(record, grid);
+  run.finished = grid.size() - missing.size();
+  run.failed = freefem_axi::failures_of(record, missing).size();
   if (record.finished.empty()) return run;
   run.seconds_per_row = 0;
   for (const auto& [point, row] : record.finished)
@@ -52,7 +54,11 @@ DryRun dry_run(const sweep::Rows& rows, const std::string& output, const StopTok
   const auto start = std::chrono::steady_clock::now();
   for (const auto index : sample) (void)rows.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  return {output, rows.size, sweep::finished_rows(rows, output),
+  // A row at which models fail is finished, too: its columns say so.
+  return {output,
+          rows.size,
+          sweep::finished_rows(rows, output),
+          0,
           spent.count() / static_cast<double>(sample.size()),
           fmt::format("{} of its rows, just computed", sample.size())};
 }
@@ -66,14 +72,17 @@ std::string dry_run_text(const std::vector<DryRun>& runs, int jobs, bool json) {
       all["outputs"].push_back({{"output", run.output},
                                 {"rows", run.rows},
                                 {"finished", run.finished},
+                                {"failed", run.failed},
                                 {"seconds_per_row", run.seconds_per_row},
                                 {"estimated_from", run.basis}});
     return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   }
   std::string text;
   for (const auto& run : runs)
-    text += fmt::format("{}: {} rows, {} of them finished; {:.2g} s a row (from {})\n", run.output,
-                        run.rows, run.finished, run.seconds_per_row, run.basis);
+    text += fmt::format("{}: {} rows, {} of them finished{}; {:.2g} s a row (from {})\n",
+                        run.output, run.rows, run.finished,
+                        run.failed > 0 ? fmt::format(", {} failed", run.failed) : "",
+                        run.seconds_per_row, run.basis);
   return text + fmt::format("{} with {} at once\n", duration(total), jobs);
 }
 

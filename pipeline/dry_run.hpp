@@ -15,6 +15,7 @@ struct DryRun {
   std::string output;  ///< path of the table or of the sweep's file
   /// The number of all rows, and of those that are finished and would not be computed again.
   std::uint64_t rows = 0, finished = 0;
+  std::uint64_t failed = 0;    ///< of the other rows, those that were tried and failed
   double seconds_per_row = 0;  ///< on one core [s]
   std::string basis;           ///< what seconds_per_row was estimated from, in words
 };

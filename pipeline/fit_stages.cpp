@@ -14,6 +14,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/report/pictures/shift_plot.hpp"
 #include "viscontact/report/summaries.hpp"
+#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/versions.hpp"
 #include "viscontact/terminal/progress.hpp"
 
@@ -52,7 +53,8 @@ void compare_bases_stage(const fs::path& table_path, const fitting::FitSettings&
     throw_bad_input({table_path.string()}, results.front().failure);
   // The numbers come first because the picture needs gnuplot, which may be missing.
   fmt::print("{}", json ? report::basis_json(results) : report::basis_table(results));
-  results::write_output(plot_path, TextKind::kSvg, report::plot_bases(table, results, stop),
+  const auto kind = results::picture_kind(plot_path)->kind;
+  results::write_output(plot_path, kind, report::plot_bases(table, results, kind, stop),
                         provenance);
 }
 
@@ -82,9 +84,10 @@ void shift_stage(const fs::path& table_path, const fs::path& fit_path, const fs:
   fmt::print("shift {:.6g}; relative residual: largest {:.2g}, rms {:.2g}\n", shift.shift,
              shift.largest_relative_residual, shift.rms_relative_residual);
   // The picture comes last because it needs gnuplot, which may be missing.
-  if (!plot_path.empty())
-    results::write_output(plot_path, TextKind::kSvg,
-                          report::plot_wall_shift(shift, rough.geometry, stop), provenance);
+  if (plot_path.empty()) return;
+  const auto kind = results::picture_kind(plot_path)->kind;
+  results::write_output(plot_path, kind, report::plot_wall_shift(shift, rough.geometry, kind, stop),
+                        provenance);
 }
 
 }  // namespace viscontact::pipeline

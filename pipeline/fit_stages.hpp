@@ -24,7 +24,7 @@ void compare_bases_stage(const std::filesystem::path& table_path,
 
 /// Fits the shift of a rough wall: the depth below its crests at which a smooth wall has the same
 /// drag (fitting/wall_shift.hpp). Uses the rough wall's table and the smooth wall's fit. Prints the
-/// shift [L], writes the shift of each row (CSV) and, unless `plot_path` is empty, a picture (SVG).
+/// shift [L], writes the shift of each row (CSV) and, unless `plot_path` is empty, a picture.
 void shift_stage(const std::filesystem::path& table_path, const std::filesystem::path& fit_path,
                  const std::filesystem::path& shift_path, const std::filesystem::path& plot_path,
                  const StopToken& stop);

@@ -46,8 +46,35 @@ fs::path table_of(const fs::path& folder, MotionKind motion) {
   return folder / fmt::format("{}.csv", to_string(motion));
 }
 
+/// True if the file is where the command that made it wrote it. Files without provenance, or whose
+/// provenance names no folder, count as such.
+bool is_where_made(const fs::path& file) {
+  const auto provenance = results::read_provenance(file);
+  if (!provenance || provenance->folder.empty()) return true;
+  return fs::weakly_canonical(fs::path(provenance->folder) / provenance->output) ==
+         fs::weakly_canonical(file);
+}
+
+/// Why a table of the tabulation that made `file` may be missing, and what completes the folder.
+std::string reason_and_remedy(const fs::path& folder, const fs::path& file,
+                              const std::string& motions) {
+  const auto name = file.filename().string();
+  const auto rerun = fmt::format("viscontact rerun {}", shell_word(file.string()));
+  if (is_where_made(file))
+    return fmt::format(
+        "because the tabulation of {} that made {} has not ended, or its table was "
+        "removed; '{}' completes it",
+        motions, name, rerun);
+  return fmt::format(
+      "although the tabulation that made {} was one of {}; {} was copied from "
+      "another folder, from which the rest can be copied, too, or "
+      "'{} -o {}' computes it",
+      name, motions, name, rerun, shell_word(folder.string()));
+}
+
 /// Throws Error(kBadInput) if a table of the folder names a motion of its tabulation whose table is
-/// missing: the tabulation was interrupted, or has not ended yet.
+/// missing: the tabulation was interrupted, has not ended yet, or only a part of its tables was
+/// copied into the folder.
 void check_complete(const fs::path& folder, const std::vector<fs::path>& files) {
   for (const auto& file : files) {
     auto comments = read_csv_comments(read_file(file));
@@ -60,11 +87,9 @@ void check_complete(const fs::path& folder, const std::vector<fs::path>& files) 
     if (!missing.empty())
       throw_bad_input(
           {folder.string()},
-          fmt::format("lacks {}, because the tabulation of {} that made {} has not ended; "
-                      "'viscontact rerun {}' completes it, and tables that are named one by one "
-                      "are fitted as they are",
-                      fmt::join(missing, ", "), comments["motions"], file.filename().string(),
-                      shell_word(file.string())));
+          fmt::format("lacks {}, {}, and tables that are named one by one are fitted as they are",
+                      fmt::join(missing, ", "),
+                      reason_and_remedy(folder, file, comments["motions"])));
   }
 }
 

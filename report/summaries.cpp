@@ -87,7 +87,8 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results) {
 }
 
 std::string plot_bases(const lubrication::ForceTable& table,
-                       const std::vector<fitting::BasisResult>& results, const StopToken& stop) {
+                       const std::vector<fitting::BasisResult>& results, TextKind kind,
+                       const StopToken& stop) {
   constexpr std::array kColours = {kVermilion, kBlue, kBluishGreen, kReddishPurple};
   Panel panel{"Relative residuals of the fits",
               "gap q",
@@ -127,7 +128,7 @@ std::string plot_bases(const lubrication::ForceTable& table,
     if (const auto& row = table.rows[i]; row.relative_error_estimate > 0)
       estimate.points.emplace_back(row.gap, row.relative_error_estimate);
   if (!estimate.points.empty()) panel.curves.push_back(estimate);
-  return draw_svg({panel}, 860, 520, stop);
+  return draw_picture(kind, {panel}, 860, 520, stop);
 }
 
 std::string comparison_table(const reduced_model::Comparison& comparison) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/common/text/text_kind.hpp"
 #include "viscontact/fitting/basis_comparison.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 
@@ -21,10 +22,10 @@ std::string basis_table(const std::vector<fitting::BasisResult>& results);
 /// file; if the fit failed, it has only the keys "basis" and "failure".
 std::string basis_json(const std::vector<fitting::BasisResult>& results);
 
-/// An SVG of the relative residuals of every basis over the gap, beside the table's error
-/// estimates. Throws Error(kExternalProgram) as draw_svg does.
+/// A picture of the `kind` kSvg, kPdf or kPng: the relative residuals of every basis over the gap,
+/// beside the table's error estimates. Throws Error(kExternalProgram) as draw_picture does.
 std::string plot_bases(const lubrication::ForceTable& table,
-                       const std::vector<fitting::BasisResult>& results,
+                       const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop = {});
 
 /// One line per model: smallest gap and its time, recovered film, times of contact, largest

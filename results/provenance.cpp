@@ -7,6 +7,7 @@
 
 #include <cassert>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <ctime>
 
@@ -60,8 +61,8 @@ std::string hash_of(const std::filesystem::path& file) {
              : sha256(read_file(file));
 }
 
-/// The provenance as JSON on one line.
-std::string as_line(const Provenance& provenance) {
+/// The provenance as JSON on one line. `is_ascii`: with \\uXXXX for all other characters.
+std::string as_line(const Provenance& provenance, bool is_ascii = false) {
   Json json;
   json["command"] = provenance.command;
   json["folder"] = provenance.folder;
@@ -73,7 +74,7 @@ std::string as_line(const Provenance& provenance) {
   if (!provenance.output.empty()) json["output"] = provenance.output;
   json["versions"] = provenance.versions;
   json["made"] = provenance.made;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', is_ascii, Json::error_handler_t::replace);
 }
 
 /// `json` with each of the `characters` replaced by \uXXXX, because these characters could end the
@@ -110,6 +111,10 @@ Wrapping wrapping_of(TextKind kind) {
       return {"/* provenance: ", " */", "*"};
     case TextKind::kFortran:
       return {"! provenance: ", "", ""};
+    case TextKind::kPdf:
+      return {"% provenance: ", "", ""};
+    case TextKind::kPng:
+      break;  // not a line, but a chunk
   }
   return {};
 }
@@ -128,6 +133,7 @@ std::size_t place_in(TextKind kind, const std::string& text) {
     case TextKind::kHashComment:
     case TextKind::kC:
     case TextKind::kFortran:
+    case TextKind::kPng:
       return 0;
     case TextKind::kJson:
       return line_after(text, "{");
@@ -137,8 +143,45 @@ std::size_t place_in(TextKind kind, const std::string& text) {
       return text.find("</head>");
     case TextKind::kXml:
       return line_after(text, "?>");
+    case TextKind::kPdf:
+      // Behind all that the table of offsets in the file refers to.
+      return text.rfind("startxref");
   }
   return 0;
+}
+
+// A PNG begins with these 8 bytes and a header of 25, and consists of chunks: 4 bytes length, 4
+// bytes type, data, 4 bytes CRC (ISO/IEC 15948).
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+constexpr std::size_t kPngHeader = 8 + 25;
+/// How the type and the data of the chunk with the provenance begin: a text with a keyword.
+constexpr std::string_view kChunk{"tEXtprovenance\0", 15};
+
+/// A number as 4 bytes, the highest first.
+std::string as_bytes(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(static_cast<unsigned char>(number >> static_cast<unsigned>(shift)));
+  return bytes;
+}
+
+/// The CRC-32 of a chunk of a PNG, over its type and data.
+std::uint32_t crc_of(std::string_view bytes) {
+  std::uint32_t crc = 0xffffffff;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xedb88320 : 0U);
+  }
+  return ~crc;
+}
+
+/// The chunk of a PNG with the provenance. Its text is ASCII and ends with a newline, where the line
+/// of the provenance ends (find_line).
+std::string png_chunk(const Provenance& provenance) {
+  const auto content = std::string(kChunk) + as_line(provenance, true) + "\n";
+  constexpr std::size_t kType = 4;
+  return as_bytes(static_cast<std::uint32_t>(content.size() - kType)) + content +
+         as_bytes(crc_of(content));
 }
 
 /// Three positions in a text: begin of the line that contains the provenance, begin of its JSON,
@@ -202,6 +245,8 @@ std::size_t path_in_word(const std::string& word) {
 }
 
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance) {
+  if (kind == TextKind::kPng)
+    return text.substr(0, kPngHeader) + png_chunk(provenance) + text.substr(kPngHeader);
   const auto place = place_in(kind, text);
   const auto [before, after, forbidden] = wrapping_of(kind);
   return text.substr(0, place) + before + without(forbidden, as_line(provenance)) + after + "\n" +
@@ -211,6 +256,12 @@ std::string with_provenance(TextKind kind, const std::string& text, const Proven
 std::string without_provenance(const std::string& text) {
   const auto line = find_line(text);
   if (!line) return text;
+  if (text.starts_with(kPngSignature)) {
+    // The chunk begins with 4 bytes for its length, and ends with 4 for its CRC after the line.
+    const auto begin = text.rfind(kChunk, line->json);
+    if (begin == std::string::npos || begin < 4) return text;
+    return text.substr(0, begin - 4) + text.substr(std::min(line->end + 1 + 4, text.size()));
+  }
   return text.substr(0, line->begin) + text.substr(std::min(line->end + 1, text.size()));
 }
 

@@ -58,7 +58,8 @@ std::size_t path_in_word(const std::string& word);
 Provenance without_folders(Provenance provenance);
 
 /// `text` with the provenance as one line in it. The line is the first key of a kJson file, an
-/// element <metadata> of a kSvg file, a data script in <head> of a kHtml file, and a comment at the
+/// element <metadata> of a kSvg file, a data script in <head> of a kHtml file, a comment before the
+/// last lines of a kPdf file, a chunk of text after the header of a kPng file, and a comment at the
 /// head of any other file. `text` must be a complete file of this kind; for kJson it must be an
 /// object with at least one key.
 std::string with_provenance(TextKind kind, const std::string& text, const Provenance& provenance);

@@ -12,6 +12,7 @@
 #include <set>
 #include <string_view>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
@@ -174,7 +175,8 @@ case_file::Case Sweep::case_at(std::uint64_t index) const {
   const auto numbers = point(index);
   try {
     case_file::Case c = case_.with(numbers);
-    if (!lubrication::is_exact_plane(plan_.fit) && c.radius != plan_.fit.radius)
+    if (!lubrication::is_exact_plane(plan_.fit) &&
+        !equal_up_to_rounding(c.radius, plan_.fit.radius))
       throw_bad_input(
           {plan_.case_path.string()},
           fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is valid for "

@@ -9,7 +9,9 @@
 #include <thread>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/named.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/results/picture_kind.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -40,12 +42,13 @@ void check_outputs(const std::vector<std::string>& paths) {
 }
 
 void check_picture(const std::string& path) {
-  if (path.empty() || std::filesystem::path(path).extension() == ".svg") return;
-  throw Error(ErrorKind::kWrongUsage,
-              fmt::format("--plot: {} does not end in .svg; pictures are written as SVG, which "
-                          "records how it was made (rsvg-convert and inkscape make PDF and PNG of "
-                          "it)",
-                          path));
+  if (path.empty()) return;
+  const auto* kind = results::picture_kind(path);
+  if (kind == nullptr)
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("--plot: {} does not end in {}, the kinds of pictures that are written",
+                            path, names_of(results::kPictureKinds, " or ")));
+  results::refuse_other_kind(path, kind->marker, "picture");
 }
 
 void check_models(std::string_view option, const std::vector<std::string>& names) {

@@ -48,8 +48,9 @@ void check_models(std::string_view option, const std::vector<std::string>& names
 /// Throws Error(kWrongUsage) if an output has an empty name or two outputs are the same file.
 void check_outputs(const std::vector<std::string>& paths);
 
-/// Throws Error(kWrongUsage) unless the file that --plot names ends in .svg. An empty name is no
-/// picture.
+/// Throws Error(kWrongUsage) unless the ending of the file that --plot names is that of a kind of
+/// picture (results::kPictureKinds), and Error(kBadInput) if there is such a file that is not a
+/// picture of this kind by Viscontact. An empty name is no picture.
 void check_picture(const std::string& path);
 
 /// The default of --jobs: one process or thread for each core.

@@ -98,8 +98,7 @@ void fit_table(FitOptions& o) {
   if (o.compare_bases) outputs.push_back(plot.string());
   check_outputs(outputs);
   if (fits) results::refuse_other_kind(o.fit, "\"gap_interval\"", "fit");
-  check_picture(o.plot);
-  if (o.compare_bases) results::refuse_other_kind(plot, "<svg", "picture");
+  if (o.compare_bases) check_picture(plot);
   std::optional<Error> without_picture;
   try {
     if (o.compare_bases)
@@ -162,7 +161,8 @@ void add_fit(CLI::App& app) {
                         "print the fits in all bases side by side, and draw their residuals");
   add_json(*command, o->json)->needs(bases);
   add_value(*command, "--plot", o->plot, kFile,
-            "picture of --compare-bases (SVG); default: FIT.bases.svg beside the fit, or without a "
+            "picture of --compare-bases (SVG, PDF or PNG); default: FIT.bases.svg beside the fit, "
+            "or without a "
             "fit TABLE.bases.svg in the current folder");
   command->callback([o] { fit_table(*o); });
 }
@@ -178,14 +178,13 @@ void add_shift(CLI::App& app) {
   add_value(*command, "--fit", o->fit, kFile, "fit of the smooth wall's force (JSON)")->required();
   add_value(*command, "-o,--output", o->shift, kFile, "shifts to write, row by row (CSV)")
       ->required();
-  add_value(*command, "--plot", o->plot, kFile, "picture to write (SVG)");
+  add_value(*command, "--plot", o->plot, kFile, "picture to write (SVG, PDF or PNG)");
   command->callback([o] {
     auto outputs = std::vector{o->shift};
     if (!o->plot.empty()) outputs.push_back(o->plot);
     check_outputs(outputs);
     results::refuse_other_kind(o->shift, "# viscontact: wall shift", "file of wall shifts");
     check_picture(o->plot);
-    if (!o->plot.empty()) results::refuse_other_kind(o->plot, "<svg", "picture");
     pipeline::shift_stage(o->table, o->fit, o->shift, o->plot, interrupt_token());
   });
 }

@@ -204,6 +204,25 @@ double limit_within_periods(const ParticlesCase& c, double asked) {
   return asked;
 }
 
+/// Bodies and links are held by forces that are found from velocities of the fluid, and these have
+/// rounding errors of about 1e-15/penalty (particles/fluid/fluid_motion.hpp). Seven touching discs
+/// of a body were held with penalties down to 3e-11; with 1e-11 the errors were taken for
+/// constraints that contradict each other.
+void check_penalty(const TomlSection& root, const ParticlesCase& c) {
+  constexpr double kLeast = 1e-10;
+  const auto& fluid = *c.setting.fluid;
+  const auto has_members = [](const auto& body) { return body.members.size() > 1; };
+  if (fluid.constraint != particles::RigidConstraint::kPenalty || fluid.penalty >= kLeast ||
+      (c.setting.links.empty() && std::ranges::none_of(c.particles.bodies.bodies, has_members)))
+    return;
+  root.section("fluid").fail(
+      "penalty",
+      fmt::format("is {}; in a case with bodies or links it must be at least {}, because "
+                  "the forces that hold them follow from velocities with rounding errors "
+                  "of 1e-15/penalty. constraint = \"rigid\" has no penalty",
+                  fluid.penalty, kLeast));
+}
+
 }  // namespace
 
 void set_default_threshold_gap(ParticlesCase& c) {
@@ -234,6 +253,7 @@ void check_fluid_start(const TomlSection& root, const ParticlesCase& c,
                     "solids touch at that gap",
                     c.setting.fluid->threshold_gap, solid));
   check_arrangement(root, c);
+  check_penalty(root, c);
   check_bodies(root, c, names);
   check_masses(root, c, names);
   check_side_of_cylinder(c, names);

@@ -32,6 +32,17 @@ void check_members(const TomlSection& section, const std::vector<std::int32_t>& 
   }
 }
 
+/// In a periodic domain the particles must determine the body, whatever their order.
+void check_images(const TomlSection& section, const std::vector<std::int32_t>& members,
+                  const ParticlesCase& c) {
+  if (const auto ambiguous = particles::ambiguous_images(c.particles, members))
+    section.fail("particles",
+                 fmt::format("do not determine which of their images make the body: along {} the "
+                             "largest distance between neighbouring centres, {:.6g}, occurs more "
+                             "than once; it must occur once, because the body ends there",
+                             ambiguous->axis == 0 ? "x" : "y", ambiguous->distance));
+}
+
 /// In a periodic domain a body must not touch itself across the period.
 void check_fits(const TomlSection& section, const ParticlesCase& c) {
   const double diameter = particles::diameter(c.particles.bodies.bodies.back(), c.particles);
@@ -61,6 +72,7 @@ void read_bodies(const TomlSection& root, ParticlesCase& c) {
     particles::RigidBodyRequest body;
     body.members = ids.numbers(section, "particles");
     check_members(section, body.members, c);
+    check_images(section, body.members, c);
     if (section.has("mass")) body.mass = section.number("mass", positive);
     if (section.has("moment_of_inertia")) {
       if (dimension == 3)

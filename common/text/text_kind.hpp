@@ -1,10 +1,10 @@
-// The kinds of text files that Viscontact writes.
+// The kinds of files that Viscontact writes.
 #pragma once
 
 namespace viscontact {
 
-/// A kind of text, named by the form of its comment lines: "#" (CSV, Python), JSON, SVG, HTML, XML,
-/// C or Fortran.
-enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran };
+/// A kind of file. A text is named by the form of its comment lines: "#" (CSV, Python), JSON, SVG,
+/// HTML, XML, C or Fortran; pictures are also PDF and PNG.
+enum class TextKind { kHashComment, kJson, kSvg, kHtml, kXml, kC, kFortran, kPdf, kPng };
 
 }  // namespace viscontact

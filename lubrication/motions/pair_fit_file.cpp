@@ -2,6 +2,7 @@
 // which has the keys of a fit file.
 #include <fmt/format.h>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/lubrication/fit/json_object.hpp"
@@ -14,8 +15,10 @@ const std::string kPairFit = "pair fit";
 
 /// Throws Error(kBadInput) if the entry was made for another pair than `fit`.
 void check_same_pair(const JsonObject& object, const Fit& entry, const PairFit& fit) {
-  if (entry.viscosity != fit.viscosity) object.fail("viscosity", "differs from that of the file");
-  if (entry.radius != fit.radius) object.fail("radius", "differs from that of the file");
+  if (!equal_up_to_rounding(entry.viscosity, fit.viscosity))
+    object.fail("viscosity", "differs from that of the file");
+  if (!equal_up_to_rounding(entry.radius, fit.radius))
+    object.fail("radius", "differs from that of the file");
   if (entry.geometry != fit.geometry) object.fail("geometry", "differs from that of the file");
   if (entry.reference_velocity != -1)
     object.fail("reference_velocity",

@@ -32,17 +32,70 @@ void set_turn(std::vector<double>& values, std::size_t k, int dimension, const V
   for (std::size_t d = 0; d < 3; ++d) values[3 * k + d] = to[d];
 }
 
-/// Place and velocity of the image of member `m` of a body that is nearest to its first member.
+/// The members of a body along one axis of a periodic cell, between two of which the body ends.
+struct Cut {
+  std::vector<double> periods;  ///< by which each member lies beyond its image in the body
+  double widest = 0;  ///< largest distance between neighbours, across which the body ends [L]
+  int count = 0;      ///< number of distances that are as large; 1 if the images are determined
+};
+
+/// Cuts the circle of the members along axis `axis`, which has a period, at the largest distance
+/// between neighbours. This makes the body as short as it can be, and depends neither on the order
+/// of the members nor on where the cell begins.
+Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::size_t axis) {
+  const double period = p.cell.lengths[axis];
+  const auto first = p.position(index_of(members[0]));
+  Cut cut;
+  std::vector<double> places;  // relative to the first member, from 0 to the period
+  for (const auto member : members) {
+    const double x = before_the_motion(p.cell, p.position(index_of(member)) - first)[axis];
+    cut.periods.push_back(std::floor(x / period));
+    places.push_back(x - period * cut.periods.back());
+  }
+  auto sorted = places;
+  std::ranges::sort(sorted);
+  // The distance from each member to the next one, of the last one to the image of the first one.
+  std::vector<double> distances;
+  for (std::size_t m = 0; m < sorted.size(); ++m)
+    distances.push_back(m + 1 < sorted.size() ? sorted[m + 1] - sorted[m]
+                                              : sorted[0] + period - sorted[m]);
+  const auto widest = std::ranges::max_element(distances);
+  cut.widest = *widest;
+  // Far above the rounding errors of positions, far below what a user would distinguish.
+  constexpr double kEqual = 1e-9;
+  cut.count = static_cast<int>(std::ranges::count_if(
+      distances, [&](double distance) { return distance >= cut.widest - kEqual * period; }));
+  const auto begin = static_cast<std::size_t>(widest - distances.begin()) + 1;
+  const double from = begin < sorted.size() ? sorted[begin] : 0;
+  for (std::size_t m = 0; m < places.size(); ++m)
+    if (places[m] < from) cut.periods[m] -= 1;
+  // The body is where its first member is, so that members that need no images keep their places
+  // bit for bit.
+  const double shift = cut.periods[0];
+  for (auto& periods : cut.periods) periods -= shift;
+  return cut;
+}
+
+/// Place and velocity of the image of a member that belongs to the body.
 struct MemberImage {
   Vector position{}, velocity{};
 };
 
-MemberImage nearest_image(const Particles& p, const RigidBody& body, std::size_t m) {
-  const auto k = index_of(body.members[m]);
-  const auto periods =
-      periods_towards(p.cell, p.position(k) - p.position(index_of(body.members[0])));
-  return {p.position(k) - shift_of(p.cell, periods),
-          p.velocity(k) - velocity_of_image(p.cell, periods)};
+/// The images of the members that make the body.
+std::vector<MemberImage> images_of(const Particles& p, const std::vector<std::int32_t>& members) {
+  std::vector<Periods> periods(members.size());
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (!(p.cell.lengths[axis] > 0)) continue;
+    const auto cut = cut_of(p, members, axis);
+    for (std::size_t m = 0; m < members.size(); ++m) periods[m][axis] = cut.periods[m];
+  }
+  std::vector<MemberImage> images;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const auto k = index_of(members[m]);
+    images.push_back({p.position(k) - shift_of(p.cell, periods[m]),
+                      p.velocity(k) - velocity_of_image(p.cell, periods[m])});
+  }
+  return images;
 }
 
 /// Sets centre, velocity, mass, inertia and angular momentum from the members.
@@ -50,17 +103,17 @@ void sum_members(const Particles& p, const RigidBodyRequest& request, RigidBody&
   for (const auto member : body.members) body.mass += p.masses[index_of(member)];
   if (request.mass >= 0) body.mass = request.mass;
   const auto masses = member_masses(body, p);
+  const auto images = images_of(p, body.members);
   for (std::size_t m = 0; m < masses.size(); ++m) {
     const double weight =
         body.mass > 0 ? masses[m] / body.mass : 1 / static_cast<double>(masses.size());
-    const auto image = nearest_image(p, body, m);
-    body.centre = body.centre + weight * image.position;
-    body.velocity = body.velocity + weight * image.velocity;
+    body.centre = body.centre + weight * images[m].position;
+    body.velocity = body.velocity + weight * images[m].velocity;
   }
   Vector turning{};  // angular momentum of the members
   for (std::size_t m = 0; m < masses.size(); ++m) {
     const auto k = index_of(body.members[m]);
-    const auto image = nearest_image(p, body, m);
+    const auto& image = images[m];
     const Vector offset = image.position - body.centre;
     body.offsets.push_back(offset);
     body.member_angles.push_back(p.angles.empty() ? 0 : p.angles[k]);
@@ -102,6 +155,16 @@ Matrix3 inverse_of(const Matrix3& a) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) inverse[3 * i + j] = minor(j, i) / determinant;
   return inverse;
+}
+
+std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
+                                                const std::vector<std::int32_t>& members) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (!(particles.cell.lengths[axis] > 0)) continue;
+    const auto cut = cut_of(particles, members, axis);
+    if (cut.count > 1) return AmbiguousImages{axis, cut.widest};
+  }
+  return std::nullopt;
 }
 
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request) {

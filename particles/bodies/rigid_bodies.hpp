@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "viscontact/particles/domain/periods.hpp"
@@ -80,11 +81,24 @@ struct RigidBodyRequest {
 /// Adds a body with the members at their present places, velocities and angles. Its centre is the
 /// centre of mass of the members (the mean of their centres if none has a mass), its velocity and
 /// angular momentum are those of the members together, and their velocities become those of the
-/// rigid motion. In a periodic cell (Particles::cell) the images of the members that are nearest
-/// to the first one make the body, which must be smaller than the cell (diameter()). Their
-/// velocities are those of the images. The particles must turn (add_rotation), unless their
-/// dimension is 1, and belong to no other body.
+/// rigid motion. In a periodic cell (Particles::cell) those images of the members make the body
+/// with which it is shortest along each axis: it ends across the largest distance between
+/// neighbours. It must be smaller than the cell (diameter()). If two distances are the largest
+/// (ambiguous_images()), the images depend on the order of the particles. The velocities are those
+/// of the images. The particles must turn (add_rotation), unless their dimension is 1, and belong
+/// to no other body.
 void add_rigid_body(Particles& particles, const RigidBodyRequest& request);
+
+/// An axis of a periodic cell along which members do not determine which images make the body.
+struct AmbiguousImages {
+  std::size_t axis = 0;  ///< 0: x, 1: y
+  double distance = 0;   ///< between neighbours, which is the largest more than once [L]
+};
+
+/// The first axis along which particles that shall be a body do not determine their images
+/// (add_rigid_body); nothing if they determine them, or if the cell is not periodic.
+std::optional<AmbiguousImages> ambiguous_images(const Particles& particles,
+                                                const std::vector<std::int32_t>& members);
 
 /// Diameter of the circle or sphere about the centre of a body that contains its members [L].
 double diameter(const RigidBody& body, const Particles& particles);

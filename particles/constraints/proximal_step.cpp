@@ -33,7 +33,7 @@ void ProximalStep<D>::set_epsilon(double epsilon) {
   has_factor_ = false;
 }
 
-/// Sets `q` to c - rho (v + J y) of block `b` after a step `t` along the direction.
+/// Sets `q` to P^k - rho (b + J y) of block `b` after a step `t` along the direction.
 template <int D>
 void ProximalStep<D>::unprojected(std::size_t b, double t, double* q) const {
   const auto& block = problem_.blocks[b];
@@ -48,7 +48,7 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project(std::size_t b, const d
                                                           double* p) const {
   const auto& block = problem_.blocks[b];
   if (!block.is_contact) {
-    // p = c - rho (v + compliance p)
+    // p = P^k - rho (b + J y + compliance p)
     for (std::size_t k = 0; k < block.rows; ++k)
       p[k] = q[k] / (1 + rho_[block.row + k] * block.compliance);
     return {true, Friction::kSticks};
@@ -97,8 +97,8 @@ typename ProximalStep<D>::Branch ProximalStep<D>::project_relaxed(std::size_t b,
   return {};
 }
 
-/// Error J^T P - M/h (y - y*) after a step `t` along the direction, in the norm of the inverse
-/// masses. With `is_kept`, also sets the impulses and branches there.
+/// Error J^T P^{k+1} - M/h (y - y*) after a step `t` along the direction, in the norm of the
+/// inverse masses. With `is_kept`, also sets the impulses and branches there.
 template <int D>
 double ProximalStep<D>::error_at(double t, bool is_kept) {
   for (std::size_t u = 0; u < y_.size(); ++u) {

@@ -10,16 +10,19 @@
 
 namespace viscontact::particles {
 
-/// From impulses c, a step of the proximal method (Rockafellar 1976) finds the motions y with
+/// From impulses P^k, a step of the proximal method (Rockafellar 1976) finds the motions y and the
+/// impulses P^{k+1} of docs/physics.md (5.8):
 ///
-///     M/h (y - y*) = J^T P(c - rho (v + J y)),   rho = 1/(epsilon w),
+///     M/h (y - y*) = J^T P^{k+1},   P^{k+1} = proj(P^k - rho (b + J y)),
+///     rho_r = 1/(epsilon W_rr),
 ///
-/// where w is the mobility of a row (W_rr of docs/physics.md (5.8)) and P projects on the allowed
-/// impulses: first the normal one on p_n >= lowest, then the tangential one on |p_t| <= mu_s p_s
-/// with p_s from p_n, so that Coulomb's law holds at the fixed point. For the convex relaxation
-/// (5.9) P projects on the cone of both, and y is then the minimum of a convex function, along which
-/// the length of a step is searched. The new impulses are P(...). The smaller epsilon is, the nearer
-/// they are to the solution, and the harder the equation is to solve; redundant contacts do no harm.
+/// where b + J y are the gaps and h times the slips, W_rr is the mobility of row r, and proj
+/// projects on the allowed impulses: first the normal one on p_n >= lowest, then the tangential one
+/// on |p_t| <= mu_s p_s with p_s from p_n, so that Coulomb's law holds at the fixed point. For the
+/// convex relaxation (5.9) proj projects on the cone of both, and y is then the minimum of a convex
+/// function, along which the length of a step is searched. The smaller epsilon is, the nearer
+/// P^{k+1} is to the solution, and the harder the equation is to solve; redundant contacts do no
+/// harm.
 ///
 /// Newton's method has a block of its matrix for each unit and two for each pair of units in
 /// contact (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
@@ -28,13 +31,13 @@ namespace viscontact::particles {
 template <int D>
 class ProximalStep {
  public:
-  /// `problem` must outlive this object; `w` are its row_mobilities().
+  /// `problem` must outlive this object; `w` are its row_mobilities(), W_rr.
   ProximalStep(const ConstraintProblem<D>& problem, const std::vector<double>& w);
 
   void set_epsilon(double epsilon);  ///< > 0; must be called before solve()
 
-  /// Solves from `center` and the motions `start`. Returns the number of factorisations and
-  /// solutions with factors. Sets failed() if Newton's method made no progress.
+  /// Solves from the impulses P^k = `center` and the motions `start`. Returns the number of
+  /// factorisations and solutions with factors. Sets failed() if Newton's method made no progress.
   int solve(const std::vector<double>& center, const std::vector<Motion<D>>& start,
             int max_iterations);
 
@@ -47,7 +50,7 @@ class ProximalStep {
 
  private:
   static constexpr int kMotion = D + kTurns<D>;
-  // Which branch of the projection P each part of a block is in. The matrix depends on it.
+  // Which branch of the projection each part of a block is in. The matrix depends on it.
   enum class Friction : unsigned char { kNone, kSticks, kSlips, kSlipsBack };
   struct Branch {
     bool is_closed = false;
@@ -70,9 +73,9 @@ class ProximalStep {
 
   const ConstraintProblem<D>& problem_;
   const std::vector<double>& w_;
-  std::vector<double> rho_, center_;
-  std::vector<double> values_, changes_;  // v + J y of the rows, and J of the direction
-  std::vector<double> projected_;
+  std::vector<double> rho_, center_;      // center_: P^k
+  std::vector<double> values_, changes_;  // b + J y of the rows, and J of the direction
+  std::vector<double> projected_;         // P^{k+1}
   std::vector<Branch> branches_, factored_;
   std::vector<Motion<D>> y_, direction_, error_;
   BlockFactor<kMotion> factor_;

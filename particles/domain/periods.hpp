@@ -84,15 +84,19 @@ inline Vector shift_of(const PeriodicCell& cell, std::int32_t image) {
   return shift_of(cell, Periods{double(x), double(y)});
 }
 
-/// The periods whose shift is nearest to the vector `apart` [L]; 0 along an axis without a period.
-inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
-  // The shifts of the images are (1 + moved_for gradient) times those of the start.
+/// The vector [L] whose image is `apart` after the cell has moved for `moved_for`: the shifts of
+/// the images are (1 + moved_for gradient) times those of the start. Only x and y.
+inline std::array<double, 2> before_the_motion(const PeriodicCell& cell, const Vector& apart) {
   const double t = cell.is_sheared() ? cell.moved_for : 0;
   const auto& g = cell.gradient;
   const double determinant = (1 + t * g[0]) * (1 + t * g[3]) - t * t * g[1] * g[2];
-  const std::array<double, 2> at_start = {
-      ((1 + t * g[3]) * apart[0] - t * g[1] * apart[1]) / determinant,
-      ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant};
+  return {((1 + t * g[3]) * apart[0] - t * g[1] * apart[1]) / determinant,
+          ((1 + t * g[0]) * apart[1] - t * g[2] * apart[0]) / determinant};
+}
+
+/// The periods whose shift is nearest to the vector `apart` [L]; 0 along an axis without a period.
+inline Periods periods_towards(const PeriodicCell& cell, const Vector& apart) {
+  const auto at_start = before_the_motion(cell, apart);
   Periods periods{};
   for (std::size_t d = 0; d < 2; ++d)
     if (cell.lengths[d] > 0) periods[d] = std::round(at_start[d] / cell.lengths[d]);

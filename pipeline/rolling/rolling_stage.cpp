@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
@@ -64,7 +65,7 @@ lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder
     });
   }
   auto fit = lubrication::read_pair_fit(file);
-  if (fit.radius != c.radius)
+  if (!equal_up_to_rounding(fit.radius, c.radius))
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: the sphere of the fit has the radius {}, that of the case {}",
                             file.string(), fit.radius, c.radius));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
@@ -86,9 +87,8 @@ lubrication::LubricationForce force_for(const case_file::Case& c, const lubricat
                                         const lubrication::OutsideInterval& outside) {
   // A fit for another radius cannot be used. A fit for another viscosity could be scaled, but not
   // without the user's knowledge, because the case and the fit contradict each other.
-  // Conversions of units leave rounding errors, which change no result.
-  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-12 * std::abs(b); };
-  if (differ(fit.viscosity, c.viscosity) || differ(fit.radius, c.radius))
+  if (!equal_up_to_rounding(fit.viscosity, c.viscosity) ||
+      !equal_up_to_rounding(fit.radius, c.radius))
     throw_bad_input({fit_path.string()},
                     fmt::format("was made for viscosity {} and radius {}, but the case has "
                                 "viscosity {} and radius {}; tabulate and fit for the case",

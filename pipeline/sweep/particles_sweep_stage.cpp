@@ -212,10 +212,13 @@ void submit_sweep(const ParticlesSweep& sweep, const ArrayRequest& request,
 
 DryRun dry_run(const ParticlesSweep& sweep, const std::string& output, const StopToken& stop) {
   const ParticlesRuns runs(sweep, output, VISCONTACT_VERSION, 1, false);
-  DryRun run{output, sweep.size(), 0, 0, ""};
+  DryRun run{output, sweep.size(), 0, 0, 0, ""};
   double seconds = 0;
   for (std::uint64_t i = 0; i < sweep.size(); ++i) {
-    if (!runs.has_succeeded(i)) continue;
+    if (!runs.has_succeeded(i)) {
+      if (runs.ended(i)) ++run.failed;
+      continue;
+    }
     ++run.finished;
     seconds += runs.seconds(i);
   }

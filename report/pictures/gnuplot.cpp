@@ -81,6 +81,31 @@ std::string panel_script(const Panel& panel, std::size_t index) {
   return script + plots + "\n";
 }
 
+/// The command that sets the terminal of a picture. Letters, lines and points have the same size
+/// relative to the picture in all kinds.
+std::string terminal_of(TextKind kind, int width, int height) {
+  constexpr const char* kCommon = "noenhanced font 'sans-serif,14' background 'white'";
+  constexpr double kPointsPerInch = 72;
+  if (kind == TextKind::kPdf)
+    return fmt::format("set terminal pdfcairo size {:.6g}in,{:.6g}in {} fontscale 0.75 linewidth 2",
+                       width / kPointsPerInch, height / kPointsPerInch, kCommon);
+  if (kind == TextKind::kPng)
+    return fmt::format("set terminal pngcairo size {},{} {} fontscale 1.5 linewidth 2 pointscale 2",
+                       2 * width, 2 * height, kCommon);
+  return fmt::format("set terminal svg size {},{} dynamic {}", width, height, kCommon);
+}
+
+/// Where a picture ends in the output of gnuplot, after which warnings follow, and where it begins.
+struct PictureMarks {
+  std::string begin, end;
+};
+
+PictureMarks marks_of(TextKind kind) {
+  if (kind == TextKind::kPdf) return {"%PDF-", "%%EOF"};
+  if (kind == TextKind::kPng) return {"\x89PNG", "IEND\xae\x42\x60\x82"};  // with its CRC
+  return {"<svg", "</svg>"};
+}
+
 }  // namespace
 
 std::string quoted_for_gnuplot(const std::string& text) {
@@ -101,11 +126,15 @@ std::string quoted_for_gnuplot(const std::string& text) {
 
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop) {
+  return draw_picture(TextKind::kSvg, panels, width, height, stop);
+}
+
+std::string draw_picture(TextKind kind, const std::vector<Panel>& panels, int width, int height,
+                         const StopToken& stop) {
   std::string script = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic noenhanced font 'sans-serif,14' background 'white'\n"
-      "set grid linecolor '#dddddd'\nset border linecolor '#444444'\nset key opaque spacing 1.15\n",
-      width, height);
+      "set encoding utf8\n{}\nset grid linecolor '#dddddd'\nset border linecolor '#444444'\nset "
+      "key opaque spacing 1.15\n",
+      terminal_of(kind, width, height));
   if (panels.size() > 1) script += fmt::format("set multiplot layout {},1\n", panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) script += panel_script(panels[i], i);
   if (panels.size() > 1) script += "unset multiplot\n";
@@ -126,13 +155,15 @@ std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
         ErrorKind::kExternalProgram,
         fmt::format("gnuplot cannot be run ({}); install it (apt-get install gnuplot-nox)",
                     result.output));
-  const auto start = result.output.find("<svg");
-  const auto end = result.output.rfind("</svg>");
+  const auto marks = marks_of(kind);
+  const auto start = result.output.find(marks.begin);
+  const auto end = result.output.rfind(marks.end);
   if (result.exit_status != 0 || start == std::string::npos || end == std::string::npos)
     throw Error(ErrorKind::kExternalProgram,
                 fmt::format("gnuplot failed (exit status {}): {}", result.exit_status,
                             last_part(result.output)));
-  return result.output.substr(start, end + 6 - start) + "\n";
+  return result.output.substr(start, end + marks.end.size() - start) +
+         (kind == TextKind::kPng ? "" : "\n");
 }
 
 }  // namespace viscontact::report

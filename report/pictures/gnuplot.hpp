@@ -1,4 +1,4 @@
-// Draws curves and colour fields as SVG with the program gnuplot. Values have no unit here; the
+// Draws curves and colour fields with the program gnuplot. Values have no unit here; the
 // labels of the axes name the units.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/common/text/text_kind.hpp"
 
 namespace viscontact::report {
 
@@ -53,10 +54,15 @@ inline constexpr const char* kLegendBelow =
 /// nothing in it as a command.
 std::string quoted_for_gnuplot(const std::string& text);
 
-/// Draws the panels one below the other as one SVG element, which may stand in an HTML page.
-/// `width` and `height` are in pixels. Throws GnuplotMissing(kExternalProgram) if gnuplot cannot be
-/// run, Error(kExternalProgram) if gnuplot fails or has not ended after ten minutes,
+/// Draws the panels one below the other. `kind` is kSvg (one element, which may stand in an HTML
+/// page), kPdf or kPng. `width` and `height` are in pixels of an SVG; a PDF has a point for each of
+/// them, and a PNG two pixels along each axis. Throws GnuplotMissing(kExternalProgram) if gnuplot
+/// cannot be run, Error(kExternalProgram) if gnuplot fails or has not ended after ten minutes,
 /// and Error(kInterrupted) if `stop` requests a stop.
+std::string draw_picture(TextKind kind, const std::vector<Panel>& panels, int width, int height,
+                         const StopToken& stop = {});
+
+/// draw_picture() of the kind kSvg.
 std::string draw_svg(const std::vector<Panel>& panels, int width, int height,
                      const StopToken& stop = {});
 

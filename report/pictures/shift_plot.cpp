@@ -9,7 +9,7 @@
 
 namespace viscontact::report {
 
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
                             const StopToken& stop) {
   Curve own{
       "shift of the row alone", "points pointtype 7 pointsize 0.7 linecolor rgb '#0072B2'", {}};
@@ -48,8 +48,8 @@ std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& 
   for (const auto& curve : {residual, estimate})
     if (!curve.points.empty()) residuals.curves.push_back(curve);
   constexpr int kWidth = 860, kPanelHeight = 360;  // [pixels]
-  if (residuals.curves.empty()) return draw_svg({shifts}, kWidth, kPanelHeight, stop);
-  return draw_svg({shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
+  if (residuals.curves.empty()) return draw_picture(kind, {shifts}, kWidth, kPanelHeight, stop);
+  return draw_picture(kind, {shifts, residuals}, kWidth, 2 * kPanelHeight, stop);
 }
 
 }  // namespace viscontact::report

@@ -5,14 +5,15 @@
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
+#include "viscontact/common/text/text_kind.hpp"
 #include "viscontact/fitting/wall_shift.hpp"
 
 namespace viscontact::report {
 
-/// An SVG element with two panels over the gap: the shift of each row beside the common shift [L],
-/// and the relative residuals with the common shift. `wall` names the wall in the title. Throws
-/// Error(kExternalProgram) if gnuplot is missing or fails.
-std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall,
+/// A picture of the `kind` kSvg, kPdf or kPng with two panels over the gap: the shift of each row
+/// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
+/// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
                             const StopToken& stop = {});
 
 }  // namespace viscontact::report

@@ -104,7 +104,7 @@ void check_has_value(const std::filesystem::path& path, const std::vector<double
                                : "has no value to draw in the columns that were asked for");
 }
 
-std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
+std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot, TextKind kind,
                        const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x);
@@ -136,7 +136,7 @@ std::string plot_lines(const std::filesystem::path& path, const SweepPlot& plot,
   panel.y_log = is_logarithmic(ys);
   for (const auto& [axis, logarithmic] : {std::pair('x', panel.x_log), std::pair('y', panel.y_log)})
     if (logarithmic) panel.settings.push_back(fmt::format("set format {} '1e%T'", axis));
-  return draw_svg({panel}, kSweepWidth, 520, stop);
+  return draw_picture(kind, {panel}, kSweepWidth, 520, stop);
 }
 
 double scaled(double value, bool logarithmic) { return logarithmic ? std::log10(value) : value; }
@@ -193,7 +193,7 @@ std::vector<std::string> map_colours(double low, double high) {
       "'#fee838')"};
 }
 
-std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
+std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot, TextKind kind,
                      const StopToken& stop) {
   SweepRows rows(path);
   const auto x = rows.find(plot.x), y = rows.find(plot.y), column = rows.find(plot.columns[0]);
@@ -239,14 +239,15 @@ std::string plot_map(const std::filesystem::path& path, const SweepPlot& plot,
               {}};
   std::ranges::move(map_colours(low, high), std::back_inserter(panel.settings));
   panel.field = std::move(field);
-  return draw_svg({panel}, kSweepWidth, 620, stop);
+  return draw_picture(kind, {panel}, kSweepWidth, 620, stop);
 }
 
 }  // namespace
 
 std::string plot_sweep(const std::filesystem::path& sweep_file, const SweepPlot& plot,
-                       const StopToken& stop) {
-  return plot.y.empty() ? plot_lines(sweep_file, plot, stop) : plot_map(sweep_file, plot, stop);
+                       TextKind kind, const StopToken& stop) {
+  return plot.y.empty() ? plot_lines(sweep_file, plot, kind, stop)
+                        : plot_map(sweep_file, plot, kind, stop);
 }
 
 }  // namespace viscontact::report

@@ -123,6 +123,13 @@ TEST(PairFits, NeedNotHaveAllTables) {
               lubrication::entry_value(both, PairEntry::kSlideRoll, 0.1), 1e-5);
 }
 
+TEST(PairFits, TakeTablesWhoseUnitsWereConverted) {
+  auto tables = shipped_tables("plane");
+  tables.spin->viscosity *= 1 + 1e-15;
+  tables.slide->radius *= 1 - 1e-15;
+  EXPECT_NO_THROW((void)fit_pair(tables, {}));
+}
+
 TEST(PairFits, RefuseTablesThatDoNotBelongTogether) {
   const auto refused = [](const auto& change) {
     auto tables = shipped_tables("plane");

@@ -54,6 +54,13 @@ TEST(WallShift, OneRowThatIsAnotherShowsInItsResidual) {
   EXPECT_LT(found.largest_relative_residual, 1.01e-2);
 }
 
+TEST(WallShift, TakesAFitWhoseUnitsWereConverted) {
+  auto table = shifted_table();
+  table.viscosity *= 1 + 1e-15;
+  table.radius *= 1 - 1e-15;
+  EXPECT_NEAR(fit_wall_shift(table, smooth()).shift, kShift, 1e-14);
+}
+
 TEST(WallShift, RefusesAnotherFluidAndADragBeyondTheFit) {
   const auto fails_with = [](const lubrication::ForceTable& table, const char* words) {
     try {

@@ -2,13 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <ostream>
+#include <string>
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/expect_error.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/freefem_axi/tabulations.hpp"
 #include "viscontact/common/system/process.hpp"
+#include "viscontact/freefem/freefem_command.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
 namespace viscontact::freefem_axi {
@@ -18,6 +22,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
 
 const Tabulation kTabulation = unit_tabulation({0.25}, 5, 1e-3);
 
@@ -49,6 +55,49 @@ TEST(FreeFemVersion, IsThatOfTheDebianPackageIfItHasInstalledTheProgram) {
 TEST(FreeFemVersion, IsWhatFreeFemStatesIfNoPackageHasInstalledIt) {
   const TemporaryFolder scratch;
   EXPECT_EQ(freefem_version(FakeFreeFem(scratch.path()).freefem()), "0-fake");
+}
+
+/// What a dpkg-query that answers `answer` to --search says of a program: the package, or "none".
+/// The version it gives is "1 of PACKAGE".
+std::string package_by(const std::string& answer, const std::string& program) {
+  const TemporaryFolder scratch;
+  fs::create_directory(scratch.path() / "bin");
+  const auto file = scratch.path() / program;
+  put_text(file, "");
+  std::string lines;
+  for (std::size_t i = 0; i < answer.size(); ++i)
+    lines += answer[i] == '@' ? fs::canonical(file).string() : std::string(1, answer[i]);
+  put_text(scratch.path() / "answer", lines);
+  // What is asked for must match the path of the program as a pattern, and nothing else.
+  const auto dpkg = scratch.path() / "bin/dpkg-query";
+  put_text(dpkg, "#!/bin/sh\ncase $1 in\n--search)\n  case '" + fs::canonical(file).string() +
+                     "' in $2) cat '" + (scratch.path() / "answer").string() +
+                     "' ;; *) exit 1 ;; esac ;;\n--show) echo \"1 of $3\" ;;\nesac\n");
+  make_executable(dpkg);
+  const std::string before = std::getenv("PATH");
+  ::setenv("PATH", ((scratch.path() / "bin").string() + ":" + before).c_str(), 1);
+  const auto package = freefem::package_of(file.string());
+  ::setenv("PATH", before.c_str(), 1);
+  if (package) {
+    EXPECT_EQ(package->version, "1 of " + package->name + "\n");
+  }
+  return package ? package->name : "none";
+}
+
+TEST(PackageOfAProgram, IsTheFirstThatHasItsPath) {
+  EXPECT_EQ(package_by("freefem++: @\n", "FreeFem++"), "freefem++");
+  EXPECT_EQ(package_by("freefem++:amd64: @\n", "FreeFem++"), "freefem++:amd64");
+  EXPECT_EQ(package_by("freefem++-mpi, freefem++: @\n", "FreeFem++"), "freefem++-mpi");
+  EXPECT_EQ(package_by("other: @.old\nfreefem++: @\n", "FreeFem++"), "freefem++");
+  EXPECT_EQ(package_by("diversion by mine from: @\ndiversion by mine to: @.real\nfreefem++: @\n",
+                       "FreeFem++"),
+            "mine");
+  EXPECT_EQ(package_by("", "FreeFem++"), "none");
+}
+
+TEST(PackageOfAProgram, IsFoundIfThePathHasCharactersOfPatterns) {
+  for (const auto* name : {"Free[Fem]", "Free*Fem", "Free?Fem", "Free\\Fem"})
+    EXPECT_EQ(package_by("mine: @\n", name), "mine") << name;
 }
 
 TEST(FakeFreeFem, AnswersAsARowOfTheTable) {

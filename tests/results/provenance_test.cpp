@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/results/kinds_of_text.hpp"
@@ -44,6 +49,36 @@ TEST(Provenance, IsALineThatHashesLeaveOut) {
     EXPECT_EQ(content_sha256(first), content_sha256(second)) << text;
     EXPECT_EQ(content_sha256(first), sha256(text)) << text;
   }
+}
+
+TEST(Provenance, OfAPngIsAChunkWithItsLengthAndCrc) {
+  const auto png = texts_of_all_kinds().back().text;
+  const auto with = with_provenance(TextKind::kPng, png, sample_provenance());
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      number = number << 8U | static_cast<unsigned char>(with[at + i]);
+    return number;
+  };
+  // zlib's CRC of "tEXtprovenance\0{...}\n" by another implementation: a table of 256 numbers.
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t n = 0; n < 256; ++n) {
+    table[n] = n;
+    for (int bit = 0; bit < 8; ++bit)
+      table[n] = table[n] & 1U ? 0xedb88320U ^ (table[n] >> 1U) : table[n] >> 1U;
+  }
+  std::vector<std::string> types;
+  for (std::size_t at = 8; at < with.size();) {
+    const std::size_t length = number_at(at);
+    ASSERT_LE(at + 12 + length, with.size());
+    std::uint32_t crc = 0xffffffff;
+    for (std::size_t i = at + 4; i < at + 8 + length; ++i)
+      crc = table[(crc ^ static_cast<unsigned char>(with[i])) & 0xffU] ^ (crc >> 8U);
+    types.push_back(with.substr(at + 4, 4));
+    EXPECT_EQ(number_at(at + 8 + length), ~crc) << types.back();
+    at += 12 + length;
+  }
+  EXPECT_THAT(types, ElementsAre("IHDR", "tEXt", "IDAT", "IEND"));
 }
 
 TEST(Provenance, IsAbsentFromAUsersText) {

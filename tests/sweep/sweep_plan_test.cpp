@@ -50,7 +50,7 @@ TEST(SweepPlanCheck, RadiusIsThatOfTheFitUnlessTheDragIsExact) {
                     HasSubstr("the fit's radius is 0.23032943298089034"), HasSubstr("exact drag")));
   EXPECT_THAT(bad_input([] {
                 Sweep(varied(shipped("vanishing_viscosity.toml"),
-                             {"sphere.radius=0.23032943298089034,0.4"}));
+                             {"sphere.radius=0.23032943298089034,0.2303294329808904,0.4"}));
               }),
               HasSubstr("sphere.radius is 0.4"));
   // k = 6 pi mu r^2 = 4, and gamma is -1 at the end of the push, q0 = 1: exp(gamma/k), to the

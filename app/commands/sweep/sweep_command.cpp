@@ -17,7 +17,7 @@ namespace {
 
 void add_picture_options(CLI::App& command, SweepOptions& o) {
   add_value(command, "--plot", o.plot, kFile,
-            "picture to write (SVG): lines over one key, or a map over two");
+            "picture to write (SVG, PDF or PNG): lines over one key, or a map over two");
   add_value(command, "--x", o.x, "KEY",
             "key of the horizontal axis; default: the first varied key");
   add_value(command, "--y", o.y, "KEY", "key of the vertical axis, for a map");

@@ -16,6 +16,7 @@
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
+#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/sweep.hpp"
 
@@ -118,7 +119,6 @@ void sweep_sphere(const SweepOptions& o) {
                 "--launcher slurm, --gather, --task, --keep-runs and --draws are for cases of many "
                 "particles; a row of one sphere takes milliseconds");
   results::refuse_other_kind(o.output, "# viscontact: sweep", "sweep");
-  if (!o.plot.empty()) results::refuse_other_kind(o.plot, "<svg", "picture");
   const case_file::Case c = case_file::read_case(o.case_file);
   sweep::SweepPlan plan = plan_of(o, c);
   if (plan.variations.empty())
@@ -145,10 +145,11 @@ void sweep_sphere(const SweepOptions& o) {
   else if (c.fit && c.fit->file)
     files.emplace_back(*c.fit->file);
   write_rows(o, sweep::rows_of(sweep, VISCONTACT_VERSION), files, "model");
-  if (!o.plot.empty())
-    results::write_output(o.plot, TextKind::kSvg,
-                          report::plot_sweep(o.output, picture, interrupt_token()),
-                          results::provenance_of(results::Inputs{files, {o.output}}));
+  if (o.plot.empty()) return;
+  const auto kind = results::picture_kind(o.plot)->kind;
+  results::write_output(o.plot, kind,
+                        report::plot_sweep(o.output, picture, kind, interrupt_token()),
+                        results::provenance_of(results::Inputs{files, {o.output}}));
 }
 
 }  // namespace viscontact::app

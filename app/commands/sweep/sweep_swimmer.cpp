@@ -10,6 +10,7 @@
 #include "viscontact/pipeline/dry_run.hpp"
 #include "viscontact/report/pictures/sweep_plot.hpp"
 #include "viscontact/results/foreign_files.hpp"
+#include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/sweep/swimmer_sweep.hpp"
 
@@ -40,7 +41,6 @@ void sweep_swimmer(const SweepOptions& o) {
                 "the resistance matrices are not given; give with --fit the file fit.json that "
                 "`viscontact swimmer CASE -o FOLDER` writes");
   results::refuse_other_kind(o.output, "# viscontact: sweep of a swimmer", "sweep of a swimmer");
-  if (!o.plot.empty()) results::refuse_other_kind(o.plot, "<svg", "picture");
   const sweep::SwimmerSweep sweep(
       {o.case_file, lubrication::read_resistance_fit(o.fit), variations_of(o), o.samples, o.seed});
   const auto rows = sweep.rows(VISCONTACT_VERSION);
@@ -51,11 +51,12 @@ void sweep_swimmer(const SweepOptions& o) {
   }
   const std::vector<std::filesystem::path> files = {o.case_file, o.fit};
   write_rows(o, rows, files, "stroke");
-  if (!o.plot.empty())
-    results::write_output(
-        o.plot, TextKind::kSvg,
-        report::plot_sweep(o.output, picture_of_strokes(o, sweep), interrupt_token()),
-        results::provenance_of(results::Inputs{files, {o.output}}));
+  if (o.plot.empty()) return;
+  const auto kind = results::picture_kind(o.plot)->kind;
+  results::write_output(
+      o.plot, kind,
+      report::plot_sweep(o.output, picture_of_strokes(o, sweep), kind, interrupt_token()),
+      results::provenance_of(results::Inputs{files, {o.output}}));
 }
 
 }  // namespace viscontact::app

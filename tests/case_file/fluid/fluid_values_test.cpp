@@ -56,6 +56,16 @@ velocity = { shear_rate = 3.0 })"));
               ElementsAre(3, 0, 0, -3));
 }
 
+TEST(FluidCase, TakesPenaltiesThatSufficeForWhatHoldsTheParticles) {
+  const auto read = [](const std::string& lines) {
+    (void)read_particles_text(
+        changed(kDiscsInDisc, "viscosity = 2.0", "viscosity = 2.0\n" + lines));
+  };
+  EXPECT_NO_THROW(read("penalty = 1e-10\n[[body]]\nparticles = [0, 1]"));
+  EXPECT_NO_THROW(read("penalty = 1e-12\n[[body]]\nparticles = [1]"));  // nothing to hold
+  EXPECT_NO_THROW(read("penalty = 1e-12\nconstraint = \"rigid\"\n[[body]]\nparticles = [0, 1]"));
+}
+
 TEST(FluidCase, ReadsTheVelocityOfEachSide) {
   const auto c = read_particles_text(changed(
       kDiscsInBox, "viscosity = 2.0",

@@ -81,8 +81,13 @@ TEST_F(LinksSection, ABodyMayLieAcrossAPeriodButNotFillIt) {
   EXPECT_NEAR(norm(body.offsets[0] - Vector{2, 0, 0}), 0, 1e-12);
   EXPECT_NEAR(norm(body.offsets[1] - Vector{-1, 0, 0}), 0, 1e-12);
   EXPECT_NEAR(norm(c.setting.links.hinges[0].point.offset - Vector{-0.5, 0, 0}), 0, 1e-12);
-  expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell("7.0"),
-                 "body[0].particles make a body of diameter");
+  expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell("7.7"),
+                 "body[0].particles make a body of diameter 9.5");
+  // With the period 8.5 the distances are 3, 3 and 2.5, with the period 9 they are 3 each.
+  for (const auto* width : {"7.0", "7.5"})
+    expect_refused("[[body]]\nparticles = [0, 1, 2]\n" + in_cell(width),
+                   "body[0].particles do not determine which of their images make the body: along "
+                   "x the largest distance between neighbouring centres, 3, occurs more than once");
 }
 
 TEST_F(LinksSection, AHingeHoldsAPointOfABodyOrParticle) {

@@ -184,6 +184,72 @@ TEST(RigidBodiesInACell, ABodyThatCrossesThePeriodKeepsItsShapeAndMeetsOthersThe
   EXPECT_NEAR(p.velocity(0)[0], 1, 1e-9);
 }
 
+/// Centre of the body that discs of the given centres make in a cell of 8 x 6 that is periodic both
+/// ways, and the vectors from it to them. The members are given in the order `order`.
+struct Shape {
+  Vector centre{};
+  std::vector<Vector> offsets;
+  double inertia = 0;
+};
+Shape shape_of(const std::vector<Vector>& centres, const std::vector<std::int32_t>& order,
+               const Vector& from) {
+  const BoxDomain box{
+      .from = {from[0], from[1]}, .to = {from[0] + 8, from[1] + 6}, .periodic = {true, true}};
+  State state = no_particles(2);
+  std::vector<std::int32_t> members(order.size());
+  for (std::size_t m = 0; m < order.size(); ++m) {
+    Vector x = centres[index_of(order[m])];
+    state.particles.cell = cell_of(box);
+    for (const std::size_t d : {0U, 1U})
+      x[d] -= periods_beyond(state.particles.cell, d, x[d]) * state.particles.cell.lengths[d];
+    add_particle(state, x, 0.4, 1 + order[m]);
+    members[m] = static_cast<std::int32_t>(m);
+  }
+  add_rotation(state.particles);
+  EXPECT_FALSE(ambiguous_images(state.particles, members).has_value());
+  add_rigid_body(state.particles, {members});
+  const auto& body = state.particles.bodies.bodies[0];
+  Shape shape{nearest_image(state.particles.cell, body.centre - centres[0]),
+              std::vector<Vector>(order.size()), body.inertia[8]};
+  for (std::size_t m = 0; m < order.size(); ++m)
+    shape.offsets[index_of(order[m])] = body.offsets[m];
+  return shape;
+}
+
+TEST(RigidBodiesInACell, AWideBodyDependsNeitherOnTheOrderNorOnWhereTheCellBegins) {
+  // Seen from each of the three, the images that are nearest to it are others.
+  const std::vector<Vector> centres = {{1, 0.3, 0}, {1.5, 2.6, 0}, {7.5, 4.75, 0}};
+  std::vector<std::int32_t> order = {0, 1, 2};
+  const auto expected = shape_of(centres, order, {});
+  // The distances along y are 2.3, 2.15 and 1.55: the body ends at the first of them.
+  EXPECT_NEAR(expected.offsets[0][1] - expected.offsets[1][1], 6.3 - 2.6, 1e-14);
+  EXPECT_NEAR(expected.offsets[2][1] - expected.offsets[1][1], 4.75 - 2.6, 1e-14);
+  EXPECT_NEAR(expected.offsets[2][0] - expected.offsets[0][0], -1.5, 1e-14);
+  do
+    for (const double x : {-3.0, 0.0, 1.2})
+      for (const double y : {-5.0, 0.0, 0.4, 3.0}) {
+        const auto shape = shape_of(centres, order, {x, y});
+        EXPECT_NEAR(norm(shape.centre - expected.centre), 0, 1e-13);
+        EXPECT_NEAR(shape.inertia, expected.inertia, 1e-12);
+        for (std::size_t m = 0; m < 3; ++m)
+          EXPECT_NEAR(norm(shape.offsets[m] - expected.offsets[m]), 0, 1e-13);
+      }
+  while (std::ranges::next_permutation(order).found);
+}
+
+TEST(RigidBodiesInACell, TwoDiscsHalfAPeriodApartDoNotDetermineTheirImages) {
+  State state = no_particles(2);
+  add_particle(state, {1, 1, 0}, 0.5, 1, {});
+  add_particle(state, {1, 4.0000000001, 0}, 0.5, 1, {});
+  EXPECT_FALSE(ambiguous_images(state.particles, {0, 1}).has_value());  // not periodic
+  state.particles.cell = cell_of(BoxDomain{.from = {0, 0}, .to = {8, 6}, .periodic = {true, true}});
+  const auto ambiguous = ambiguous_images(state.particles, {0, 1});
+  ASSERT_TRUE(ambiguous.has_value());
+  EXPECT_EQ(ambiguous->axis, 1U);
+  EXPECT_NEAR(ambiguous->distance, 3, 1e-9);
+  EXPECT_FALSE(ambiguous_images(state.particles, {0}).has_value());
+}
+
 TEST(RigidBodiesInSpace, ACubeOfEightSpheresThatIsThrownComesToRestOnAFace) {
   State state = no_particles(3);
   std::vector<std::int32_t> members;

@@ -10,6 +10,7 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/program/program.hpp"
+#include "tests/program/undisturbed.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/lubrication/force_table.hpp"
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kData = std::string(VISCONTACT_SOURCE_FOLDER) + "/data/";
 const std::string kIncline = kData + "cases/rolling/incline.toml";
@@ -196,6 +198,29 @@ TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatAnInterruptedTabulationLeft
                 HasSubstr("# motions: approach, slide, roll, spin\n"));
 }
 
+// The tables of some motions were copied into another folder.
+TEST_F(MotionsCommand, FitOfAFolderNamesTheTablesThatWereNotCopiedIntoIt) {
+  const auto file = small_case("motion = \"all\"");
+  const auto freefem = fake_motions(scratch_, "");
+  expect_done(run_viscontact({"tabulate", file, "-o", path("out")}, {freefem}));
+  fs::create_directory(path("part"));
+  for (const std::string motion : {"slide", "roll"})
+    fs::copy_file(path("out/" + motion + ".csv"), path("part/" + motion + ".csv"));
+  expect_refusal(run_viscontact({"fit", path("part"), "-o", path("pair.json")}),
+                 ErrorKind::kBadInput,
+                 AllOf(HasSubstr("part: lacks approach.csv, spin.csv, although the tabulation that "
+                                 "made slide.csv was one of approach, slide, roll, spin; slide.csv "
+                                 "was copied from another folder"),
+                       Not(HasSubstr("has not ended")),
+                       HasSubstr("'viscontact rerun " + path("part/slide.csv") + " -o " +
+                                 path("part") + "' computes it")));
+  // The command of the message completes the folder, after which it can be fitted.
+  expect_done(run_viscontact({"rerun", path("part/slide.csv"), "-o", path("part")}, {freefem}));
+  for (const std::string motion : {"approach", "slide", "roll", "spin"})
+    EXPECT_EQ(without_seconds(path("part/" + motion + ".csv")),
+              without_seconds(path("out/" + motion + ".csv")));
+}
+
 // A table that is alone in a folder is fitted in the basis of pairs, as the others of its folder.
 TEST_F(MotionsCommand, FitOfAFolderIsThatOfAPairWhateverTablesItHas) {
   fs::create_directory(path("pair"));
@@ -284,6 +309,8 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   refused("friction = 0.3", "friction = -1.0", "rolling.friction is -1; it must be a number >= 0");
   refused("weight = 1.0", "weight = 1.0\nforce = [1.0, 2.0]", "or weight must be there, one of");
   refused("initial_gap = 0.5", "initial_gap = 1e-4", "it must be at least the roughness, 0.001");
+  expect_done(run_viscontact(
+      {"rolling", incline("radius = 1.0", "radius = 1.0000000000000002"), "-o", path("same")}));
   refused("radius = 1.0", "radius = 2.0",
           "the sphere of the fit has the radius 1, that of the case 2");
   refused("time_step = 0.01", "time_step = 0.01\nmodels = [\"rigid\"]",

@@ -10,6 +10,7 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/results/exit_code.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
 namespace {
@@ -48,6 +49,31 @@ TEST_F(SweepCommand, RunsAShippedStudyAndDrawsIt) {
   put_text(path("rows.csv"), rows + "\n\n");
   expect_done(sweep(kVanishing, {"--plot", path("picture.svg")}));
   EXPECT_EQ(rest_of(path("picture.svg")), svg);
+}
+
+// A picture of each kind says how it was made, is made again by `rerun`, and is the only file that
+// another picture replaces.
+TEST_F(SweepCommand, DrawsPdfAndPngAsWell) {
+  const std::vector<std::string> begins = {"%PDF-", "\x89PNG\r\n"};
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    const auto picture = path(i == 0 ? "picture.pdf" : "picture.png");
+    auto options = kTwoRows;
+    options.insert(options.end(), {"--plot", picture});
+    expect_done(sweep(kVanishing, options));
+    const auto first = read_file(picture);
+    EXPECT_THAT(first, StartsWith(begins[i]));
+    EXPECT_GT(first.size(), 2000U);
+    const auto provenance = results::read_provenance(picture);
+    ASSERT_TRUE(provenance.has_value());
+    EXPECT_EQ(provenance->output, picture);
+    expect_done(run_viscontact({"rerun", picture}));  // our own picture is replaced
+    put_text(picture, begins[i] + " of someone else");
+    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
+                   HasSubstr("is not a picture that Viscontact wrote"));
+    put_text(picture, read_file(path("rows.csv")));  // ours, but no picture
+    expect_refusal(sweep(kVanishing, options), ErrorKind::kBadInput,
+                   HasSubstr("is not a picture that Viscontact wrote"));
+  }
 }
 
 TEST_F(SweepCommand, DrawsAMapOfTwoKeys) {

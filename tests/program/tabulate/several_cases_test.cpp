@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/common/temporary_folder.hpp"
 #include "tests/freefem_axi/fake_freefem.hpp"
 #include "tests/program/program.hpp"
@@ -65,6 +67,10 @@ TEST_F(Sweep, FailingRowOfOneCaseDoesNotStopTheOther) {
   EXPECT_THAT(failed.errors, AllOf(HasSubstr("thin.csv: 1 of 6 rows failed"),
                                    HasSubstr("gap 1.5, velocity -1"), HasSubstr("no luck")));
   EXPECT_TRUE(std::filesystem::exists(path("out/thick.csv")));
+  const auto dry = nlohmann::json::parse(tabulate("out", {"--dry-run", "--json"}).output);
+  EXPECT_EQ(dry.at("outputs").at(0).at("finished"), 5);
+  EXPECT_EQ(dry.at("outputs").at(0).at("failed"), 1);
+  EXPECT_EQ(dry.at("outputs").at(1).at("failed"), 0);
   std::filesystem::remove(fake_folder_.path() / "fails");
   expect_done(tabulate("out"));
   EXPECT_THAT(fake_.answered(), SizeIs(12));
