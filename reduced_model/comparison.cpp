@@ -185,11 +185,10 @@ Comparison read_comparison(const std::filesystem::path& path) {
         model.contact_interval = entry.at("contact_interval").get<std::array<double, 2>>();
       if (entry.contains("rebounds"))
         for (const auto& of : entry.at("rebounds"))
-          model.rebounds.push_back({of.at("time").get<double>(),
-                                    of.at("approach_velocity").get<double>(),
-                                    of.at("solid_impulse").get<double>(),
-                                    of.at("velocity").get<double>(),
-                                    of.at("coefficient").get<double>()});
+          model.rebounds.push_back(
+              {of.at("time").get<double>(), of.at("approach_velocity").get<double>(),
+               of.at("solid_impulse").get<double>(), of.at("velocity").get<double>(),
+               of.at("coefficient").get<double>()});
       model.sup_gap_distance = entry.at("sup_gap_distance").get<double>();
       model.l1_gap_distance = entry.at("l1_gap_distance").get<double>();
       model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();

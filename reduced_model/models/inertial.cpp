@@ -103,7 +103,8 @@ class InertialRun {
     double after = -restitution * before;
     const double pull = motion_.external_force.value(now_);
     constexpr double kShortestFlight = 1e-6;
-    rests_ = !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
+    rests_ =
+        !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
     if (rests_) after = 0;
     equation_.add_impulse(m * (after - velocity_at_solids()));
     solid_impulse_ += m * (after - before);
@@ -135,7 +136,8 @@ class InertialRun {
 
   /// The solids carry the force until the time `stop`.
   void rest_until(double stop) {
-    const double carried = motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
+    const double carried =
+        motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
     equation_.add_impulse(-carried);
     solid_impulse_ -= carried;
     for (; next_row_ != times_.end() && *next_row_ <= stop; ++next_row_) {
@@ -249,10 +251,11 @@ Trajectory simulate_inertial_rough(const Motion& motion,
                                    const lubrication::LubricationForce& force) {
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   if (!(motion.initial_gap > solid_gap))
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
-                            "together, {}",
-                            motion.initial_gap, solid_gap));
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
+                    "together, {}",
+                    motion.initial_gap, solid_gap));
   return InertialRun(motion, force, solid_gap).run();
 }
 

@@ -60,8 +60,8 @@ constexpr std::array kModels = {
     Model{"viscous_contact_leapfrog", "viscous contact by a leapfrog, of second order", nullptr,
           viscous_contact_leapfrog, kOnRequest, kInertia, kFluid, kContactParameters,
           &kContactTimeStep},
-    Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough, nullptr,
-          kOnRequest, kInertia, kFluid, kInertialRoughParameters},
+    Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough,
+          nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters},
     // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 

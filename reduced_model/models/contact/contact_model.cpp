@@ -277,8 +277,8 @@ Trajectory run_contact_model(const Motion& motion, ContactModel model) {
     add_to(budget, velocity, push, step);
   };
   if (model.drag)
-    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, rebound,
-              kick, add);
+    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, rebound, kick,
+              add);
   else
     run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
   if (lowest_gamma < 0 && model.film_thickness)

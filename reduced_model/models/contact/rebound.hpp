@@ -16,8 +16,8 @@ namespace viscontact::reduced_model {
 
 /// What an impact does to the sphere: momenta and impulses [M L/T].
 struct Impact {
-  double momentum = 0;  ///< m u+ after the impact, >= 0; 0: the film keeps the sphere
-  double gamma = 0;     ///< after the impact, <= 0; 0 if the sphere leaves the film
+  double momentum = 0;       ///< m u+ after the impact, >= 0; 0: the film keeps the sphere
+  double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
   double lowest_gamma = 0;   ///< in the impact
   double solid_impulse = 0;  ///< s that the solids took up in the compression, >= 0
   double restitution = 0;    ///< e_d s that they gave back
@@ -42,18 +42,18 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
   return impact;
 }
 
-/// Adds the impulses and works of an impact of a sphere of mass `mass` to the budget. The work of each
-/// impulse is the impulse times the mean of the velocities at its beginning and end.
-inline void add_impact(MomentumEnergyBudget& budget, double mass, const Impact& impact) {
-  // m u falls in amount to s while the film is pressed; the solids stop it and push it to e_d s; the
-  // film then pulls.
-  const double pressed = -impact.lowest_gamma, pulled = impact.restitution - impact.momentum;
-  const double stopped = impact.solid_impulse, pushed = impact.restitution;
-  budget.film_impulse += pressed - pulled;
-  budget.film_work -=
-      (pressed * (2 * stopped + pressed) + pulled * (2 * pushed - pulled)) / (2 * mass);
-  budget.solid_impulse += stopped + pushed;
-  budget.solid_work += (pushed - stopped) * (pushed + stopped) / (2 * mass);
+/// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of mass
+/// `mass` to the budget. The work of each impulse is the impulse times half that velocity in the
+/// compression, and times half the velocity at the end in the restitution: film and solids share
+/// the energy as they share the impulse.
+inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
+                       const Impact& impact) {
+  const double leaving = impact.momentum / mass;
+  const double pulled = impact.gamma - impact.lowest_gamma;  // impulse of the film on its way back
+  budget.film_impulse -= impact.lowest_gamma + pulled;
+  budget.film_work -= impact.lowest_gamma * velocity / 2 + pulled * leaving / 2;
+  budget.solid_impulse += impact.solid_impulse + impact.restitution;
+  budget.solid_work += impact.solid_impulse * velocity / 2 + impact.restitution * leaving / 2;
 }
 
 /// A step with impacts, and what happened in it.
@@ -90,9 +90,8 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
   constexpr double kShortestFlight = 1e-3;  // of the step
-  const auto impact =
-      impact_through_film(setting.mass * velocity, setting.gamma_min, restitution);
-  add_impact(step.budget, setting.mass, impact);
+  const auto impact = impact_through_film(setting.mass * velocity, setting.gamma_min, restitution);
+  add_impact(step.budget, setting.mass, velocity, impact);
   double after = impact.momentum * setting.per_mass;
   if (acceleration < 0 && 2 * after < kShortestFlight * setting.step * -acceleration) {
     // The solids keep what is left of the bounce.
@@ -139,9 +138,9 @@ void stay(ReboundStep& step, double push, const ContactSetting& setting, const D
 /// the drag on the way there, which is exact, and its time from the mean velocity; there is at most
 /// one impact in a step.
 template <class Drag>
-std::optional<ReboundStep> rebound_step(const ContactState& state, double push,
-                                        double acceleration, const ContactSetting& setting,
-                                        double restitution, const Drag& drag) {
+std::optional<ReboundStep> rebound_step(const ContactState& state, double push, double acceleration,
+                                        const ContactSetting& setting, double restitution,
+                                        const Drag& drag) {
   const double m = setting.mass, h = setting.step;
   ReboundStep step;
   if constexpr (Drag::kResolved) {
@@ -180,7 +179,8 @@ std::optional<ReboundStep> rebound_step(const ContactState& state, double push,
       if (!(fall <= h - time)) break;
       time += fall;
       gap = 0;
-      velocity = strike(step, time, velocity + acceleration * fall, acceleration, setting, restitution);
+      velocity =
+          strike(step, time, velocity + acceleration * fall, acceleration, setting, restitution);
       if (velocity > 0) continue;
       stay(step, push, setting, drag);
       break;

@@ -76,8 +76,9 @@ class EventDriven {
 
   double land(double t) {
     move_to(t, 0, velocity(t));
-    const auto impact = impact_through_film(std::min(0.0, m_ * velocity_), gamma_min_, restitution_);
-    add_impact(budget_, m_, impact);
+    const auto impact =
+        impact_through_film(std::min(0.0, m_ * velocity_), gamma_min_, restitution_);
+    add_impact(budget_, m_, velocity_, impact);
     gamma_ = impact.gamma;
     lowest_gamma_ = std::min(lowest_gamma_, impact.lowest_gamma);
     double after = impact.momentum / m_;

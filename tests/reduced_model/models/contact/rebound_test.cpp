@@ -145,11 +145,13 @@ TEST(Rebound, HeightsConvergeWithTheStepAndTheBudgetIsBalanced) {
     v = 0.95 * v - 1.95 * film;
     t += 2 * v / g;
   }
-  for (const auto& [model, order] : {std::pair("viscous_contact", 1.0), {"viscous_contact_leapfrog", 2.0}}) {
+  for (const auto& [model, order] :
+       {std::pair("viscous_contact", 1.0), {"viscous_contact_leapfrog", 2.0}}) {
     SCOPED_TRACE(model);
     const auto coarse = at(model, 0.01), fine = at(model, 0.0025);
     for (std::size_t n = 0; n < 3; ++n) {
-      const double of_coarse = std::abs(coarse.rebounds.at(n).velocity - exact.rebounds[n].velocity);
+      const double of_coarse =
+          std::abs(coarse.rebounds.at(n).velocity - exact.rebounds[n].velocity);
       const double of_fine = std::abs(fine.rebounds.at(n).velocity - exact.rebounds[n].velocity);
       EXPECT_LT(of_coarse, 0.02);
       EXPECT_LT(of_fine, std::max(1e-12, of_coarse * std::pow(4, 0.2 - order)));
@@ -167,8 +169,9 @@ TEST(Rebound, WithResolvedDragConvergesToTheModelThatResolvesIt) {
   motion.set(kRelativeTolerance, 1e-11);
   const auto exact = run("inertial_rough", motion);
   ASSERT_GE(exact.rebounds.size(), 3u);
-  EXPECT_NEAR(exact.budget->film_impulse + exact.budget->external_impulse + exact.budget->solid_impulse,
-              m * exact.rows.back().velocity, 1e-9 * m);
+  EXPECT_NEAR(
+      exact.budget->film_impulse + exact.budget->external_impulse + exact.budget->solid_impulse,
+      m * exact.rows.back().velocity, 1e-9 * m);
   // The film of the threshold model is carried by gamma below 0.02, which the resolved film does not
   // do within a finite time: the two differ by that time, of the order of 0.01/u.
   std::vector<double> errors;
