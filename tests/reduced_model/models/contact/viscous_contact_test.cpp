@@ -205,7 +205,7 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
     reached = reached || *row.gamma == gamma_min;
     if (reached && row.time <= 2) {
       EXPECT_EQ(*row.gamma, gamma_min) << row.time;
-    } else if (reached && row.time < 2.5) {
+    } else if (reached && row.time < 2 - gamma_min / 3 - 1e-3) {
       // Round-off of up to 500 steps; a single step is 3e-3.
       EXPECT_NEAR(*row.gamma, gamma_min + 3 * (row.time - 2), 1e-12) << row.time;
     }
