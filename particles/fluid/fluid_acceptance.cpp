@@ -42,7 +42,7 @@ void FluidSimulation::examine(const Motion& motion, double h, StepReport& report
                             "by {:.3g} mean radii; is the time step too long for the forces, or do "
                             "particles with given motions leave the others too little room?",
                             report.time, -residuals.smallest_gap / mean_radius_));
-  report.converged = residuals.converged && motion.contact.is_solved;
+  report.converged = residuals.converged && motion.contact.is_solved && motion.links_hold;
   report.residual = residuals.largest / mean_radius_;
   report.impulse_residual = residuals.largest_relative;
   report.largest_overlap = (0 - residuals.smallest_gap) / mean_radius_;

@@ -17,6 +17,7 @@ struct FluidSimulation::Motion {
   std::vector<double> free;         ///< U^+ without contact
   std::vector<double> moved;        ///< velocities with which the particles move: U^+ with contact
   std::vector<double> linear;       ///< `moved` without the finite turns of rigid bodies
+  bool links_hold = true;           ///< whether hinges and arms hold within the tolerance
   std::vector<double> link_forces,  ///< State::link_forces after the step
       arm_powers;                   ///< State::arm_powers after the step [M L^2/T^3]
   std::vector<double> at_end;       ///< u^{n+1}

@@ -3,12 +3,15 @@
 // the same bits, so a step may depend on nothing but the setting and the state.
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
 
+#include "viscontact/common/error.hpp"
 #include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
@@ -126,19 +129,30 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
 }
 
 /// Changes velocities until `missing`, by how much the sums of the rows must change, is negligible in
-/// a step of length h. Adds the forces in the rows that do this to `row_forces`.
-void FluidSimulation::hold(
-    const std::function<std::vector<double>(std::span<const double>)>& missing,
-    HeldSolver::Springs springs, std::vector<double>& velocities, double h,
-    std::vector<double>& row_forces) const {
+/// a step of length h. Adds the forces in the rows that do this to `row_forces`. Returns whether the
+/// rows hold within the tolerance. Throws Error(kNotConverged) if a length or place would be off by
+/// more than a mean radius.
+bool FluidSimulation::hold(
+    const std::function<std::vector<double>(std::span<const double>)>& missing, bool with_springs,
+    std::vector<double>& velocities, double h, std::vector<double>& row_forces) const {
   // Each change gains about a factor of the angle by which a body or an arm turns in the step.
   constexpr int kMostChanges = 20;
   constexpr double kOfTolerance = 1e-3;
   const double enough = kOfTolerance * setting_.solver.tolerance * mean_radius_ / h;
-  for (int n = 0; n < kMostChanges; ++n) {
+  for (int n = 0;; ++n) {
     const auto changes = missing(velocities);
-    if (largest_of(changes) <= enough) return;
-    add(held_->change(velocities, changes, springs), row_forces);
+    const double off = largest_of(changes);
+    if (off <= enough) return true;
+    if (n == kMostChanges && !(h * off <= mean_radius_))
+      throw Error(
+          ErrorKind::kNotConverged,
+          fmt::format("the links do not hold in the step to time {}: a length or place would "
+                      "be off by {:.3g} mean radii; is the time step too long for the "
+                      "velocities, or do lengths, places and given motions contradict each "
+                      "other?",
+                      state_.time + h, h * off / mean_radius_));
+    if (n == kMostChanges) return h * off <= setting_.solver.tolerance * mean_radius_;
+    add(held_->change(velocities, changes, with_springs), row_forces);
   }
 }
 
@@ -148,18 +162,16 @@ void FluidSimulation::hold(
 std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equation,
                                                      const HeldMotion& held,
                                                      std::span<const double> flow,
-                                                     std::vector<double>& velocities,
-                                                     double h) const {
+                                                     std::vector<double>& velocities, double h,
+                                                     bool& holds) const {
   auto forces = held_->row_forces();
   // The extrapolated velocities have these forces as well.
   auto extrapolated = velocities;
   for (std::size_t i = 0; i < flow.size(); ++i) extrapolated[i] -= flow[i];
   add(held_->row_forces_for(extrapolated), forces);
   const auto thetas = held_->thetas();
-  hold([&](std::span<const double> v) { return held.missing(v, forces, thetas); },
-       equation.accelerates().empty() ? HeldSolver::Springs::kKeepForces
-                                      : HeldSolver::Springs::kFollow,
-       velocities, h, forces);
+  holds = hold([&](std::span<const double> v) { return held.missing(v, forces, thetas); },
+               !equation.link_times().empty(), velocities, h, forces);
   const auto& of_flow = held_->row_forces();
   for (std::size_t r = 0; r < forces.size(); ++r) forces[r] -= of_flow[r];
   return forces;
@@ -171,17 +183,15 @@ std::vector<double> FluidSimulation::hold_after_step(const StepEquation& equatio
 std::vector<double> FluidSimulation::hold_at_end(const StepEquation& equation,
                                                  const HeldMotion& held,
                                                  std::span<const double> moved,
-                                                 std::vector<double>& at_end, double h) const {
+                                                 std::vector<double>& at_end) const {
+  std::vector<char> is_stiff;
+  for (std::size_t r = 0; r < held_->row_forces().size(); ++r)
+    is_stiff.push_back(held_->is_stiff(r) ? 1 : 0);
   auto velocities = at_end;
-  std::vector<double> forces(held_->row_forces().size());
-  hold([&](std::span<const double> v) { return held.missing_at_end(moved, v); },
-       HeldSolver::Springs::kStiff, velocities, h, forces);
-  for (std::size_t i = 0; i < at_end.size(); ++i) {
-    velocities[i] -= at_end[i];
-    if (equation.accelerates()[i / layout_.components] == 0) velocities[i] = 0;
-    at_end[i] += velocities[i];
-  }
-  return held_->row_forces_of(equation.forces_of_changes(velocities));
+  auto forces = held.hold_at_end(moved, equation.mobility_of_step(), is_stiff, velocities);
+  for (std::size_t i = 0; i < at_end.size(); ++i)
+    if (equation.link_times()[i / layout_.components] >= 0) at_end[i] = velocities[i];
+  return forces;
 }
 
 /// Computes a step of length h that ends at `next`.
@@ -193,19 +203,20 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
   std::vector<double> forces;
   std::optional<HeldMotion> held;
   std::vector<double> further_row_forces;
-  if (held_ != nullptr) {
-    held.emplace(setting_.links, state_.particles, LinkTimes{h, h, next}, equation.accelerates());
-    held_->hold(held->rows(), h);
-  }
   // An impact changes the inertia of its particles, and with it the problem.
   for (int iterations = 0;;) {
+    if (held_ != nullptr) {
+      held.emplace(setting_.links, state_.particles, LinkTimes{h, h, next}, equation.link_times());
+      held_->hold(held->rows(), h);
+    }
     solver_->place(equation.bodies());
     forces = equation.right_side();
     motion.flow = solver_->velocities(forces, true);
     motion.free = free_velocities(equation, motion.flow, h, held ? &*held : nullptr);
     motion.linear = motion.free;
     if (held) {
-      further_row_forces = hold_after_step(equation, *held, motion.flow, motion.linear, h);
+      further_row_forces =
+          hold_after_step(equation, *held, motion.flow, motion.linear, h, motion.links_hold);
       motion.free = held->with_finite_turns(motion.linear);
     }
     motion.contact = solve_contacts_of(equation, motion.free, h, next);
@@ -229,26 +240,31 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
     motion.drag[i] -= equation.inertia()[i] * motion.flow[i];
   if (held) add(held_->forces_of_step(), motion.drag);
   motion.at_end = equation.velocities_at_end(motion.linear, motion.flow);
+  std::vector<double> of_step, at_end;  // the forces of the links within the step and at its end
   if (held) {
     auto row_forces = held_->row_forces();
-    if (!equation.accelerates().empty()) {
-      add(further_row_forces, row_forces);
-      add(hold_at_end(equation, *held, motion.linear, motion.at_end, h), row_forces);
+    if (!equation.link_times().empty()) add(further_row_forces, row_forces);
+    of_step = motion.link_forces = held->link_forces(row_forces);
+    if (!equation.link_times().empty()) {
+      at_end = held->link_forces(hold_at_end(equation, *held, motion.linear, motion.at_end));
+      add(at_end, motion.link_forces);
     }
-    motion.link_forces = held->link_forces(row_forces);
   }
   motion.quantities = solver_->quantities();
+  auto drag = motion.quantities.fluid_forces;
+  for (auto& force : drag) force = -force;
+  if (held) held->keep_torques(motion.linear, drag, motion.drag);
   if (held && !setting_.links.arms.empty()) {
-    auto drag = motion.quantities.fluid_forces;
-    for (auto& force : drag) force = -force;
     const auto working = equation.velocities_of_work(motion.flow, motion.at_end, drag);
-    const auto& links = setting_.links;
-    for (std::size_t k = 0; k < links.arms.size(); ++k)
-      motion.arm_powers.push_back(
-          motion.link_forces[links.place_of_arm(k, state_.particles.dimension)] *
-          held->rate_of_arm(k, working));
+    for (std::size_t k = 0; k < setting_.links.arms.size(); ++k) {
+      const auto place = setting_.links.place_of_arm(k, state_.particles.dimension);
+      double power = of_step[place] * held->rate_of_arm(k, working);
+      if (!at_end.empty())
+        power += at_end[place] * held->rate_of_arm_at_end(k, motion.linear, working);
+      motion.arm_powers.push_back(power);
+    }
   }
-  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, h, motion);
+  if (is_estimated) estimate(equation, forces, held ? &*held : nullptr, motion);
   motion.fluid.dissipation = motion.quantities.dissipation;
   motion.fluid.apparent_viscosity = motion.quantities.apparent_viscosity;
   motion.fluid.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -257,7 +273,7 @@ FluidSimulation::Motion FluidSimulation::solve(double h, double next, bool is_es
 
 /// Asks for the flow on two meshes under the same forces, with those of contacts.
 void FluidSimulation::estimate(const StepEquation& equation, std::span<const double> forces,
-                               const HeldMotion* held, double h, Motion& motion) {
+                               const HeldMotion* held, Motion& motion) {
   std::function<std::vector<double>()> link_forces;
   if (held != nullptr) link_forces = [&] { return held->link_forces(held_->row_forces()); };
   auto estimate = estimate_flow(*solver_, forces, state_.particles, *setting_.fluid, link_forces);
@@ -270,8 +286,8 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
   for (std::size_t i = 0; i < moved.size(); ++i)
     moved[i] += estimate.velocities[i] - motion.flow[i];
   motion.reported = equation.velocities_at_end(moved, estimate.velocities);
-  if (held != nullptr && !equation.accelerates().empty())
-    hold_at_end(equation, *held, moved, motion.reported, h);
+  if (held != nullptr && !equation.link_times().empty())
+    hold_at_end(equation, *held, moved, motion.reported);
 }
 
 StepReport FluidSimulation::step(double end) {

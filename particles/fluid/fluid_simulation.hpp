@@ -11,13 +11,13 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
 class HeldMotion;
+class HeldSolver;
 class StepEquation;
 struct StepContacts;
 
@@ -94,18 +94,17 @@ class FluidSimulation {
   StepContacts solve_contacts_of(const StepEquation& equation, std::span<const double> free,
                                  double h, double next);
   void estimate(const StepEquation& equation, std::span<const double> forces,
-                const HeldMotion* held, double h, Motion& motion);
+                const HeldMotion* held, Motion& motion);
   void examine(const Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
-  void hold(const std::function<std::vector<double>(std::span<const double>)>& missing,
-            HeldSolver::Springs springs, std::vector<double>& velocities, double h,
-            std::vector<double>& row_forces) const;
+  [[nodiscard]] bool hold(
+      const std::function<std::vector<double>(std::span<const double>)>& missing, bool with_springs,
+      std::vector<double>& velocities, double h, std::vector<double>& row_forces) const;
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,
-                                      double h) const;
+                                      double h, bool& holds) const;
   std::vector<double> hold_at_end(const StepEquation& equation, const HeldMotion& held,
-                                  std::span<const double> moved, std::vector<double>& at_end,
-                                  double h) const;
+                                  std::span<const double> moved, std::vector<double>& at_end) const;
   void move_bodies(const Motion& motion, double h, double next);
 
   Setting setting_;

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
@@ -19,12 +21,14 @@ bool is_exact(const LinkEquations& link) {
 }  // namespace
 
 HeldMotion::HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
-                       std::span<const char> accelerates)
+                       std::span<const double> link_times)
     : links_(links),
       particles_(particles),
       times_(times),
       layout_{motion_components(particles.dimension)},
-      equations_(link_equations(links, particles, times)) {
+      equations_(link_equations(links, particles, times)),
+      in_rows_(equations_),
+      link_times_(link_times.begin(), link_times.end()) {
   for (const auto& body : particles.bodies.bodies) {
     body_rows_ += layout_.components * (body.members.size() - 1);
     auto weights = member_masses(body, particles);
@@ -36,16 +40,23 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
       velocities.push_back(
           velocity_of_image(particles.cell, periods_of_member(body, m, particles)));
   }
-  in_rows_ = equations_;
-  is_turned_.assign(equations_.size(), 0);
-  turn_to_middle(accelerates);
+  turn_rows();
 }
 
-void HeldMotion::turn_to_middle(std::span<const char> accelerates) {
-  if (accelerates.empty()) return;
-  const auto does = [&](const RowPart& part) {
-    return part.particle >= 0 && accelerates[index_of(part.particle)] != 0;
-  };
+/// StepEquation::link_times() of a particle or obstacle.
+double HeldMotion::link_time(std::int32_t particle) const {
+  return particle < 0 || link_times_.empty() ? -1 : link_times_[index_of(particle)];
+}
+
+/// The time of the rows of a link of which an end accelerates, else -1.
+double HeldMotion::link_time(const LinkEquations& link) const {
+  const auto& row = link.rows.front();
+  return std::max(link_time(row.first.particle), link_time(row.second.particle));
+}
+
+/// Turns the rows of links to where their units are at the time of the link.
+void HeldMotion::turn_rows() {
+  if (link_times_.empty()) return;
   std::vector<double> velocities(particles_.count() * layout_.components);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < particles_.count(); ++k) {
@@ -53,16 +64,16 @@ void HeldMotion::turn_to_middle(std::span<const char> accelerates) {
       velocities[k * layout_.components + d] = particles_.velocities[k * n + d];
     if (layout_.components == 3) velocities[k * 3 + 2] = particles_.angular_velocities[k];
   }
-  const auto half = [&](const RowPart& part) {
-    const auto motion = motion_of(part, velocities);
-    return UnitMotion{0.5 * motion.displacement, 0.5 * motion.turn};
-  };
   for (std::size_t l = 0; l < equations_.size(); ++l) {
+    const double share = link_time(equations_[l]) / times_.h;
+    if (!(share > 0)) continue;
+    const auto part = [&](const RowPart& of) {
+      const auto motion = motion_of(of, velocities);
+      return UnitMotion{share * motion.displacement, share * motion.turn};
+    };
     const auto& row = equations_[l].rows.front();
-    if (!does(row.first) && !does(row.second)) continue;
-    is_turned_[l] = 1;
     in_rows_[l] =
-        turned_equations(equations_[l], links_, particles_, half(row.first), half(row.second));
+        turned_equations(equations_[l], links_, particles_, part(row.first), part(row.second));
   }
 }
 
@@ -88,6 +99,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
     for (std::size_t d = 0; d < 3; ++d) {
       HeldRow row;
       row.name = fmt::format("body {}", number);
+      row.accelerates = link_time(first) >= 0;
       row.entries = {{layout_.at(member, d), 1}, {layout_.at(first, d), -1}};
       // v_m - v_1 - w_1 x apart
       if (d < 2) {
@@ -114,15 +126,17 @@ void HeldMotion::add_entries(const RowPart& part, HeldRow& row) const {
     row.entries.emplace_back(layout_.at(part.particle, 2), moment);
 }
 
-std::vector<HeldRow> HeldMotion::rows() const {
+std::vector<HeldRow> HeldMotion::rows() const { return rows_of(in_rows_); }
+
+/// The rows of the bodies at their present places, and of the links in these equations.
+std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equations) const {
   std::vector<HeldRow> rows;
   const auto& bodies = particles_.bodies.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) add_body_rows(bodies[b], b, rows);
-  for (std::size_t l = 0; l < in_rows_.size(); ++l) {
-    const auto& link = in_rows_[l];
+  for (const auto& link : equations) {
     for (const auto& equation : link.rows) {
       HeldRow row;
-      row.is_turned = is_turned_[l] != 0;
+      row.accelerates = link_time(link) >= 0;
       row.name = name_of(link, links_, particles_);
       add_entries(equation.first, row);
       add_entries(equation.second, row);
@@ -179,7 +193,7 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
     if (is_exact(link)) {
       for (const double off : values_after(link, links_, particles_, times_, first, second))
         changes.push_back(-off / times_.h);
-    } else if (link.kind == LinkEquations::Kind::kSpring && is_turned_[l] != 0) {
+    } else if (link.kind == LinkEquations::Kind::kSpring && link_time(link) >= 0) {
       const auto r = changes.size();
       const double theta = thetas[r], h = times_.h;
       const double grown = extension_after(link, links_, particles_, first, second) - row.extension;
@@ -202,15 +216,18 @@ double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities
   return (part(row.first) + part(row.second)) / times_.h;
 }
 
-std::vector<double> HeldMotion::missing_at_end(std::span<const double> velocities,
-                                               std::span<const double> at_end) const {
+std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
+                                            std::span<const double> mobility,
+                                            const std::vector<char>& is_stiff,
+                                            std::span<double> at_end) const {
   // Rounding must not carry the time beyond a corner of the length.
   const double end = times_.end - 1e-9 * times_.h;
-  std::vector<double> changes(body_rows_, 0.0);
+  std::vector<LinkEquations> turned;
+  std::vector<double> rates(body_rows_, 0.0);
   for (const auto& link : equations_) {
     const auto& row = link.rows.front();
     const auto first = motion_of(row.first, velocities), second = motion_of(row.second, velocities);
-    const auto turned = turned_equations(link, links_, particles_, first, second);
+    turned.push_back(turned_equations(link, links_, particles_, first, second));
     double rate = 0;
     if (link.kind == LinkEquations::Kind::kArm)
       rate = rate_at(links_.arms[link.number].length, end);
@@ -218,9 +235,50 @@ std::vector<double> HeldMotion::missing_at_end(std::span<const double> velocitie
       rate = (extension_after(link, links_, particles_, first, second) - row.extension) / times_.h;
     else if (link.kind == LinkEquations::Kind::kTorsion)
       rate = second.turn[2] / times_.h;
-    for (const auto& of : turned.rows) changes.push_back(rate - sum_of(of, at_end));
+    rates.resize(rates.size() + link.rows.size(), rate);
   }
-  return changes;
+  const auto rows = rows_of(turned);
+  std::vector<std::size_t> chosen;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (!(rows[r].stiffness > 0) || is_stiff[r] != 0) chosen.push_back(r);
+  std::vector<double> forces(rows.size());
+  if (chosen.empty()) return forces;
+  const auto n = static_cast<Eigen::Index>(chosen.size());
+  Eigen::MatrixXd matrix =
+      Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(mobility.size()));  // A W^(1/2)
+  Eigen::VectorXd right(n);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
+    right[c] = rates[chosen[static_cast<std::size_t>(c)]] - row.image_rate;
+    for (const auto& [component, coefficient] : row.entries) {
+      matrix(c, static_cast<Eigen::Index>(component)) +=
+          coefficient * std::sqrt(mobility[component]);
+      right[c] -= coefficient * at_end[component];
+    }
+    // Lengths and angles are made comparable.
+    if (const double norm = matrix.row(c).norm(); norm > 0) {
+      matrix.row(c) /= norm;
+      right[c] /= norm;
+    }
+  }
+  // The least change in the norm of W^-1; redundant rows share the least forces.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
+  constexpr double kRank = 1e-10;
+  factor.setThreshold(kRank);
+  factor.compute(matrix);
+  const Eigen::VectorXd change = factor.solve(right);
+  for (std::size_t i = 0; i < mobility.size(); ++i)
+    at_end[i] += std::sqrt(mobility[i]) * change[static_cast<Eigen::Index>(i)];
+  factor.compute(matrix.transpose());
+  const Eigen::VectorXd of_chosen = factor.solve(change);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const auto& row = rows[chosen[static_cast<std::size_t>(c)]];
+    double square = 0;
+    for (const auto& [component, coefficient] : row.entries)
+      square += coefficient * coefficient * mobility[component];
+    if (square > 0) forces[chosen[static_cast<std::size_t>(c)]] = of_chosen[c] / std::sqrt(square);
+  }
+  return forces;
 }
 
 std::vector<double> HeldMotion::with_finite_turns(std::span<const double> velocities) const {
@@ -254,11 +312,40 @@ void HeldMotion::make_rigid(std::span<double> velocities) const {
   }
 }
 
-double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
-  const auto arm = std::ranges::find_if(in_rows_, [&](const LinkEquations& link) {
+void HeldMotion::keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
+                              std::span<double> forces) const {
+  const auto& bodies = particles_.bodies.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto first = bodies[b].members.front();
+    if (!(link_time(first) >= 0)) continue;
+    const Vector turn = times_.h * motion_of_body(b, velocities).turn;
+    for (std::size_t m = 0; m < bodies[b].members.size(); ++m) {
+      const Vector further = displacement_at({}, turn, present_offset(bodies[b], m, 2), 2);
+      const auto i = layout_.at(bodies[b].members[m], 0);
+      forces[layout_.at(first, 2)] -= cross(further, {of_fluid[i], of_fluid[i + 1], 0})[2];
+    }
+  }
+}
+
+/// The place of arm `k` in the equations.
+std::size_t HeldMotion::arm(std::size_t k) const {
+  const auto found = std::ranges::find_if(equations_, [&](const LinkEquations& link) {
     return link.kind == LinkEquations::Kind::kArm && link.number == k;
   });
-  return sum_of(arm->rows.front(), velocities);
+  return static_cast<std::size_t>(found - equations_.begin());
+}
+
+double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities) const {
+  return sum_of(in_rows_[arm(k)].rows.front(), velocities);
+}
+
+double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
+                                      std::span<const double> velocities) const {
+  const auto& link = equations_[arm(k)];
+  const auto& row = link.rows.front();
+  const auto turned = turned_equations(link, links_, particles_, motion_of(row.first, moved),
+                                       motion_of(row.second, moved));
+  return sum_of(turned.rows.front(), velocities);
 }
 
 std::vector<double> HeldMotion::link_forces(std::span<const double> row_forces) const {

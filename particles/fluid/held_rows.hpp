@@ -16,17 +16,18 @@ namespace viscontact::particles {
 /// The rows of one step from the present places of the particles, and the motion of their units.
 ///
 /// A link of which a unit accelerates, that is has a mass and no given motion, has its rows at the
-/// places that the units reach in half the step with their velocities before the step. The forces
-/// of links then turn with their units like their mean over the step, so that a mass that circles on
-/// a link neither gains nor loses energy up to the second order of the step (the implicit midpoint
-/// rule; Hairer, Lubich & Wanner 2006, section VII.1). Links of particles without mass have their
-/// rows where the particles are, because FluidSimulation extrapolates the velocities of these.
+/// places that the units reach in half the step with their velocities before it. The forces of links
+/// then turn with their units like their mean over the step, so that a mass that circles on a link
+/// neither gains nor loses energy up to the second order of the step (the implicit midpoint rule;
+/// Hairer, Lubich & Wanner 2006, section VII.1). In a step with theta = 1, after which velocities may
+/// have jumped, the rows are where the particles are, which keeps the angular momentum. So are those of
+/// particles without mass, because FluidSimulation extrapolates how their forces turn.
 class HeldMotion {
  public:
-  /// `links` and `particles` must outlive this object. `times.kick` is not used. `accelerates` says
-  /// of each particle whether it, or its body, accelerates; empty: none does.
+  /// `links` and `particles` must outlive this object. `times.kick` is not used. `link_times` are
+  /// those of StepEquation; empty: no particle accelerates.
   HeldMotion(const Links& links, const Particles& particles, const LinkTimes& times,
-             std::span<const char> accelerates = {});
+             std::span<const double> link_times = {});
 
   /// First the rows that make bodies rigid, then those of the links.
   std::vector<HeldRow> rows() const;
@@ -40,11 +41,15 @@ class HeldMotion {
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;
 
-  /// By how much the sums of the rows must change, so that hinges and arms hold at the end of the
-  /// step for the velocities `at_end` at that time, after the step with `velocities`, and springs
-  /// have the mean rate of the step; 0 for the rows of bodies.
-  std::vector<double> missing_at_end(std::span<const double> velocities,
-                                     std::span<const double> at_end) const;
+  /// Changes the velocities `at_end` at the end of the step, after the step with `velocities`, until
+  /// bodies are rigid, hinges and arms hold at that time, and the springs for which `is_stiff` is set,
+  /// one number for each row, have the mean rate of the step. The change is that by forces along the
+  /// rows as they are then, with the mobility `mobility` of each component [T/M, 1/(M L^2) T]. Returns
+  /// these forces [M L/T^2, M L^2/T^2].
+  std::vector<double> hold_at_end(std::span<const double> velocities,
+                                  std::span<const double> mobility,
+                                  const std::vector<char>& is_stiff,
+                                  std::span<double> at_end) const;
 
   /// Replaces the velocities of members of bodies by their displacements in the step, divided by its
   /// length.
@@ -54,20 +59,34 @@ class HeldMotion {
   /// is the mean of `velocities`, which may be those of an earlier step.
   void make_rigid(std::span<double> velocities) const;
 
+  /// Adds couples to `forces` on the members of bodies that accelerate, so that the forces `of_fluid`
+  /// of the particles on the fluid have the same torque about the centre of a body after the step
+  /// with `velocities` as before it. All have motion_components() numbers for each particle [M L/T^2,
+  /// M L^2/T^2], [L/T, 1/T].
+  void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
+                    std::span<double> forces) const;
+
   /// Velocity of the centre and angular velocity of a body: the means over the images of its
   /// members at their places in the body, whose offsets cancel in the first.
   UnitMotion motion_of_body(std::size_t body, std::span<const double> velocities) const;
 
   /// Rate at which the length of arm `k` grows with these velocities, by its row [L/T].
   double rate_of_arm(std::size_t k, std::span<const double> velocities) const;
+  /// The same by its row after the step with the velocities `moved`.
+  double rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
+                            std::span<const double> velocities) const;
 
   /// The forces of the links in the order of State::link_forces, from those of the rows.
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 
  private:
   UnitMotion motion_of(const RowPart& part, std::span<const double> velocities) const;
-  void turn_to_middle(std::span<const char> accelerates);
+  void turn_rows();
+  double link_time(std::int32_t particle) const;
+  double link_time(const LinkEquations& link) const;
+  std::size_t arm(std::size_t k) const;
   double sum_of(const LinkRow& row, std::span<const double> velocities) const;
+  std::vector<HeldRow> rows_of(const std::vector<LinkEquations>& equations) const;
   Vector offset_in_body(std::int32_t particle) const;
   void add_entries(const RowPart& part, HeldRow& row) const;
   void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
@@ -78,7 +97,7 @@ class HeldMotion {
   MotionLayout layout_;
   std::vector<LinkEquations> equations_;      // at the present places
   std::vector<LinkEquations> in_rows_;        // where the rows have them
-  std::vector<char> is_turned_;               // whether these differ, for each link
+  std::vector<double> link_times_;            // of each particle
   std::vector<std::vector<double>> weights_;  // of the members of each body; their sum is 1
   // Velocities of the members' images at their places in each body, relative to the members.
   std::vector<std::vector<Vector>> image_velocities_;

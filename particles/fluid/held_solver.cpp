@@ -68,8 +68,10 @@ void HeldSolver::place(const FluidParticles& bodies) {
 }
 
 double HeldSolver::theta(Index r) const {
-  const double z = h_ * rows_[static_cast<std::size_t>(r)].stiffness * matrix_(r, r);
-  return (1 + z) / (2 + z);
+  const auto& row = rows_[static_cast<std::size_t>(r)];
+  const double of_row = h_ * row.stiffness * matrix_(r, r);
+  const double z = row.accelerates ? of_row * of_row : of_row;
+  return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
 /// By how much the sums of the rows without stiffness differ from their rates; of springs, minus
@@ -116,44 +118,25 @@ Eigen::MatrixXd HeldSolver::solve_fixed(const Eigen::MatrixXd& right) const {
   return forces;
 }
 
-/// The scaled forces of the springs, in the order of springs_, that together with the other rows add
-/// `right` to their scaled sums.
-Eigen::VectorXd HeldSolver::solve_springs(const Eigen::VectorXd& right, Springs springs) const {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
-  std::vector<Index> chosen;
-  for (Index i = 0; i < right.size(); ++i)
-    if (springs == Springs::kFollow ||
-        is_stiff(static_cast<std::size_t>(springs_[static_cast<std::size_t>(i)])))
-      chosen.push_back(i);
-  if (chosen.empty()) return forces;
-  Eigen::MatrixXd matrix = spring_matrix_(chosen, chosen);
-  if (springs == Springs::kFollow)
-    for (const Index i : chosen) {
-      const Index r = springs_[static_cast<std::size_t>(i)];
-      const double k = rows_[static_cast<std::size_t>(r)].stiffness;
-      matrix(i, i) += scale_[r] * scale_[r] / (k * theta(r) * h_);
-    }
-  // Soft and stiff springs are made comparable. A spring that the other rows hold has no mobility.
-  const Eigen::VectorXd own =
-      matrix.diagonal().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1; });
-  matrix = own.asDiagonal() * matrix * own.asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factor;
-  if (springs == Springs::kStiff) factor.setThreshold(kAboveErrors * relative_error_);
-  factor.compute(matrix);
-  const Eigen::VectorXd of_chosen = factor.solve(own.cwiseProduct(right(chosen)));
-  forces(chosen) = own.cwiseProduct(of_chosen);
-  return forces;
-}
-
-/// The forces of the rows that add `right` to their sums, where HeldSolver::change says what that is
-/// of springs.
-Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, Springs springs) const {
+/// The forces of the rows that add `right` to their sums; of a spring, the sum and compliance times
+/// force is `right`. Without springs, their forces are 0.
+Eigen::VectorXd HeldSolver::solve(const Eigen::VectorXd& right, bool with_springs) const {
   const Eigen::VectorXd scaled = scale_.cwiseProduct(right);
   Eigen::VectorXd of_fixed = solve_fixed(scaled(fixed_));
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(right.size());
-  if (springs != Springs::kKeepForces && !springs_.empty()) {
+  if (with_springs && !springs_.empty()) {
+    const Eigen::VectorXd rest = scaled(springs_) - coupling_.transpose() * of_fixed;
+    Eigen::MatrixXd matrix = spring_matrix_;
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+      const Index r = springs_[i];
+      const double k = rows_[static_cast<std::size_t>(r)].stiffness;
+      matrix.diagonal()[static_cast<Index>(i)] += scale_[r] * scale_[r] / (k * theta(r) * h_);
+    }
+    // Soft and stiff springs are made comparable.
+    const Eigen::VectorXd own = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    matrix = own.asDiagonal() * matrix * own.asDiagonal();
     const Eigen::VectorXd of_springs =
-        solve_springs(scaled(springs_) - coupling_.transpose() * of_fixed, springs);
+        own.cwiseProduct(matrix.completeOrthogonalDecomposition().solve(own.cwiseProduct(rest)));
     of_fixed -= spring_responses_ * of_springs;
     forces(springs_) = of_springs;
   }
@@ -197,7 +180,7 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
       given[i] = (row.stiffness > 0 ? -row.extension / (theta(i) * h_) : row.rate) - row.image_rate;
     }
   const Eigen::VectorXd right = given - sums(velocities);
-  auto of_rows = solve(right, Springs::kFollow);
+  auto of_rows = solve(right, true);
   if (!driving) {
     add_responses(velocities, of_rows);
     return velocities;
@@ -209,40 +192,30 @@ std::vector<double> HeldSolver::velocities(std::span<const double> forces, bool 
   add_row_forces(all, of_rows);
   // The flow, of which quantities are asked, is that with these forces.
   auto held = solver_->velocities(all, true);
-  add_responses(held, solve(missing(held), Springs::kKeepForces));
+  add_responses(held, solve(missing(held), false));
   return held;
 }
 
 std::vector<double> HeldSolver::velocities_without_springs(std::span<const double> forces) {
   auto velocities = solver_->velocities(forces, false);
-  if (!rows_.empty()) add_responses(velocities, solve(-sums(velocities), Springs::kKeepForces));
+  if (!rows_.empty()) add_responses(velocities, solve(-sums(velocities), false));
   return velocities;
 }
 
 std::vector<double> HeldSolver::change(std::span<double> velocities,
-                                       std::span<const double> changes, Springs springs) const {
+                                       std::span<const double> changes, bool with_springs) const {
   if (rows_.empty()) return {};
   const auto right =
       Eigen::Map<const Eigen::VectorXd>(changes.data(), static_cast<Index>(changes.size()));
-  const Eigen::VectorXd forces = solve(right, springs);
+  const Eigen::VectorXd forces = solve(right, with_springs);
   add_responses(velocities, forces);
   return {forces.begin(), forces.end()};
 }
 
 std::vector<double> HeldSolver::row_forces_for(std::span<const double> changes) const {
   if (rows_.empty()) return {};
-  const Eigen::VectorXd forces = solve(sums(changes), Springs::kKeepForces);
+  const Eigen::VectorXd forces = solve(sums(changes), false);
   return {forces.begin(), forces.end()};
-}
-
-std::vector<double> HeldSolver::row_forces_of(std::span<const double> forces) const {
-  if (rows_.empty()) return {};
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      sums[static_cast<Index>(r)] += responses_[r][i] * forces[i];
-  const Eigen::VectorXd of_rows = solve(sums, Springs::kStiff);
-  return {of_rows.begin(), of_rows.end()};
 }
 
 std::vector<double> HeldSolver::thetas() const {
@@ -255,14 +228,14 @@ std::vector<double> HeldSolver::forces_of_step() const {
   std::vector<double> forces(responses_.empty() ? 0 : responses_.front().size());
   Eigen::VectorXd of_rows = Eigen::VectorXd::Zero(static_cast<Index>(rows_.size()));
   for (std::size_t r = 0; r < rows_.size() && r < row_forces_.size(); ++r)
-    if (rows_[r].stiffness > 0 || rows_[r].is_turned)
+    if (rows_[r].stiffness > 0 || rows_[r].accelerates)
       of_rows[static_cast<Index>(r)] = row_forces_[r];
   add_row_forces(forces, of_rows);
   return forces;
 }
 
 void HeldSolver::hold_velocities(std::span<double> velocities) const {
-  if (!rows_.empty()) add_responses(velocities, solve(missing(velocities), Springs::kKeepForces));
+  if (!rows_.empty()) add_responses(velocities, solve(missing(velocities), false));
 }
 
 double HeldSolver::vary_penalty() {
@@ -289,7 +262,7 @@ void HeldSolver::correct(const Eigen::VectorXd& right, std::span<const double> f
     for (Index r = 0; r < missing.size(); ++r)
       if (const double k = rows_[static_cast<std::size_t>(r)].stiffness; k > 0)
         missing[r] -= of_rows[r] / (k * theta(r) * h_);
-    of_rows += solve(missing, Springs::kFollow);
+    of_rows += solve(missing, true);
   }
 }
 

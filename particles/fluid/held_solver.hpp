@@ -25,8 +25,8 @@ struct HeldRow {
   // Of a spring, whose force is -stiffness (extension + theta h sum); stiffness 0: not a spring.
   double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
   double extension = 0;  ///< at the beginning of the step [L], [rad]
-  /// Whether the row is where its particles will be in the middle of the step (HeldMotion).
-  bool is_turned = false;
+  /// Whether a particle of the row accelerates (StepEquation::link_times).
+  bool accelerates = false;
   std::string name{};  ///< in messages
 };
 
@@ -35,7 +35,9 @@ struct HeldRow {
 /// With the mobility S of the fluid, the forces l of the rows A v = rate solve A S A^T l = rate -
 /// A S f, so that one question to the fluid for each row is asked at each placement, and then one
 /// for each question to this solver, and another one where walls and driven particles move. Springs
-/// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation.
+/// have theta = (1 + z)/(2 + z) with z = h stiffness (A S A^T)_rr, as masses have in StepEquation;
+/// between particles that accelerate z^2 stands for z, because z = (omega h)^2 theta is small there of
+/// second order, and an oscillation that the step resolves must not be damped.
 ///
 /// A S A^T of rows that depend on each other is singular but for the errors of the answers. Its
 /// rank is found without the springs, whose compliance 1/(theta h stiffness) may be far larger or
@@ -63,26 +65,15 @@ class HeldSolver : public FluidSolver {
   /// velocities(forces, false) without springs, whose forces are then among `forces`.
   std::vector<double> velocities_without_springs(std::span<const double> forces);
 
-  /// What springs do while other rows change.
-  enum class Springs {
-    kKeepForces,  ///< their forces remain
-    kFollow,      ///< their forces follow from the motion, with their compliance
-    kStiff,  ///< those too stiff for the step hold as if they were rigid; the others as kKeepForces
-  };
-
-  /// Adds forces in the rows that change the sum of each row by `changes`, one number for each row
-  /// [L/T, 1/T]; of a spring with kFollow, the sum and compliance times force; of a spring whose
-  /// force is kept, nothing. Returns the forces [M L/T^2, M L^2/T^2]. No question is asked.
+  /// Adds forces in the rows that change the sum of each row without stiffness by `changes`, one
+  /// number for each row [L/T, 1/T], and, `with_springs`, the sum and compliance times force of each
+  /// spring, whose force is else kept. Returns the forces [M L/T^2, M L^2/T^2]. No question is asked.
   std::vector<double> change(std::span<double> velocities, std::span<const double> changes,
-                             Springs springs) const;
+                             bool with_springs) const;
 
   /// The forces of the rows without stiffness that change their sums as `changes` of the velocities
   /// do [L/T, 1/T].
   std::vector<double> row_forces_for(std::span<const double> changes) const;
-
-  /// The forces of the rows without stiffness and of stiff springs that stand for `forces` on the
-  /// particles: both change the sums of these rows alike.
-  std::vector<double> row_forces_of(std::span<const double> forces) const;
 
   /// The theta of each row, 1/2 to 1; of rows without stiffness 1/2.
   std::vector<double> thetas() const;
@@ -94,9 +85,9 @@ class HeldSolver : public FluidSolver {
   /// The forces of the rows in the last velocities(forces, true) [M L/T^2, M L^2/T^2].
   const std::vector<double>& row_forces() const { return row_forces_; }
 
-  /// The forces of the springs and of the rows that are turned on all particles, in the last
-  /// velocities(forces, true). The extrapolation of FluidSimulation takes them for forces from
-  /// outside, because they belong to the whole step.
+  /// The forces on all particles of the springs and of the rows with a particle that accelerates, in
+  /// the last velocities(forces, true). The extrapolation of FluidSimulation takes them for forces
+  /// from outside, because they are those of the whole step.
   std::vector<double> forces_of_step() const;
 
   /// Adds forces in the rows until the rows without stiffness hold. No question is asked.
@@ -109,8 +100,7 @@ class HeldSolver : public FluidSolver {
   Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& right) const;
   void correct(const Eigen::VectorXd& right, std::span<const double> forces,
                Eigen::VectorXd& of_rows);
-  Eigen::VectorXd solve(const Eigen::VectorXd& right, Springs springs) const;
-  Eigen::VectorXd solve_springs(const Eigen::VectorXd& right, Springs springs) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right, bool with_springs) const;
   void add_responses(std::span<double> velocities, const Eigen::VectorXd& forces) const;
   void add_row_forces(std::span<double> forces, const Eigen::VectorXd& of_rows) const;
   void check(const Eigen::VectorXd& right, const Eigen::VectorXd& forces) const;

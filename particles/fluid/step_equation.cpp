@@ -9,6 +9,8 @@
 #include <utility>
 #include <variant>
 
+#include "viscontact/particles/bodies/body_step.hpp"
+
 namespace viscontact::particles {
 namespace {
 
@@ -99,11 +101,6 @@ StepEquation::StepEquation(const Setting& setting, const State& state, double h,
       in_contact_[index_of(pair.second)] = 1;
       if (pair.first >= 0) in_contact_[index_of(pair.first)] = 1;
     }
-  for (std::size_t k = 0; k < masses_.size() / layout_.components; ++k) {
-    if (!(masses_[k * layout_.components] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
-    accelerates_.resize(state.particles.count(), 0);
-    accelerates_[k] = 1;
-  }
   find_companions();
   spread_contact();
   add_inertia();
@@ -124,6 +121,17 @@ void StepEquation::add_inertia() {
   }
   for (std::size_t i = 0; i < masses_.size(); ++i)
     if (masses_[i] > 0) inertia_[i] = masses_[i] / (thetas_[i] * h_);
+  link_times_.clear();
+  for (std::size_t k = 0; k < state_.particles.count(); ++k) {
+    const auto i = k * layout_.components;
+    if (!(masses_[i] > 0) || is_driven(static_cast<std::int32_t>(k))) continue;
+    link_times_.resize(state_.particles.count(), -1);
+    const double theta = thetas_[i];
+    // Impulses of links at the time (1 - theta) h keep the angular momentum, and drag needs them in
+    // the middle of the step. The difference is weighed by 2 (1 - theta), which is 1 without drag.
+    const bool may_jump = in_contact_[k] != 0 || !(state_.earlier_step > 0);
+    link_times_[k] = may_jump ? 0 : (0.5 - (2 * theta - 1) * (1 - theta)) * h_;
+  }
 }
 
 /// Finds which particles move with each other, and puts those in contact whose velocities jump
@@ -207,16 +215,18 @@ double StepEquation::theta_of_body(const RigidBody& body) const {
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
-double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
-  if (in_contact_[k] != 0) return 1;
+/// Of a sphere; of a disc that turns; and of a disc that moves, which has no Stokes drag: the factor
+/// of its torque stands for it.
+double StepEquation::stokes_drag(std::size_t k, std::size_t component) const {
   const double r = state_.particles.radii[k], mu = setting_.fluid->viscosity;
   constexpr double kPi = std::numbers::pi;
-  // Of a sphere; of a disc that turns; and of a disc that moves, which has no Stokes drag: the
-  // factor of its torque stands for it.
-  const double drag = layout_.components == 1 ? 6 * kPi * mu * r
-                      : component == 2        ? 4 * kPi * mu * r * r
-                                              : 4 * kPi * mu;
-  const double z = h_ * std::max(drag, earlier_drag(k, component)) / mass;
+  if (layout_.components == 1) return 6 * kPi * mu * r;
+  return component == 2 ? 4 * kPi * mu * r * r : 4 * kPi * mu;
+}
+
+double StepEquation::theta(std::size_t k, std::size_t component, double mass) const {
+  if (in_contact_[k] != 0) return 1;
+  const double z = h_ * std::max(stokes_drag(k, component), earlier_drag(k, component)) / mass;
   return std::isfinite(z) ? (1 + z) / (2 + z) : 1;
 }
 
@@ -237,6 +247,17 @@ std::vector<double> StepEquation::right_side() const {
   for (std::size_t i = 0; i < forces.size(); ++i)
     if (inertia_[i] > 0)
       forces[i] += inertia_[i] * velocity(i / layout_.components, i % layout_.components);
+  for (const auto& body : state_.particles.bodies.bodies) {
+    const auto first = body.members.front();
+    if (link_times_.empty() || !(link_times_[index_of(first)] > 0)) continue;
+    const Vector turn = h_ / 2 * body.angular_velocity;
+    for (std::size_t m = 0; m < body.members.size(); ++m) {
+      const Vector further = displacement_at({}, turn, present_offset(body, m, 2), 2);
+      const Vector force{forces_[layout_.at(body.members[m], 0)],
+                         forces_[layout_.at(body.members[m], 1)], 0};
+      forces[layout_.at(first, 2)] += cross(further, force)[2];
+    }
+  }
   return forces;
 }
 
@@ -273,12 +294,14 @@ std::vector<double> StepEquation::velocities_of_work(std::span<const double> flo
   return velocities;
 }
 
-std::vector<double> StepEquation::forces_of_changes(std::span<const double> changes) const {
-  std::vector<double> forces(changes.size());
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    if (!is_driven(static_cast<std::int32_t>(i / layout_.components)))
-      forces[i] = masses_[i] / h_ * changes[i];
-  return forces;
+std::vector<double> StepEquation::mobility_of_step() const {
+  std::vector<double> mobility(masses_.size());
+  for (std::size_t i = 0; i < mobility.size(); ++i) {
+    const auto k = i / layout_.components;
+    if (is_driven(static_cast<std::int32_t>(k))) continue;
+    mobility[i] = masses_[i] > 0 ? h_ / masses_[i] : 1 / stokes_drag(k, i % layout_.components);
+  }
+  return mobility;
 }
 
 bool StepEquation::put_in_contact(std::span<const FluidContact> contacts) {

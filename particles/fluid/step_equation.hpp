@@ -35,7 +35,8 @@ class StepEquation {
   /// The particles in the fluid with M/(theta h).
   FluidParticles bodies() const;
 
-  /// f + M/(theta h) u^n of each component [M L/T^2].
+  /// f + M/(theta h) u^n of each component [M L/T^2]. Forces on the members of a body that
+  /// accelerates act where the members are in the middle of the step, if its velocity does not jump.
   std::vector<double> right_side() const;
 
   /// M/(theta h) of each component [M/T]; 0 without inertia.
@@ -55,13 +56,15 @@ class StepEquation {
                                          std::span<const double> at_end,
                                          std::span<const double> drag) const;
 
-  /// Of each particle, whether it has a mass, its own or a share of that of its body, and no given
-  /// motion; empty if no particle has.
-  const std::vector<char>& accelerates() const { return accelerates_; }
+  /// Of each particle that accelerates, which has a mass, its own or a share of that of its body, and
+  /// no given motion: the time in the step at which its links act [T], h/2 - (2 theta - 1)
+  /// (1 - theta) h, but 0 in the first step and where its velocity may jump. Of the others -1. Empty if no particle accelerates.
+  const std::vector<double>& link_times() const { return link_times_; }
 
-  /// The mean forces in the step that change the velocities at its end by `changes` [L/T, 1/T]; 0
-  /// for a particle that does not accelerate.
-  std::vector<double> forces_of_changes(std::span<const double> changes) const;
+  /// By how much a mean force in the step changes the velocity at its end, for each component [T/M,
+  /// T/(M L^2)]: h/m. Of particles without mass, the inverse of their drag in (6.5); 0 of driven
+  /// particles.
+  std::vector<double> mobility_of_step() const;
 
   /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
@@ -83,6 +86,7 @@ class StepEquation {
   void find_companions();
   void spread_contact();
   bool has_jump(std::int32_t driven) const;
+  double stokes_drag(std::size_t k, std::size_t component) const;
   double theta(std::size_t k, std::size_t component, double mass) const;
   double theta_of_body(const RigidBody& body) const;
   /// |F|/|U| of the force F on the fluid and the velocity U in the step before, or of torque and
@@ -100,7 +104,7 @@ class StepEquation {
   std::vector<double> thetas_, inertia_;
   std::map<std::int32_t, std::array<double, 3>> driven_;
   std::vector<char> in_contact_;
-  std::vector<char> accelerates_;
+  std::vector<double> link_times_;
   // Particles that move with each other because of bodies, arms and stiff springs: sets of two or
   // more. Driven particles are in none, because nothing that others do changes their velocities.
   std::vector<std::vector<std::int32_t>> companions_;

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
+#include "viscontact/common/error.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -64,15 +66,14 @@ TEST(LinkedMasses, CircleWithTheCentripetalForceAndTheirEnergy) {
     const auto coarse = circling(0.04, stiffness, kTinyDrag);
     const auto fine = circling(0.02, stiffness, kTinyDrag);
     // The spring that is resolved begins to oscillate in the first step, which is implicit Euler.
-    EXPECT_LT(coarse.force_error, stiffness == 1e2 ? 0.1 : 1e-4);
+    EXPECT_LT(coarse.force_error, stiffness == 1e2 ? 0.1 : 2e-4);
     EXPECT_LT(fine.force_error, coarse.force_error / 3.3);
     EXPECT_LT(std::abs(coarse.energy_error), stiffness == 1e2 ? 1e-3 : 1e-7);
   }
-  const auto coarse = circling(0.1, 0, 0.05), fine = circling(0.05, 0, 0.05);
-  EXPECT_LT(std::abs(coarse.energy_error), 3e-4);
-  EXPECT_LT(std::abs(fine.energy_error), std::abs(coarse.energy_error) / 3.5);
+  const auto coarse = circling(0.025, 0, 0.05), fine = circling(0.0125, 0, 0.05);
+  EXPECT_LT(std::abs(coarse.energy_error), 3e-6);
   // The drag in the force is that at the beginning of the step.
-  EXPECT_LT(coarse.force_error, 0.003);
+  EXPECT_LT(coarse.force_error, 5e-4);
   EXPECT_LT(fine.force_error, coarse.force_error / 1.8);
 }
 
@@ -97,6 +98,99 @@ TEST(LinkedMasses, ADiscOnAHingeOffItsCentreIsHeldByTheCentripetalForce) {
       EXPECT_NEAR(f[1], -arm * std::sin(angle), 0.02 * h) << simulation.state().time;
     }
     EXPECT_NEAR(simulation.state().particles.angular_velocities[0], 1, 0.1 * h * h);
+  }
+}
+
+/// Two discs of mass 1 at the distance 1 as one body that turns about the first with the angular
+/// velocity 1, on a hinge there.
+InFluid hinged_pair(double h, double drag) {
+  auto system = in_fluid(2, 100, h, 0.01);
+  system.setting.fluid->viscosity = drag;
+  add_disc(system, {50, 50, 0}, 1, {});
+  add_disc(system, {51, 50, 0}, 1, {0, 1, 0});
+  auto& p = system.state.particles;
+  p.angular_velocities.assign(2, 1);
+  add_rigid_body(p, {{0, 1}});
+  Hinge hinge;
+  hinge.body = 0;
+  hinge.at = {50, 50, 0};
+  hinge.point = {0, hinge.at - p.bodies.bodies[0].centre};
+  system.setting.links.hinges = {hinge};
+  return system;
+}
+
+TEST(LinkedMasses, ABodyOnAHingeTurnsSteadilyAndIsHeldByTheCentripetalForce) {
+  for (const double h : {0.1, 0.05}) {
+    auto system = hinged_pair(h, kTinyDrag);
+    auto simulation = system.simulation(constant_drag(kTinyDrag));
+    run(simulation, 8);
+    const auto& state = simulation.state();
+    // 0.85 and 0.92 were seen where the inertia of the members acted at turned places.
+    EXPECT_NEAR(state.particles.bodies.bodies[0].angular_velocity[2], 1, 0.1 * h * h);
+    EXPECT_NEAR(std::hypot(state.link_forces[0], state.link_forces[1]), 1, 0.2 * h * h);
+  }
+}
+
+TEST(LinkedMasses, ABodyOnAHingeSwingsUnderGravityAndDragToSecondOrder) {
+  // I w' = -2 g 0.5 sin(angle) - resistance w, with the angle from below. The resistance of discs of
+  // drag c: c 1^2 of the outer disc, and c of the turning of each.
+  const double g = 3, drag = 0.3;
+  const auto end = [&](double h) {
+    auto system = hinged_pair(h, drag);
+    system.setting.gravity = {0, -g, 0};
+    auto simulation = system.simulation(constant_drag(drag));
+    run(simulation, 4);
+    return simulation.state().particles.bodies.bodies[0].angle[2];
+  };
+  const double inertia = 1 + 2 * homogeneous_inertia(2, 1, 0.1), resistance = 3 * drag;
+  double angle = 0, w = 1;
+  constexpr int kSteps = 40000;
+  const double h = 4.0 / kSteps;
+  const auto rate = [&](double at, double with) {
+    return (-g * std::cos(at) - resistance * with) / inertia;
+  };
+  for (int n = 0; n < kSteps; ++n) {
+    const double a1 = rate(angle, w), a2 = rate(angle + h / 2 * w, w + h / 2 * a1);
+    angle += h * (w + h / 2 * a1);
+    w += h * a2;
+  }
+  const double coarse = std::abs(end(0.01) - angle), fine = std::abs(end(0.0025) - angle);
+  EXPECT_LT(coarse, 1e-5);
+  EXPECT_GT(std::log2(coarse / fine) / 2, 1.85) << coarse << " " << fine;
+}
+
+TEST(LinkedMasses, KeepTheAngularMomentumAtAKinkOfAnArm) {
+  // Forces along the arm have no torque about its middle: 2 is the angular momentum at all times.
+  for (const double h : {0.1, 0.05}) {
+    auto system = in_fluid(2, 100, h, 0.01);
+    system.setting.fluid->viscosity = kTinyDrag;
+    add_disc(system, {49, 50, 0}, 1, {0, -1, 0});
+    add_disc(system, {51, 50, 0}, 1, {0, 1, 0});
+    system.setting.links.arms = {{0, 1, PiecewiseLinearLength{{{0, 2}, {0.5, 2}, {1, 3}}}}};
+    auto simulation = system.simulation(constant_drag(kTinyDrag));
+    run(simulation, 1);
+    const auto& p = simulation.state().particles;
+    const double momentum = cross(p.position(0) - Vector{50, 50, 0}, p.velocity(0))[2] +
+                            cross(p.position(1) - Vector{50, 50, 0}, p.velocity(1))[2];
+    EXPECT_NEAR(momentum, 2, h * h) << h;
+  }
+}
+
+TEST(LinkedMasses, ThatCannotHoldAreAnErrorThatSaysSo) {
+  // A disc between a fixed one and one that is driven away by more than both arms reach.
+  auto system = in_fluid(2, 100, 0.01, 0.01);
+  for (const double x : {50.0, 50.9, 51.8})
+    add_disc(system, {x, x == 50.9 ? 50.436 : 50, 0}, 1, {});
+  system.setting.given_motions[0] = {};
+  system.setting.given_motions[2] = {{{{100, {0.25, 0, 0}}}}, {}};
+  system.setting.links.arms = {{0, 1, constant_length(1)}, {1, 2, constant_length(1)}};
+  auto simulation = system.simulation(constant_drag(1));
+  try {
+    run(simulation, 1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kNotConverged);
+    EXPECT_NE(std::string(error.what()).find("links"), std::string::npos) << error.what();
   }
 }
 
