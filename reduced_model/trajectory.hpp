@@ -36,6 +36,7 @@ struct Rebound {
   double solid_impulse = 0;      ///< s that the solids took up, before they gave e_d s back [M L/T], > 0
   double velocity = 0;     ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
   double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1]
+  bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
 };
 
 /// Number of the revision of the models. Raise it when a change makes a model compute other
