@@ -123,6 +123,12 @@ void read_model_sections(const TomlSection& root, double radius, reduced_model::
     if (name == reduced_model::section_of(reduced_model::kRoughnessKey) &&
         section.has(reduced_model::name_of(reduced_model::kRoughnessKey)))
       motion.roughness = read_roughness(section, radius);
+    if (name == reduced_model::kRestitution.section() && motion.restitution() > 0 &&
+        motion.roughness[0] + motion.roughness[1] == 0)
+      section.fail(reduced_model::kRestitution.name(),
+                   fmt::format("is {}; it is the coefficient of solids that touch, which needs a "
+                               "roughness whose heights together are > 0",
+                               motion.restitution()));
     section.finish();
   }
 }

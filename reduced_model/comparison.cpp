@@ -124,6 +124,7 @@ Comparison compare_trajectories(const std::vector<Trajectory>& trajectories,
     result.minimal_gap_time = lowest->time;
     result.recovered_minimal_gap = trajectory.recovered_minimal_gap;
     result.contact_interval = contact_interval(trajectory);
+    result.rebounds = trajectory.rebounds;
     result.budget = trajectory.budget;
     result.steps = trajectory.steps;
     result.seconds = trajectory.seconds;
@@ -144,6 +145,13 @@ std::string write_comparison(const Comparison& comparison) {
     entry["recovered_minimal_gap"] =
         model.recovered_minimal_gap ? Json(*model.recovered_minimal_gap) : Json();
     entry["contact_interval"] = model.contact_interval ? Json(*model.contact_interval) : Json();
+    entry["rebounds"] = Json::array();
+    for (const auto& of : model.rebounds)
+      entry["rebounds"].push_back({{"time", of.time},
+                                   {"approach_velocity", of.approach_velocity},
+                                   {"solid_impulse", of.solid_impulse},
+                                   {"velocity", of.velocity},
+                                   {"coefficient", of.coefficient}});
     entry["sup_gap_distance"] = model.sup_gap_distance;
     entry["l1_gap_distance"] = model.l1_gap_distance;
     entry["l1_velocity_distance"] = model.l1_velocity_distance;
@@ -175,6 +183,12 @@ Comparison read_comparison(const std::filesystem::path& path) {
         model.recovered_minimal_gap = entry.at("recovered_minimal_gap").get<double>();
       if (!entry.at("contact_interval").is_null())
         model.contact_interval = entry.at("contact_interval").get<std::array<double, 2>>();
+      if (entry.contains("rebounds"))
+        for (const auto& of : entry.at("rebounds"))
+          model.rebounds.push_back(
+              {of.at("time").get<double>(), of.at("approach_velocity").get<double>(),
+               of.at("solid_impulse").get<double>(), of.at("velocity").get<double>(),
+               of.at("coefficient").get<double>()});
       model.sup_gap_distance = entry.at("sup_gap_distance").get<double>();
       model.l1_gap_distance = entry.at("l1_gap_distance").get<double>();
       model.l1_velocity_distance = entry.at("l1_velocity_distance").get<double>();

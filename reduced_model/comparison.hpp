@@ -25,6 +25,8 @@ struct ModelComparison {
   /// First landing and last release [T]. In a trajectory that Viscontact did not write: the first
   /// and the last row with gamma < 0.
   std::optional<std::array<double, 2>> contact_interval;
+  /// Impacts on the solids, in order of time; only if the case has a restitution.
+  std::vector<Rebound> rebounds;
   /// Impulses and works; nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
   double sup_gap_distance = 0;      ///< max over time of |q - q_ref| [L]

@@ -12,6 +12,11 @@
 
 namespace viscontact::reduced_model {
 
+double Motion::restitution() const {
+  const auto found = parameters.find(kRestitution.key);
+  return found == parameters.end() ? 0 : found->second;
+}
+
 double Motion::parameter(const ModelParameter& which) const {
   const auto found = parameters.find(which.key);
   if (found == parameters.end())

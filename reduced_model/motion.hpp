@@ -41,6 +41,8 @@ struct Motion {
 
   /// The value of a parameter. Throws Error(kBadInput) if it has no value.
   double parameter(const ModelParameter& which) const;
+  /// e_d of the solids, 0 to 1 [1]; 0 if the motion has no value of kRestitution.
+  double restitution() const;
   /// Sets a parameter. The value must be one that `which` allows, which is not checked here.
   void set(const ModelParameter& which, double value) { parameters[which.key] = value; }
 };
@@ -63,6 +65,14 @@ inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     kPositive,
                                                     default_time_step,
                                                     true};
+
+/// Coefficient e_d of restitution of the solids [1].
+inline constexpr ModelParameter kRestitution = {
+    "viscous_contact.restitution",
+    "coefficient of restitution of the solids",
+    "1",
+    {[](double v) { return v >= 0 && v <= 1; }, "between 0 and 1"},
+    [](const Motion&, double) { return 0.0; }};
 
 /// Models call this function at intervals with the time [T] that they have reached. It throws
 /// Error(kInterrupted) if motion.stop requests a stop, and then calls motion.progress.

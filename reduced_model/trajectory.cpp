@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <sstream>
 
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
@@ -29,6 +30,33 @@ long steps_of(const CsvComments& comments, const std::string& file) {
   return static_cast<long>(steps);
 }
 
+/// Numbers of a rebound, separated by blanks, and rebounds separated by "; ".
+std::string write_rebounds(const std::vector<Rebound>& rebounds) {
+  std::string text;
+  for (const auto& of : rebounds)
+    text += fmt::format("{}{} {} {} {} {}", text.empty() ? "" : "; ", format_number(of.time),
+                        format_number(of.approach_velocity), format_number(of.solid_impulse),
+                        format_number(of.velocity), format_number(of.coefficient));
+  return text;
+}
+
+std::vector<Rebound> read_rebounds(const std::string& text, const FilePosition& file) {
+  std::vector<Rebound> rebounds;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, ';');) {
+    std::istringstream words(part);
+    std::vector<double> numbers;
+    for (std::string word; words >> word;)
+      if (const auto number = parse_number(word)) numbers.push_back(*number);
+    if (numbers.size() != 5)
+      throw_bad_input(file, fmt::format("the rebound '{}' in its head is not five numbers: time, "
+                                        "approach_velocity, solid_impulse, velocity, coefficient",
+                                        part));
+    rebounds.push_back({numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]});
+  }
+  return rebounds;
+}
+
 }  // namespace
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
@@ -51,6 +79,8 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
   trajectory.seconds = take_number("seconds").value_or(0);
   if (const auto from = take_number(kContactKeys[0]))
     trajectory.contact_interval = {*from, csv_comment_number(csv.comments, kContactKeys[1], file)};
+  if (const auto rebounds = take("rebounds"))
+    trajectory.rebounds = read_rebounds(*rebounds, {file});
   for (const auto& entry : kBudgetEntries)
     if (const auto value = take_number(std::string(entry.name))) {
       if (!trajectory.budget) trajectory.budget.emplace();
@@ -92,6 +122,7 @@ std::string write_trajectory(const Trajectory& trajectory) {
   if (trajectory.contact_interval)
     for (std::size_t i = 0; i < kContactKeys.size(); ++i)
       comments[kContactKeys[i]] = format_number((*trajectory.contact_interval)[i]);
+  if (!trajectory.rebounds.empty()) comments["rebounds"] = write_rebounds(trajectory.rebounds);
   if (trajectory.budget)
     for (const auto& entry : kBudgetEntries)
       comments[std::string(entry.name)] = format_number((*trajectory.budget).*entry.value);

@@ -29,9 +29,19 @@ struct TrajectoryRow {
   OptionalDouble solid_force{};
 };
 
+/// An impact of the sphere on the solids, (4.12).
+struct Rebound {
+  double time = 0;               ///< [T]
+  double approach_velocity = 0;  ///< where gamma began, of inertial_rough at r1 + r2 [L/T], < 0
+  double solid_impulse = 0;      ///< s that the solids took up, before they gave e_d s back [M L/T], > 0
+  double velocity = 0;     ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
+  double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1]
+  bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal
+};
+
 /// Number of the revision of the models. Raise it when a change makes a model compute other
 /// numbers; trajectories of another revision are then computed again.
-inline constexpr int kModelsRevision = 3;
+inline constexpr int kModelsRevision = 4;
 
 /// Rows in strictly increasing time, at least one, and how they were made.
 struct Trajectory {
@@ -41,6 +51,8 @@ struct Trajectory {
   std::optional<double> recovered_minimal_gap;
   /// First landing and last release (or end of the motion) [T]; contact models only.
   std::optional<std::array<double, 2>> contact_interval;
+  /// In order of time; only if the case has a restitution.
+  std::vector<Rebound> rebounds;
   /// Nothing in a trajectory that Viscontact did not write.
   std::optional<MomentumEnergyBudget> budget;
   long steps = 0;      ///< number of steps of the integrator

@@ -102,6 +102,7 @@ std::string page_of(const results::RunResults& run, const std::vector<Picture>& 
   page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
   page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
   page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
+  page += section("Rebounds", rebounds_table(run));
   page += section("Impulse and work", budget_table(run));
   page += section("Lubrication force and fit", figures(pictures, {"fit"}) + fit_table(run));
   page += section("How errors of the fit change the motion",

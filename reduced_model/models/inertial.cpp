@@ -3,8 +3,12 @@
 // results must raise kModelsRevision.
 #include "viscontact/reduced_model/models/inertial.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -20,8 +24,11 @@ namespace {
 /// One integration from the start of the motion to its end.
 class InertialRun {
  public:
-  InertialRun(const Motion& motion, const lubrication::LubricationForce& force)
+  /// The solids touch at the gap `solid_gap` [L]; 0: never.
+  InertialRun(const Motion& motion, const lubrication::LubricationForce& force, double solid_gap)
       : motion_(motion),
+        force_(force),
+        solid_gap_(solid_gap),
         equation_(motion, force, motion.parameter(kRelativeTolerance)),
         cvode_(equation_.system(now_), std::array{equation_.state_of(motion.initial_gap)}),
         times_(row_times(motion)),
@@ -34,21 +41,45 @@ class InertialRun {
 
   Trajectory run() {
     auto stops = motion_.external_force.jumps();
+    // A sphere that rests on the solids may be pulled off where the force changes its sign.
+    if (solid_gap_ > 0) {
+      std::ranges::copy(motion_.external_force.sign_changes(motion_.end_time),
+                        std::back_inserter(stops));
+      std::ranges::sort(stops);
+      stops.erase(std::unique(stops.begin(), stops.end(), are_one_time), stops.end());
+    }
     std::erase_if(stops, [&](double t) {
       return t >= motion_.end_time || are_one_time(t, motion_.end_time);
     });
     stops.push_back(motion_.end_time);
     for (const double stop : stops) {
       stop_ = stop;
+      if (rests_ && !leaves_solids()) {
+        rest_until(stop);
+        continue;
+      }
       restart(equation_.first_step(last_stop_, gap()));
       while (now_ < stop_) {
         report_progress(motion_, now_);
         if (!step()) continue;
         const auto now = instant_of(cvode_.time(), cvode_.state()[0]);
-        add_rows_of_step(now);
+        if (now.gap < solid_gap_) {
+          const double impact = bisect_first_true(now_, cvode_.time(), [&](double t) {
+            return equation_.gap_of(cvode_.at(t)) < solid_gap_;
+          });
+          add_rows_of_step(impact, equation_.instant(impact, solid_gap_, impact));
+          now_ = impact;
+          strike_solids();
+          continue;
+        }
+        add_rows_of_step(cvode_.time(), now);
         now_ = cvode_.time();
         double film = 0;
         if (now_ < stop_ && equation_.lands_at_once(now_, now, film)) {
+          if (film < solid_gap_) {
+            strike_solids();
+            continue;
+          }
           cvode_.set_state(std::array{equation_.state_of(film)});
           restart(InertialEquation::kTimeResolution * now_);
         }
@@ -56,6 +87,7 @@ class InertialRun {
       last_stop_ = stop_;
     }
     trajectory_.steps = cvode_.steps();
+    if (solid_gap_ > 0) trajectory_.budget = budget();
     return std::move(trajectory_);
   }
 
@@ -63,6 +95,74 @@ class InertialRun {
   double gap() const { return equation_.gap_of(cvode_.state()[0]); }
 
   void restart(double first_step) { cvode_.restart(now_, stop_, first_step); }
+
+  /// Reverses the velocity at the solids, at the time now_, and goes on from there.
+  void strike_solids() {
+    const double before = std::min(0.0, velocity_at_solids()), m = motion_.mass;
+    const double restitution = motion_.restitution();
+    double after = -restitution * before;
+    const double pull = motion_.external_force.value(now_);
+    constexpr double kShortestFlight = 1e-6;
+    rests_ =
+        !(after > 0) || (pull < 0 && 2 * m * after < -pull * kShortestFlight * motion_.end_time);
+    if (rests_) after = 0;
+    equation_.add_impulse(m * (after - velocity_at_solids()));
+    solid_impulse_ += m * (after - before);
+    solid_work_ += m / 2 * (after - before) * (after + before);
+    if (before < 0) {
+      // What the drag takes between the initial gap and the solids.
+      const double film = (force_.impulse(motion_.initial_gap) - force_.impulse(solid_gap_)) / m;
+      const double approach = before - film, leaving = std::max(0.0, after - film);
+      trajectory_.rebounds.push_back({now_, approach, -m * before, leaving, leaving / -approach});
+    }
+    cvode_.set_state(std::array{equation_.state_of(solid_gap_)});
+    if (rests_ && !leaves_solids())
+      rest_until(stop_);
+    else
+      restart(0);
+  }
+
+  /// (P - Gamma)/m at the solids [L/T].
+  double velocity_at_solids() const {
+    return (equation_.momentum(now_) - force_.impulse(solid_gap_)) / motion_.mass;
+  }
+
+  /// Whether the force until the next stop, where it changes its sign or jumps, pulls the sphere.
+  bool leaves_solids() {
+    if (!(motion_.external_force.mean(now_, stop_) > 0)) return false;
+    rests_ = false;
+    return true;
+  }
+
+  /// The solids carry the force until the time `stop`.
+  void rest_until(double stop) {
+    const double carried =
+        motion_.external_force.impulse(stop) - motion_.external_force.impulse(now_);
+    equation_.add_impulse(-carried);
+    solid_impulse_ -= carried;
+    for (; next_row_ != times_.end() && *next_row_ <= stop; ++next_row_) {
+      const double f = motion_.external_force.value(*next_row_);
+      trajectory_.rows.push_back({*next_row_, solid_gap_, 0, 0.0, f, {}, -f});
+    }
+    now_ = last_stop_ = stop;
+  }
+
+  /// The work of the force is the sum over the rows of its mean times the change of the gap, of second
+  /// order in their spacing; the film has the rest.
+  MomentumEnergyBudget budget() const {
+    MomentumEnergyBudget budget;
+    const auto& rows = trajectory_.rows;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      budget.external_work += motion_.external_force.mean(rows[i - 1].time, rows[i].time) *
+                              (rows[i].gap - rows[i - 1].gap);
+    const double first = rows.front().velocity, last = rows.back().velocity, m = motion_.mass;
+    budget.external_impulse = motion_.external_force.impulse(rows.back().time);
+    budget.solid_impulse = solid_impulse_;
+    budget.solid_work = solid_work_;
+    budget.film_impulse = m * (last - first) - budget.external_impulse - solid_impulse_;
+    budget.film_work = m / 2 * (last - first) * (last + first) - budget.external_work - solid_work_;
+    return budget;
+  }
 
   /// Makes one step of CVODE. Returns false if the step failed and CVODE was restarted.
   bool step() {
@@ -89,16 +189,15 @@ class InertialRun {
     return equation_.instant(t, equation_.gap_of(s), force_time);
   }
 
-  /// Adds the rows within the step that has just been made, whose end is `now`.
-  void add_rows_of_step(const InertialInstant& now) {
-    const double end = cvode_.time();
+  /// Adds the rows of the step that has just been made until the time `end` in it, which is `now`.
+  void add_rows_of_step(double end, const InertialInstant& now) {
     // If many rows are in the step, an expansion of s in powers of t - end is cheaper than at().
     constexpr std::ptrdiff_t kManyRows = 8;
     const bool many = times_.end() - next_row_ > kManyRows && *(next_row_ + kManyRows) < end;
     const std::vector<double> expansion = many ? cvode_.expansion() : std::vector<double>();
     const auto instant = [&](double t) {
       if (!many) return instant_of(t, cvode_.at(t));
-      return instant_of(t, polynomial::value(expansion, t - end));
+      return instant_of(t, polynomial::value(expansion, t - cvode_.time()));
     };
     const auto add_rows_before = [&](double time) {
       for (; next_row_ != times_.end() && *next_row_ < time; ++next_row_)
@@ -126,6 +225,10 @@ class InertialRun {
   }
 
   const Motion& motion_;
+  const lubrication::LubricationForce& force_;
+  double solid_gap_;
+  double solid_impulse_ = 0, solid_work_ = 0;  // of the solids on the sphere
+  bool rests_ = false;                         // on the solids
   InertialEquation equation_;
   double now_ = 0;  // end of the last step, or time of the restart
   Cvode cvode_;
@@ -141,7 +244,19 @@ class InertialRun {
 }  // namespace
 
 Trajectory simulate_inertial(const Motion& motion, const lubrication::LubricationForce& force) {
-  return InertialRun(motion, force).run();
+  return InertialRun(motion, force, 0).run();
+}
+
+Trajectory simulate_inertial_rough(const Motion& motion,
+                                   const lubrication::LubricationForce& force) {
+  const double solid_gap = motion.roughness[0] + motion.roughness[1];
+  if (!(motion.initial_gap > solid_gap))
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("motion.initial_gap is {}; it must be greater than the roughness heights "
+                    "together, {}",
+                    motion.initial_gap, solid_gap));
+  return InertialRun(motion, force, solid_gap).run();
 }
 
 }  // namespace viscontact::reduced_model

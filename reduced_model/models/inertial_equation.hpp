@@ -36,6 +36,8 @@ class InertialEquation {
   double gap_of(double s) const;      ///< q = r e^s [L]
   double state_of(double gap) const;  ///< s = ln(q/r)
   double momentum(double t) const;    ///< P(t) [M L/T]
+  /// Adds an impulse [M L/T] to P: the velocity jumps, or a solid has carried the force.
+  void add_impulse(double impulse) { momentum_at_start_ += impulse; }
 
   /// Equation (S), its Jacobian and its tolerances, for CVODE. `step_begin` is the time at which
   /// the present step of CVODE begins; it is read at each call.
@@ -71,7 +73,7 @@ class InertialEquation {
   const Motion& motion_;
   const lubrication::LubricationForce& force_;
   double relative_tolerance_;
-  double momentum_at_start_;  // P(0)
+  double momentum_at_start_;  // P(0), with the impulses added
 };
 
 }  // namespace viscontact::reduced_model

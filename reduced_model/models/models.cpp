@@ -32,7 +32,8 @@ constexpr bool kFluid = true, kNoFluid = false;
 constexpr bool kInSweeps = true, kUsualReference = true;
 
 constexpr std::array kReferenceParameters = {kReferenceTimeStep};
-constexpr std::array kContactParameters = {kContactTimeStep};
+constexpr std::array kTimeStepParameters = {kContactTimeStep};
+constexpr std::array kContactParameters = {kContactTimeStep, kRestitution};
 
 constexpr std::array kModels = {
     Model{"reference", "no inertia, explicit Euler (the lecture's)", simulate_reference, nullptr,
@@ -55,10 +56,12 @@ constexpr std::array kModels = {
     Model{"inelastic_contact", "plain inelastic contact", nullptr, inelastic_contact, kOnRequest,
           kInertia, kNoFluid, kContactParameters, &kContactTimeStep},
     Model{"explicit_euler", "with inertia, explicit Euler", simulate_explicit_euler, nullptr,
-          kOnRequest, kInertia, kFluid, kContactParameters, &kContactTimeStep},
+          kOnRequest, kInertia, kFluid, kTimeStepParameters, &kContactTimeStep},
     Model{"viscous_contact_leapfrog", "viscous contact by a leapfrog, of second order", nullptr,
           viscous_contact_leapfrog, kOnRequest, kInertia, kFluid, kContactParameters,
           &kContactTimeStep},
+    Model{"inertial_rough", "with inertia and solid contact, CVODE", simulate_inertial_rough,
+          nullptr, kOnRequest, kInertia, kFluid, kInertialRoughParameters},
     // A new model stands here, at the end, so that the others keep their colours in the report.
 };
 
@@ -182,11 +185,15 @@ bool depends_on(const ModelChoice& choice, std::string_view key) {
   const Model& model = *choice.model;
   if (key == "sphere.mass" || key == "motion.initial_velocity") return model.inertia;
   if (key == "fluid.viscosity" || key == "sphere.radius") return model.fluid;
-  // The roughness bounds the film of contact models, and plain contact has no film.
-  if (key == kRoughnessKey) return model.contact != nullptr && model.fluid && !choice.smooth;
   const auto has_key = [&](const auto& parameters) {
     return std::ranges::find(parameters, key, &ModelParameter::key) != std::end(parameters);
   };
+  // The roughness is where the solids of models with restitution touch; plain contact has no film.
+  if (key == kRoughnessKey) {
+    const auto& all = model.parameters;
+    return model.fluid && !choice.smooth &&
+           std::ranges::find(all, kRestitution.key, &ModelParameter::key) != all.end();
+  }
   return has_key(model.parameters) || !has_key(model_parameters());
 }
 

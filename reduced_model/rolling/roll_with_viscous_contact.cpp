@@ -40,9 +40,9 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const lubrication::PairFit& fit) {
   const RollingFluid fluid(fit);
   const double radius = fit.radius;
-  // k of R ~ k/q: gamma = k ln(film / r).
-  const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius;
-  const double gamma_min = motion.roughness > 0 ? k * std::log(motion.roughness / radius)
+  // k of R ~ k/q: gamma = k ln(film/q0).
+  const double k = 6 * std::numbers::pi * fit.viscosity * radius * radius, q0 = motion.initial_gap;
+  const double gamma_min = motion.roughness > 0 ? std::min(0.0, k * std::log(motion.roughness / q0))
                                                 : -std::numeric_limits<double>::infinity();
   const int count = step_count(motion.end_time, motion.time_step);
   ContactState normal = {motion.initial_gap, motion.normal_velocity, 0};
@@ -61,7 +61,7 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
         contact_step(normal, step * motion.normal_force, {motion.mass, gamma_min, step}, NoDrag{});
     normal = contact.state;
     // In contact the film has the thickness of gamma; before, the gap itself.
-    row.gap = normal.gap > 0 ? normal.gap : radius * std::exp(normal.gamma / k);
+    row.gap = normal.gap > 0 ? normal.gap : q0 * std::exp(normal.gamma / k);
     const ImplicitStep implicit(motion, fluid.at(std::min(row.gap, fluid.largest_gap())), radius,
                                 step);
     const RollingForce known = {

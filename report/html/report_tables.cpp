@@ -146,6 +146,28 @@ std::string models_table(const results::RunResults& run) {
       escaped(run.comparison.reference_model), rows, link_to(run.folder, "comparison.json"));
 }
 
+std::string rebounds_table(const results::RunResults& run) {
+  std::string rows;
+  for (const auto& model : run.comparison.models)
+    for (std::size_t n = 0; n < model.rebounds.size(); ++n) {
+      const auto& of = model.rebounds[n];
+      rows += table_row(model_link(run, model.model), fmt::format("{}", n + 1),
+                        fmt::format("{:.6g}", of.time), fmt::format("{:.5g}", of.approach_velocity),
+                        fmt::format("{:.5g}", of.solid_impulse), fmt::format("{:.5g}", of.velocity),
+                        fmt::format("{:.5g}", of.coefficient));
+    }
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<div class=scroll><table><thead><tr><th>model</th><th>number</th>"
+      "<th>time</th><th>velocity of approach</th><th>impulse of the solids</th>"
+      "<th>velocity of "
+      "rebound</th><th>coefficient</th></tr></thead><tbody>\n{}</tbody></table></div>\n"
+      "<p class=source>From {}. The coefficient is that of the velocities where the sphere meets "
+      "and "
+      "leaves the film.</p>\n",
+      rows, link_to(run.folder, "comparison.json"));
+}
+
 std::string budget_table(const results::RunResults& run) {
   std::string rows;
   for (const auto& model : run.comparison.models) {

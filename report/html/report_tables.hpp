@@ -14,6 +14,9 @@ std::string parameters_table(const results::RunResults& run);
 /// Smallest gap, times of contact and distance to the reference of each model.
 std::string models_table(const results::RunResults& run);
 
+/// The impacts on the solids of each model; empty if there are none.
+std::string rebounds_table(const results::RunResults& run);
+
 /// The budget (impulses and works) of each model; empty if no model has one.
 std::string budget_table(const results::RunResults& run);
 

@@ -182,6 +182,21 @@ TEST(Roughness, SaysWhatItsTwoNumbersAre) {
                  "on the sphere and on the plane");
 }
 
+TEST(Restitution, NeedsARoughness) {
+  const auto with = [](const char* roughness, const char* restitution) {
+    auto edited = with_value(kRoughness, std::string(roughness) + "\nrestitution = " + restitution);
+    ++edited.line;  // the restitution is below the roughness
+    return edited;
+  };
+  EXPECT_EQ(required_motion(read_text(with("[1e-3, 0.0]", "0.97").text)).restitution(), 0.97);
+  EXPECT_EQ(required_motion(read_text(with("[0.0, 0.0]", "0.0").text)).restitution(), 0);
+  constexpr LectureKey kRestitution = {"viscous_contact.restitution", "[viscous_contact]",
+                                       "restitution", "0.97"};
+  expect_refused(with("[0.0, 0.0]", "0.97"), kRestitution.path, "roughness");
+  expect_refused(with("[1e-3, 0.0]", "1.1"), kRestitution.path, "between 0 and 1");
+  expect_refused(with("[1e-3, 0.0]", "-0.1"), kRestitution.path, "between 0 and 1");
+}
+
 TEST(FitOfACase, MayBeAFileBesideTheCase) {
   const TemporaryFolder folder;
   const auto text = with_text(kFitKeys, "file = \"fits/mine.json\"\n").text;

@@ -174,6 +174,7 @@ Comparison two_models() {
   zebra.minimal_gap_time = 2;
   zebra.recovered_minimal_gap = 2.9708466100000004e-3;
   zebra.contact_interval = {0.59, 1.0 / 3};
+  zebra.rebounds = {{0.1 + 0.2, -1.0 / 3, 5e-324, 0, 0}, {1, -2, 3, 1e-17, 5e-18}};
   zebra.sup_gap_distance = 5e-324;
   zebra.l1_gap_distance = 1e308;
   zebra.l1_velocity_distance = 1e-17;
@@ -198,6 +199,7 @@ TEST(ComparisonFile, ReadsBackToTheBit) {
     EXPECT_EQ(a.minimal_gap_time, b.minimal_gap_time);
     EXPECT_EQ(a.recovered_minimal_gap, b.recovered_minimal_gap);
     EXPECT_EQ(a.contact_interval, b.contact_interval);
+    EXPECT_EQ(a.rebounds, b.rebounds);
     EXPECT_EQ(a.sup_gap_distance, b.sup_gap_distance);
     EXPECT_EQ(a.l1_gap_distance, b.l1_gap_distance);
     EXPECT_EQ(a.l1_velocity_distance, b.l1_velocity_distance);

@@ -32,8 +32,9 @@ TEST(RandomMotions, OfTheEventDrivenContactObeyTheContactLaw) {
     const auto [motion, k] = random_case(generator);
     SCOPED_TRACE(i);
     const double solid_gap = motion.roughness[0] + motion.roughness[1];
-    const double gamma_min = solid_gap > 0 ? std::min(0.0, k * std::log(solid_gap))
-                                           : -std::numeric_limits<double>::infinity();
+    const double gamma_min = solid_gap > 0
+                                 ? std::min(0.0, k * std::log(solid_gap / motion.initial_gap))
+                                 : -std::numeric_limits<double>::infinity();
     const auto trajectory =
         simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(k)));
     double impulse_scale = motion.mass * std::abs(motion.initial_velocity);

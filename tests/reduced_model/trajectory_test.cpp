@@ -41,6 +41,7 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
       {1e22, 5e-324, 1.7976931348623157e308, 0.1, {}, -1e-300},
   };
   written.recovered_minimal_gap = 2.9708466100000004e-3;
+  written.rebounds = {{0.1 + 0.2, -1.0 / 3, 5e-324, 0, 0}, {1, -2, 3, 1e-17, 5e-18}};
   written.steps = 123456789;
   written.seconds = 0.1;
   written.provenance = {{"fit", "fit.json"}, {"time_step", "0.001"}, {"a note", "with: a colon"}};
@@ -52,6 +53,7 @@ TEST(TrajectoryFile, ReadsBackToTheBit) {
   EXPECT_EQ(read.provenance, written.provenance);
   EXPECT_EQ(bits(read.seconds), bits(written.seconds));
   EXPECT_EQ(read.recovered_minimal_gap, written.recovered_minimal_gap);
+  EXPECT_EQ(read.rebounds, written.rebounds);
   ASSERT_EQ(read.rows.size(), written.rows.size());
   for (std::size_t i = 0; i < read.rows.size(); ++i) {
     SCOPED_TRACE(i);
@@ -154,6 +156,9 @@ INSTANTIATE_TEST_SUITE_P(
                   "must increase"},
         WrongFile{"RowsCutOff", "# rows: 3\ntime,gap,velocity\n0,1,0\n1,1,0\n", 0,
                   "its header says 3"},
+        WrongFile{"ReboundsOfFourNumbers",
+                  "# rebounds: 1 -2 3 1 0.5; 1 -2 3 1\ntime,gap,velocity\n0,1,0\n", 0,
+                  "the rebound ' 1 -2 3 1' in its head is not five numbers"},
         WrongFile{"AWrongNumberAtItsHead",
                   "# recovered_minimal_gap: thin\ntime,gap,velocity\n0,1,0\n", 0,
                   "recovered_minimal_gap"}),

@@ -146,7 +146,7 @@ TEST(Units, ChangeTheModelsOfFixedStepsByRoundingOnly) {
     for (const Push& push : kPushes)
       for (const auto& units : kDecimal)
         for (const auto& model : all_models()) {
-          if (model.name == "inertial") continue;  // its steps are chosen: below
+          if (model.name.starts_with("inertial")) continue;  // its steps are chosen: below
           SCOPED_TRACE(kind);
           const auto old_one =
               simulate(find_model(model.name), motion_in(kOld, push), force_in(kOld, kind));

@@ -13,6 +13,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/root_finding.hpp"
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
+#include "viscontact/reduced_model/models/contact/rebound.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
@@ -88,6 +89,7 @@ class ContactClock {
 
   void look_at(const StepTimes& times, const ContactState& before, double push,
                const ContactStep& step) {
+    if (std::exchange(is_struck_, false)) return;
     const bool contact =
         step.state.gap == 0 && (step.state.gamma < 0 || step.film != 0 || step.solid != 0);
     const auto [time, next, kick_begin, kick_end] = times;
@@ -107,12 +109,19 @@ class ContactClock {
     }
     touching_ = contact;
   }
+  /// A step with impacts, which look_at() then leaves alone.
+  void strike(const StepTimes& times, const ReboundStep& step) {
+    if (!interval_) interval_ = {times.begin + step.first_impact, 0};
+    touching_ = step.state.gap == 0;
+    (*interval_)[1] = touching_ ? times.end : times.begin + step.last_impact;
+    is_struck_ = true;
+  }
   std::optional<std::array<double, 2>> interval() const { return interval_; }
 
  private:
   double mass_;
   std::optional<std::array<double, 2>> interval_;
-  bool touching_ = false;
+  bool touching_ = false, is_struck_ = false;
 };
 
 /// What an impulse of the force does without a displacement.
@@ -131,21 +140,30 @@ ContactStep kicked(const ContactState& state, double push, const ContactSetting&
   return step;
 }
 
-/// Makes the steps from the start to the end. Calls `kick(velocity before, push, step)` for each
-/// impulse of the force and `add(times, setting, state before, push, step, state at the end)` after
+/// What a step with impacts is to the rows.
+ContactStep as_contact_step(const ReboundStep& step) {
+  return {step.state, step.budget.film_impulse, step.budget.drag_impulse,
+          step.budget.solid_impulse};
+}
+
+/// Makes the steps from the start to the end. Calls `rebound(times, step)` for each step with impacts,
+/// and `kick(velocity before, push, step)` for each other
+/// impulse of the force, and `add(times, setting, state before, push, step, state at the end)` after
 /// each step. `turns` are the times at which the force changes its sign: in staggered steps the
 /// impulses before and after them act one after the other, because what the solids carry before must
 /// not be given back after.
-template <class Drag, class Kick, class Add>
+template <class Drag, class Rebounding, class Kick, class Add>
 void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag,
-               std::span<const double> turns, const Kick& kick, const Add& add) {
+               std::span<const double> turns, const Rebounding& rebound, const Kick& kick,
+               const Add& add) {
   const double end = motion.end_time;
   const double h = motion.parameter(kContactTimeStep);
   const int steps = step_count(end, h);
   ContactSetting setting(motion.mass, model.gamma_min, h);
   ContactState state{motion.initial_gap - model.contact_gap, motion.initial_velocity, 0};
   // The half kick at the end of a step overlaps with the next whole one, and a walk does not go back.
-  ForceWalk force(motion.external_force), force_of_half(motion.external_force);
+  ForceWalk force(motion.external_force), force_of_half(motion.external_force),
+      force_of_step(motion.external_force);
   auto turn = turns.begin();
   double t = 0, since = 0;
   for (int n = 0; n < steps; ++n) {
@@ -170,8 +188,18 @@ void run_steps(const Motion& motion, const ContactModel& model, const Drag& drag
       push = times.kick_end - since;
     }
     push *= force.mean(since, times.kick_end);
-    ContactStep step = contact_step(state, push, setting, drag);
-    kick(state.velocity, push, step);
+    ContactStep step;
+    std::optional<ReboundStep> impacts;
+    if (model.restitution > 0 && state.gamma == 0 && (state.gap > 0 || state.velocity > 0))
+      impacts = rebound_step(state, push, force_of_step.mean(t, next) * setting.per_mass, setting,
+                             model.restitution, drag);
+    if (impacts) {
+      step = as_contact_step(*impacts);
+      rebound(times, *impacts);
+    } else {
+      step = contact_step(state, push, setting, drag);
+      kick(state.velocity, push, step);
+    }
     step.film += earlier.film;
     step.solid += earlier.solid;
     ContactState at_end = step.state;
@@ -200,7 +228,8 @@ std::vector<double> turns_of(const Motion& motion) {
 
 }  // namespace
 
-Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
+Trajectory run_contact_model(const Motion& motion, ContactModel model) {
+  model.restitution = motion.restitution();
   Trajectory trajectory;
   trajectory.steps = step_count(motion.end_time, motion.parameter(kContactTimeStep));
   trajectory.rows.reserve(static_cast<std::size_t>(trajectory.steps) + 1);
@@ -235,13 +264,23 @@ Trajectory run_contact_model(const Motion& motion, const ContactModel& model) {
                                    before.gamma + motion.mass * before.velocity +
                                        (*turn - begin) * motion.external_force.mean(begin, *turn)));
   };
+  const auto rebound = [&](const StepTimes& times, const ReboundStep& step) {
+    for (auto of : step.rebounds) {
+      of.time += times.begin;
+      trajectory.rebounds.push_back(of);
+    }
+    clock.strike(times, step);
+    lowest_gamma = std::min(lowest_gamma, step.lowest_gamma);
+    for (const auto& entry : kBudgetEntries) budget.*entry.value += step.budget.*entry.value;
+  };
   const auto kick = [&](double velocity, double push, const ContactStep& step) {
     add_to(budget, velocity, push, step);
   };
   if (model.drag)
-    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, kick, add);
+    run_steps(motion, model, DragAtDistance(*model.drag, model.contact_gap), turns, rebound, kick,
+              add);
   else
-    run_steps(motion, model, NoDrag(), turns, kick, add);
+    run_steps(motion, model, NoDrag(), turns, rebound, kick, add);
   if (lowest_gamma < 0 && model.film_thickness)
     trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
   trajectory.contact_interval = clock.interval();

@@ -34,19 +34,22 @@ struct ContactModel {
   std::function<double(double gamma)> film_thickness;
   /// The function film_thickness as a formula, for the header of trajectory files.
   std::string film_law{};
+  /// Coefficient e_d of restitution of the solids [1], 0 to 1; run_contact_model sets it.
+  double restitution = 0;
   /// Whether velocity and gamma of the steps stand in the middle of the steps (leapfrog), so that
   /// the gap is of second order; only without resolved drag.
   bool is_staggered = false;
 };
 
-/// Makes the steps of contact_step.hpp from the start of the motion to its end. The forces in a row
+/// Makes the steps of contact_step.hpp from the start of the motion to its end; with a restitution
+/// those of rebound.hpp where the sphere flies into contact. The forces in a row
 /// are means over the step before it; the lubrication force is that of film and resolved drag
 /// together. The beginning and the end of contact are found within the steps of impact and release,
 /// as if the force were constant in each step. The error of these times is that which the scheme
 /// makes in a step. Staggered steps kick for half a step first and at the end; their rows have the
 /// velocity and gamma that another half kick gives at the time of the row. The lowest gamma, and
 /// thus the recovered film, includes its values where the force changes its sign within a step.
-Trajectory run_contact_model(const Motion& motion, const ContactModel& model);
+Trajectory run_contact_model(const Motion& motion, ContactModel model);
 
 /// Makes a contact model and runs it.
 using MakeContactModel = ContactModel (*)(const Motion&, const lubrication::LubricationForce&);

@@ -10,13 +10,12 @@ namespace viscontact::reduced_model {
 
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force) {
   const double k = force.leading_coefficient();
-  const double r = force.radius();
+  const double q0 = motion.initial_gap;
   const double solid_gap = motion.roughness[0] + motion.roughness[1];
   ContactModel model;
   model.gamma_min = solid_gap == 0 ? -std::numeric_limits<double>::infinity()
-                                   : std::min(0.0, k * std::log(solid_gap / r));
-  model.film_thickness = [k, solid_gap, q0 = motion.initial_gap,
-                          gamma_min = model.gamma_min](double gamma) {
+                                   : std::min(0.0, k * std::log(solid_gap / q0));
+  model.film_thickness = [k, solid_gap, q0, gamma_min = model.gamma_min](double gamma) {
     return gamma <= gamma_min ? solid_gap : std::max(solid_gap, q0 * std::exp(gamma / k));
   };
   model.film_law = "initial_gap * exp(gamma/k)";

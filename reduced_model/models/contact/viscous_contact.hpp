@@ -15,10 +15,10 @@ namespace viscontact::reduced_model {
 ///
 /// Only f_ext acts at a distance. The scheme is that of contact_step.hpp with the free velocity
 /// u^n + h f^n/m, where f^n is the mean of f_ext over the step and h = viscous_contact.time_step.
-/// The solids touch at the heights of the roughness: gamma >= gamma_min = k ln((r1 + r2)/r) (Maury
-/// 2007; Lefebvre 2008). The first integral k ln q = k ln q0 + gamma, q0 the initial gap,
-/// gives the thickness q0 exp(gamma/k) of the film that the model does not resolve; it is at least
-/// r1 + r2. Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
+/// The first integral k ln q = k ln q0 + gamma, q0 the initial gap, gives the thickness q0
+/// exp(gamma/k) of the film that the model does not resolve. The solids touch where it is r1 + r2, the
+/// heights of the roughness: gamma >= gamma_min = k ln((r1 + r2)/q0) (Maury 2007 and Lefebvre 2008,
+/// who have q0 = r). Throws Error(kBadInput) if the fit's resistance has no positive coefficient k of 1/q.
 ContactModel viscous_contact(const Motion& motion, const lubrication::LubricationForce& force);
 
 /// The same model with the scheme read as a leapfrog: u^n and gamma^n stand at the time t^n - h/2, so

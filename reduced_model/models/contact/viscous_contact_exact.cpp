@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viscontact/common/root_finding.hpp"
+#include "viscontact/reduced_model/models/contact/rebound.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 
 namespace viscontact::reduced_model {
@@ -20,11 +21,15 @@ class EventDriven {
       : m_(motion.mass),
         f_(motion.external_force),
         gamma_min_(gamma_min),
+        restitution_(motion.restitution()),
+        shortest_flight_(kShortestFlight * motion.end_time),
         gap_(motion.initial_gap),
         velocity_(motion.initial_velocity) {}
 
   bool contact() const { return contact_; }
   const MomentumEnergyBudget& budget() const { return budget_; }
+  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  double lowest_gamma() const { return lowest_gamma_; }
 
   double gap(double t) const {
     if (contact_) return 0;
@@ -71,17 +76,23 @@ class EventDriven {
 
   double land(double t) {
     move_to(t, 0, velocity(t));
-    const double momentum = std::min(0.0, m_ * velocity_);
-    const double by_solid = std::min(0.0, momentum - gamma_min_);
-    gamma_ = momentum - by_solid;
-    budget_.film_impulse -= gamma_;
-    budget_.solid_impulse -= by_solid;
-    // The mean velocity of an impact is half the velocity before it, because the velocity after it
-    // is 0.
-    budget_.film_work -= gamma_ * velocity_ / 2;
-    budget_.solid_work -= by_solid * velocity_ / 2;
-    velocity_ = 0;
-    contact_ = true;
+    const auto impact =
+        impact_through_film(std::min(0.0, m_ * velocity_), gamma_min_, restitution_);
+    add_impact(budget_, m_, velocity_, impact);
+    gamma_ = impact.gamma;
+    lowest_gamma_ = std::min(lowest_gamma_, impact.lowest_gamma);
+    double after = impact.momentum / m_;
+    const double push = f_.value(t);
+    if (push < 0 && 2 * m_ * after < -push * shortest_flight_) {
+      // The solids keep what is left of the bounce.
+      budget_.solid_impulse -= m_ * after;
+      budget_.solid_work -= m_ * after * after / 2;
+      after = 0;
+    }
+    if (restitution_ > 0 && impact.solid_impulse > 0)
+      rebounds_.push_back({t, velocity_, impact.solid_impulse, after, after / -velocity_});
+    velocity_ = after;
+    contact_ = !(after > 0);
     return t;
   }
 
@@ -104,13 +115,17 @@ class EventDriven {
     return t;
   }
 
+  // Of the motion: a shorter flight counts as rest, so that the bounces of a dry sphere end.
+  static constexpr double kShortestFlight = 1e-6;
+
   double m_;
   const ExternalForce& f_;
-  double gamma_min_;
+  double gamma_min_, restitution_, shortest_flight_;
   double from_ = 0;
   bool contact_ = false;
-  double gap_, velocity_, gamma_ = 0;
+  double gap_, velocity_, gamma_ = 0, lowest_gamma_ = 0;
   MomentumEnergyBudget budget_;
+  std::vector<Rebound> rebounds_;
 };
 
 }  // namespace
@@ -152,19 +167,21 @@ Trajectory simulate_viscous_contact_exact(const Motion& motion,
       report_progress(motion, now);
       const EventDriven before = sphere;
       const double event = sphere.advance(stop, sign);
-      lowest_gamma = std::min(lowest_gamma, sphere.gamma(event));
+      lowest_gamma = std::min({lowest_gamma, sphere.gamma(event), sphere.lowest_gamma()});
       for (; next_row != times.end() && *next_row < event; ++next_row) add_row(before, *next_row);
       const bool at_row = next_row != times.end() && *next_row == event;
       if (at_row) ++next_row;
       if (at_row || event < stop || before.contact() != sphere.contact()) add_row(sphere, event);
-      if (sphere.contact() && !before.contact() && !trajectory.contact_interval)
+      const bool has_struck = sphere.rebounds().size() > before.rebounds().size();
+      if ((has_struck || (sphere.contact() && !before.contact())) && !trajectory.contact_interval)
         trajectory.contact_interval = {event, event};
-      if (before.contact()) (*trajectory.contact_interval)[1] = event;
+      if (has_struck || before.contact()) (*trajectory.contact_interval)[1] = event;
       ++trajectory.steps;
       now = event;
     }
   }
   trajectory.budget = sphere.budget();
+  trajectory.rebounds = sphere.rebounds();
   if (lowest_gamma < 0) trajectory.recovered_minimal_gap = model.film_thickness(lowest_gamma);
   return trajectory;
 }

@@ -28,7 +28,8 @@ const std::vector<std::string> kNames = {"reference",
                                          "viscous_contact_exact",
                                          "inelastic_contact",
                                          "explicit_euler",
-                                         "viscous_contact_leapfrog"};
+                                         "viscous_contact_leapfrog",
+                                         "inertial_rough"};
 
 TEST(Models, AreThoseOfThePage) {
   std::vector<std::string> names;

@@ -42,7 +42,7 @@ TEST(ViscousContactExact, TouchesSolidAtGammaMinAndLeavesByItAlone) {
   const double k = 1;
   Motion motion{1, 0.25, 0, 6, ExternalForce({{3, -2}, {6, 2}})};
   motion.set(kContactTimeStep, 0.01);
-  motion.roughness = {std::exp(-2.0), 0};
+  motion.roughness = {motion.initial_gap * std::exp(-2.0), 0};
   const auto trajectory =
       simulate_viscous_contact_exact(motion, lubrication::LubricationForce(leading_term_fit(k)));
   EXPECT_NEAR((*trajectory.contact_interval)[0], 0.5, 1e-15);

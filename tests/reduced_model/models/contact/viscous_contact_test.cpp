@@ -111,13 +111,13 @@ TEST(ViscousContact, LeavesWhenThePushIsGivenBackWhateverThePush) {
 }
 
 TEST(ViscousContact, LeavesASolidContactByTheRoughnessAloneWhateverThePush) {
-  // gamma stops at gamma_min = k ln(s/r), so a pull G takes -gamma_min/G to free the sphere.
+  // gamma stops at gamma_min = k ln(s/q0), so a pull G takes -gamma_min/G to free the sphere.
   const double k = 0.5;
   const double solid_gap = 0.01;
-  const double gamma_min = k * std::log(solid_gap);
+  const double gap = 0.1, gamma_min = k * std::log(solid_gap / gap);
   const double pull = 3;
   for (const double push : {5.0, 50.0, 5000.0}) {
-    Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -push}, {4, pull}})};
+    Motion motion{1, gap, 0, 4, ExternalForce({{2, -push}, {4, pull}})};
     motion.set(kContactTimeStep, 1e-3);
     motion.roughness = {0.004, 0.006};
     Trajectory trajectory = run_contact_model(viscous_contact, motion,
@@ -196,7 +196,8 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
   Motion motion{1, 0.1, 0, 4, ExternalForce({{2, -40}, {4, 3}})};
   motion.set(kContactTimeStep, 1e-3);
   motion.roughness = {0.004, 0.006};
-  const double gamma_min = k * std::log(motion.roughness[0] + motion.roughness[1]);
+  const double gamma_min =
+      k * std::log((motion.roughness[0] + motion.roughness[1]) / motion.initial_gap);
   bool reached = false;
   for (const auto& row : run_contact_model(viscous_contact, motion,
                                            lubrication::LubricationForce(leading_term_fit(k)))
@@ -204,7 +205,7 @@ TEST(ViscousContact, StaysAtGammaMinWhilePushedAndRisesAtOnceWhenPulled) {
     reached = reached || *row.gamma == gamma_min;
     if (reached && row.time <= 2) {
       EXPECT_EQ(*row.gamma, gamma_min) << row.time;
-    } else if (reached && row.time < 2.5) {
+    } else if (reached && row.time < 2 - gamma_min / 3 - 1e-3) {
       // Round-off of up to 500 steps; a single step is 3e-3.
       EXPECT_NEAR(*row.gamma, gamma_min + 3 * (row.time - 2), 1e-12) << row.time;
     }
@@ -218,7 +219,7 @@ TEST(ViscousContact, TakesItsViscosityFromTheFit) {
   Motion motion = lecture_motion();
   motion.roughness = {1e-3, 0};
   const ContactModel model = viscous_contact(motion, force);
-  EXPECT_EQ(model.gamma_min, fit.terms.front().coefficient * std::log(1e-3));
+  EXPECT_EQ(model.gamma_min, fit.terms.front().coefficient * std::log(1e-3 / motion.initial_gap));
   // In theory k = 6 pi mu r^2; the lecture's basis finds it to 4.4e-3.
   EXPECT_NEAR(force.leading_coefficient() / (18 * std::numbers::pi), 1, 5e-3);
   EXPECT_EQ(model.contact_gap, 0);
@@ -260,15 +261,18 @@ TEST(RecoveredFilm, IsThatOfTheFirstIntegralWithARegularDragToo) {
   }
 }
 
-TEST(RecoveredFilm, IsNeverThinnerThanTheRoughness) {
+TEST(RecoveredFilm, IsNeverThinnerThanTheRoughnessAndReachesItAtGammaMin) {
+  // Film and gamma_min begin at the same length, the initial gap, whether it is the radius or not.
   const lubrication::LubricationForce force(leading_term_fit(1));
-  for (const double initial_gap : {1e-3, 1.0, 3.0}) {
+  for (const double initial_gap : {1e-3, 0.1, 1.0, 3.0, 10.0}) {
     Motion motion = limit_motion();
     motion.mass = 1e-3;
     motion.initial_gap = initial_gap;
-    motion.roughness = {0.03, 0.02};  // exp(-4) = 0.018
+    motion.roughness = {0.03 * initial_gap, 0.02 * initial_gap};  // exp(-4) = 0.018
     const auto film = run_contact_model(viscous_contact, motion, force).recovered_minimal_gap;
-    EXPECT_EQ(film.value(), 0.05) << initial_gap;
+    EXPECT_EQ(film.value(), motion.roughness[0] + motion.roughness[1]) << initial_gap;
+    const auto model = viscous_contact(motion, force);
+    EXPECT_NEAR(model.film_thickness(model.gamma_min * (1 - 1e-9)) / film.value(), 1, 1e-8);
   }
 }
 

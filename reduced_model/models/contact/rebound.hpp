@@ -1,0 +1,201 @@
+// Rebound of the sphere from the solid contact below its film (physics.md (4.12) to (4.14)). Lengths,
+// masses and times are in any one consistent system of units. A change must keep that an impact takes
+// place at its time within a step, because heights of rebounds converge with the step only then.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "viscontact/reduced_model/models/contact/contact_step.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+
+namespace viscontact::reduced_model {
+
+/// What an impact does to the sphere: momenta and impulses [M L/T].
+struct Impact {
+  double momentum = 0;       ///< m u+ after the impact, >= 0; 0: the film keeps the sphere
+  double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
+  double lowest_gamma = 0;   ///< in the impact
+  double solid_impulse = 0;  ///< s that the solids took up in the compression, >= 0
+  double restitution = 0;    ///< e_d s that they gave back
+};
+
+/// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12). The
+/// film takes the momentum until gamma = gamma_min, the solids take the rest s and give back e_d s
+/// (Poisson's law), and the sphere must pull the film open, which costs what the film has absorbed:
+///
+///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d s, 0),
+///
+/// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be -infinity;
+/// `restitution` = e_d is 0 to 1 [1].
+inline Impact impact_through_film(double momentum, double gamma_min, double restitution) {
+  Impact impact;
+  impact.lowest_gamma = std::max(momentum, gamma_min);
+  impact.solid_impulse = impact.lowest_gamma - momentum;
+  impact.restitution = restitution * impact.solid_impulse;
+  const double after = impact.lowest_gamma + impact.restitution;
+  impact.momentum = std::max(after, 0.0);
+  impact.gamma = std::min(after, 0.0);
+  return impact;
+}
+
+/// Adds the impulses and works of an impact with the velocity `velocity` < 0 [L/T] of a sphere of mass
+/// `mass` to the budget. The work of each impulse is the impulse times half that velocity in the
+/// compression, and times half the velocity at the end in the restitution: film and solids share
+/// the energy as they share the impulse.
+inline void add_impact(MomentumEnergyBudget& budget, double mass, double velocity,
+                       const Impact& impact) {
+  const double leaving = impact.momentum / mass;
+  const double pulled = impact.gamma - impact.lowest_gamma;  // impulse of the film on its way back
+  budget.film_impulse -= impact.lowest_gamma + pulled;
+  budget.film_work -= impact.lowest_gamma * velocity / 2 + pulled * leaving / 2;
+  budget.solid_impulse += impact.solid_impulse + impact.restitution;
+  budget.solid_work += impact.solid_impulse * velocity / 2 + impact.restitution * leaving / 2;
+}
+
+/// A step with impacts, and what happened in it.
+struct ReboundStep {
+  ContactState state;             ///< at its end
+  std::vector<Rebound> rebounds;  ///< impacts on the solids, with times from the step's beginning
+  /// Impulses and works in the step, without the impulse of the external force.
+  MomentumEnergyBudget budget;
+  double lowest_gamma = 0;   ///< [M L/T]
+  double first_impact = -1;  ///< time of the first impact from the step's beginning [T]; < 0: none
+  double last_impact = -1;   ///< time of the last one [T]
+};
+
+/// The first time after 0 and until `end` [T] at which D + w t + a t^2/2 = 0 and falls, for D >= 0;
+/// infinity if there is none. D [L], w [L/T] and a [L/T^2] are those at time 0; D = 0 needs w > 0.
+inline double time_of_fall(double gap, double velocity, double acceleration, double end) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double discriminant = velocity * velocity - 2 * acceleration * gap;
+  if (discriminant < 0) return kNever;
+  const double root = std::sqrt(discriminant);
+  // The fall passes 0 with the velocity -root. Neither form cancels digits.
+  double time = kNever;
+  if (velocity < 0)
+    time = 2 * gap / (root - velocity);
+  else if (acceleration < 0)
+    time = (velocity + root) / -acceleration;
+  return time <= end ? time : kNever;
+}
+
+/// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` of a step
+/// and records it. `acceleration` [L/T^2] is that of the external force. Returns the velocity u+ after
+/// it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest, so that the infinitely
+/// many bounces of a dry sphere end.
+inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
+                     const ContactSetting& setting, double restitution) {
+  constexpr double kShortestFlight = 1e-3;  // of the step
+  const auto impact = impact_through_film(setting.mass * velocity, setting.gamma_min, restitution);
+  add_impact(step.budget, setting.mass, velocity, impact);
+  double after = impact.momentum * setting.per_mass;
+  if (acceleration < 0 && 2 * after < kShortestFlight * setting.step * -acceleration) {
+    // The solids keep what is left of the bounce.
+    step.budget.solid_impulse -= setting.mass * after;
+    step.budget.solid_work -= setting.mass * after * after / 2;
+    after = 0;
+  }
+  step.lowest_gamma = std::min(step.lowest_gamma, impact.lowest_gamma);
+  if (step.first_impact < 0) step.first_impact = time;
+  step.last_impact = time;
+  if (impact.solid_impulse > 0)
+    step.rebounds.push_back({time, velocity, impact.solid_impulse, after, after / -velocity});
+  step.state = {0, after, impact.gamma};
+  return after;
+}
+
+/// Continues a step from its last impact, after which the sphere stays in contact, to its end.
+/// `push` [M L/T] is the impulse of the force in the whole step.
+template <class Drag>
+void stay(ReboundStep& step, double push, const ContactSetting& setting, const Drag& drag) {
+  const double rest = setting.step - step.last_impact;
+  if (!(rest > 0)) return;
+  const ContactSetting of_rest(setting.mass, setting.gamma_min, rest);
+  const auto end = contact_step(step.state, push * rest / setting.step, of_rest, drag);
+  const double mean = end.state.velocity / 2;
+  step.budget.film_impulse += end.film;
+  step.budget.film_work += mean * end.film;
+  step.budget.solid_impulse += end.solid;
+  step.budget.solid_work += mean * end.solid;
+  step.budget.drag_impulse += end.drag;
+  step.budget.drag_work += mean * end.drag;
+  step.state = end.state;
+  step.lowest_gamma = std::min(step.lowest_gamma, end.state.gamma);
+}
+
+/// A step in which the sphere flies at its beginning, from `state` with gamma = 0 and with D > 0 or
+/// u > 0. `push` [M L/T] is the impulse of the force in the step, and `acceleration` = a [L/T^2] the
+/// mean force over m. Nothing if it hits nothing.
+///
+/// Without resolved drag, the places of the scheme, D^{n+1} = D^n + h u^{n+1}, lie on the parabola
+/// with the acceleration a that begins with the velocity w = u^n + push/m - a h/2. The impacts are
+/// those of this parabola, at their times, and u^{n+1} = w^{n+1} - a h/2 follows from its velocity
+/// w^{n+1} at the end of the step. With drag, the velocity at the impact follows from the impulse of
+/// the drag on the way there, which is exact, and its time from the mean velocity; there is at most
+/// one impact in a step.
+template <class Drag>
+std::optional<ReboundStep> rebound_step(const ContactState& state, double push, double acceleration,
+                                        const ContactSetting& setting, double restitution,
+                                        const Drag& drag) {
+  const double m = setting.mass, h = setting.step;
+  ReboundStep step;
+  if constexpr (Drag::kResolved) {
+    if (!(contact_step(state, push, setting, drag).state.gap == 0 && state.gap > 0)) return {};
+    const double of_drag = -drag.impulse(state.gap, 0);
+    const auto velocity_at = [&](double time) {
+      return state.velocity + (push * time / h + of_drag) * setting.per_mass;
+    };
+    double time = h, velocity = velocity_at(h);
+    constexpr int kCorrections = 4;  // each gains the factor h a/u
+    for (int n = 0; n < kCorrections && velocity < 0; ++n) {
+      time = std::min(h, -2 * state.gap / (std::min(0.0, state.velocity) + velocity));
+      velocity = velocity_at(time);
+    }
+    if (!(velocity < 0)) return {};
+    step.budget.drag_impulse = of_drag;
+    step.budget.drag_work = of_drag * (state.velocity + velocity) / 2;
+    const double after = strike(step, time, velocity, acceleration, setting, restitution);
+    if (after > 0) {
+      const double rest = h - time, momentum = m * after + push * rest / h;
+      if (rest > 0) {
+        const ContactSetting of_rest(m, setting.gamma_min, rest);
+        const double v = std::max(0.0, drag.velocity(of_rest, 0, momentum));
+        step.budget.drag_impulse += m * v - momentum;
+        step.budget.drag_work += (m * v - momentum) * (after + v) / 2;
+        step.state = {rest * v, v, 0};
+      }
+    } else {
+      stay(step, push, setting, drag);
+    }
+  } else {
+    double time = 0, gap = state.gap;
+    double velocity = (m * state.velocity + push) * setting.per_mass - acceleration * h / 2;
+    for (;;) {
+      const double fall = time_of_fall(gap, velocity, acceleration, h - time);
+      if (!(fall <= h - time)) break;
+      time += fall;
+      gap = 0;
+      velocity =
+          strike(step, time, velocity + acceleration * fall, acceleration, setting, restitution);
+      if (velocity > 0) continue;
+      stay(step, push, setting, drag);
+      break;
+    }
+    if (step.first_impact < 0) return {};
+    if (velocity > 0) {
+      const double rest = h - time;
+      step.state.gap = std::max(0.0, rest * (velocity + acceleration * rest / 2));
+      step.state.velocity = velocity + acceleration * (rest - h / 2);
+    }
+  }
+  const double before = state.velocity, after = step.state.velocity;
+  step.budget.external_work = m / 2 * (after - before) * (after + before) - step.budget.film_work -
+                              step.budget.solid_work - step.budget.drag_work;
+  return step;
+}
+
+}  // namespace viscontact::reduced_model
