@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/common/temporary_folder.hpp"
+#include "tests/common/well_formed_xml.hpp"
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
@@ -27,27 +28,6 @@ std::string case_text() {
   text = replaced(text, "container = { radius = 40.0, height = 80.0 }",
                   "container = { radius = 5.0, height = 10.0 }");
   return replaced(text, "relative_accuracy = 1e-5", "relative_accuracy = 1e-3");
-}
-
-/// Expects that every element that is opened is closed, in order: what a truncated file fails.
-void expect_well_formed(const std::string& xml) {
-  // By hand: std::regex recurses over each character of an embedded image.
-  std::vector<std::string> open;
-  for (auto at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
-    const auto end = xml.find_first_of("<>", at + 1);
-    ASSERT_TRUE(end != std::string::npos && xml[end] == '>') << xml.substr(at, 80);
-    const auto tag = xml.substr(at + 1, end - at - 1);
-    if (tag.starts_with('?') || tag.ends_with('/')) continue;
-    if (tag.starts_with("!--") && tag.ends_with("--")) continue;  // how it was made
-    if (tag.starts_with('/')) {
-      ASSERT_FALSE(open.empty()) << tag;
-      ASSERT_EQ(open.back(), tag.substr(1));
-      open.pop_back();
-    } else {
-      open.push_back(tag.substr(0, tag.find_first_of(" \n\t")));
-    }
-  }
-  EXPECT_TRUE(open.empty());
 }
 
 class Plot : public ::testing::Test {

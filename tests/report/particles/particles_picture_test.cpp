@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/regular_expressions.hpp"
+#include "tests/common/well_formed_xml.hpp"
 #include "tests/report/particles/flow/flows.hpp"
 #include "tests/report/particles/playbacks.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
@@ -24,24 +25,10 @@ std::size_t count_of(const std::string& what, const std::string& text) {
   return count;
 }
 
-/// Every element that opens closes, in order: enough of XML for what we write, which has no
-/// comments and no ">" in attributes.
-void expect_well_formed(const std::string& xml) {
-  std::vector<std::string> open;
-  const auto body = xml.substr(xml.find("?>") + 2);
-  for (const auto& tag :
-       matches_in(body, "<(/?)([A-Za-z]+)(?:\\s+[a-zA-Z:-]+=\"[^\"<]*\")*\\s*(/?)>|<")) {
-    ASSERT_FALSE(tag[2].empty()) << "a '<' that opens no element";
-    if (!tag[1].empty()) {
-      ASSERT_FALSE(open.empty());
-      ASSERT_EQ(open.back(), tag[2]);
-      open.pop_back();
-    } else if (tag[3].empty()) {
-      open.push_back(tag[2]);
-    }
-  }
-  EXPECT_TRUE(open.empty());
-  EXPECT_FALSE(has_match(body, "&(?!(amp|lt|gt|quot);)"));
+/// Expects closed elements, and no "&" but those of the entities that the pictures use.
+void expect_well_formed_picture(const std::string& svg) {
+  expect_well_formed(svg);
+  EXPECT_FALSE(has_match(svg, "&(?!(amp|lt|gt|quot);)"));
 }
 
 TEST(ParticlesPicture, HoldsEveryDiscInEveryPanel) {
@@ -50,7 +37,7 @@ TEST(ParticlesPicture, HoldsEveryDiscInEveryPanel) {
       const auto svg =
           particles_picture(falling_row(dimension, 7, 5), "Seven <fall> & \"rest\"", panels);
       SCOPED_TRACE(svg);
-      expect_well_formed(svg);
+      expect_well_formed_picture(svg);
       EXPECT_EQ(count_of("<circle ", svg), static_cast<std::size_t>(panels * 7));
       EXPECT_EQ(count_of(">t = ", svg), static_cast<std::size_t>(panels));
       EXPECT_THAT(svg, HasSubstr(">t = 2<"));
@@ -64,7 +51,7 @@ TEST(ParticlesPicture, ShowsBodiesLinksTurnsAndContactsThatSlide) {
   for (const int dimension : {2, 3}) {
     const auto svg = particles_picture(linked_row(dimension, 2), "Linked", 2);
     SCOPED_TRACE(svg);
-    expect_well_formed(svg);
+    expect_well_formed_picture(svg);
     EXPECT_EQ(count_of("stroke=\"#2b6e3f\"", svg), 2U);                // springs
     EXPECT_EQ(count_of("<path stroke=\"#333\"", svg), 2U);             // arms
     EXPECT_EQ(count_of("<g fill=\"#fff\" stroke=\"#111\"", svg), 2U);  // hinges
@@ -81,10 +68,10 @@ TEST(ParticlesPicture, ShowsBodiesLinksTurnsAndContactsThatSlide) {
 
 TEST(ParticlesPicture, HasNoMorePanelsThanFrames) {
   const auto svg = particles_picture(one_particle(), "One", 6);
-  expect_well_formed(svg);
+  expect_well_formed_picture(svg);
   EXPECT_EQ(count_of("<circle ", svg), 1U);
   EXPECT_THAT(svg, Not(HasSubstr("film has absorbed")));
-  expect_well_formed(particles_picture({}, "Nothing", 3));
+  expect_well_formed_picture(particles_picture({}, "Nothing", 3));
 }
 
 TEST(ParticlesPicture, StaysSmall) {
@@ -117,7 +104,7 @@ TEST(ParticlesPicture, ShowsARoundWallAroundTheParticles) {
   EXPECT_LT(box.low[1], -3);
   EXPECT_GT(box.high[1], 5);
   const auto svg = particles_picture(playback, "Circle", 1);
-  expect_well_formed(svg);
+  expect_well_formed_picture(svg);
   EXPECT_EQ(count_of("<circle ", svg), 3U);
   EXPECT_EQ(count_of("fill-rule=\"evenodd\"", svg), 1U);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
@@ -135,7 +122,7 @@ TEST(ParticlesPicture, DrawsAContactAcrossAPeriodAtBothParticles) {
   const auto across = particles_picture(playback, "Period", 1);
   playback.frames[0].contacts = {{0, 1, 0, -1, 0, 0}};
   const auto direct = particles_picture(playback, "Period", 1);
-  expect_well_formed(across);
+  expect_well_formed_picture(across);
   EXPECT_EQ(count_of("M", across), count_of("M", direct) + 1);
 }
 
@@ -144,7 +131,7 @@ TEST(ParticlesPicture, ShowsTheFlowBehindTheDiscs) {
   auto playback = disc_in_flow(folder, 3, turning);
   playback.frames[1].flow.clear();
   const auto svg = particles_picture(playback, "Flow", 3);
-  expect_well_formed(svg);
+  expect_well_formed_picture(svg);
   EXPECT_THAT(svg, HasSubstr(kSpeedWords));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(film_words(playback), HasSubstr("impulse per length"));
@@ -165,7 +152,7 @@ TEST(ParticlesPicture, MirrorsTheFlowAtTheAxis) {
   playback.frames[0].positions = {1};
   playback.frames[0].angles.clear();
   const auto svg = particles_picture(playback, "Axis", 1);
-  expect_well_formed(svg);
+  expect_well_formed_picture(svg);
   EXPECT_THAT(film_words(playback), HasSubstr("[mass × length/time]"));
   EXPECT_EQ(count_of("scale(-1 1)", svg), 1U);
   EXPECT_EQ(count_of("stroke-opacity=\".6\"", svg), 2U);
