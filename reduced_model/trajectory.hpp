@@ -33,7 +33,8 @@ struct TrajectoryRow {
 struct Rebound {
   double time = 0;               ///< [T]
   double approach_velocity = 0;  ///< where gamma began, of inertial_rough at r1 + r2 [L/T], < 0
-  double solid_impulse = 0;      ///< s that the solids took up, before they gave e_d s back [M L/T], > 0
+  double solid_impulse =
+      0;                   ///< s that the solids took up, before they gave e_d s back [M L/T], > 0
   double velocity = 0;     ///< where the sphere leaves the film [L/T], >= 0; 0: it stays
   double coefficient = 0;  ///< of restitution, velocity/|approach_velocity| [1]
   bool operator==(const Rebound&) const = default;  ///< whether all numbers are equal

@@ -57,8 +57,9 @@ class StepEquation {
                                          std::span<const double> drag) const;
 
   /// Of each particle that accelerates, which has a mass, its own or a share of that of its body, and
-  /// no given motion: the time in the step at which its links act [T], h/2 - (2 theta - 1)
-  /// (1 - theta) h, but 0 in the first step and where its velocity may jump. Of the others -1. Empty if no particle accelerates.
+  /// no given motion: the time in the step at which its links act [T]. It is h/2 - (2 theta - 1)
+  /// (1 - theta) h, but 0 in the first step and where the velocity of the particle may jump. Of the
+  /// other particles -1. Empty if no particle accelerates.
   const std::vector<double>& link_times() const { return link_times_; }
 
   /// By how much a mean force in the step changes the velocity at its end, for each component [T/M,

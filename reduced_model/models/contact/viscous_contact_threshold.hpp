@@ -14,8 +14,7 @@ inline constexpr ModelParameter kThresholdGap = {
     "viscous_contact.threshold_gap", "threshold gap", "L", kPositive,
     [](const Motion& motion, double radius) { return std::min(radius, motion.initial_gap) / 10; }};
 /// The parameters of viscous_contact_threshold().
-inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap,
-                                                    kRestitution};
+inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap, kRestitution};
 
 /// The lecture's splitting (Lefebvre 2008, "Methode de splitting") for a fluid solver that resolves
 /// the film down to the threshold gap q_c. The whole drag R(q) acts for q > q_c, and the sphere is

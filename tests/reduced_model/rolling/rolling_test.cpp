@@ -225,8 +225,7 @@ TEST(ViscousContact, HasFrictionOnceTheFilmIsAsThinAsTheRoughness) {
   motion.time_step = 1e-3;
   // Until t = -gamma_min / (normal force) the film carries the weight.
   const double k = 6 * std::numbers::pi;
-  const double touches = 
-      k * std::log(motion.initial_gap / motion.roughness) / -motion.normal_force;
+  const double touches = k * std::log(motion.initial_gap / motion.roughness) / -motion.normal_force;
   const auto rows = roll_with_viscous_contact(motion, plane());
   const auto first = std::ranges::find_if(
       rows, [](const RollingRow& row) { return row.contact != SolidContact::kNone; });
