@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "viscontact/reduced_model/models/contact/contact_step.hpp"
@@ -20,7 +21,7 @@ struct Impact {
   double gamma = 0;          ///< after the impact, <= 0; 0 if the sphere leaves the film
   double lowest_gamma = 0;   ///< in the impact
   double solid_impulse = 0;  ///< s that the solids took up in the compression, >= 0
-  double restitution = 0;    ///< e_d s that they gave back
+  double restitution = 0;    ///< e_d s that they gave back, less what they keep if the sphere stays
 };
 
 /// The impact of a sphere with the momentum `momentum` = m u < 0 on a film with gamma = 0 (4.12). The
@@ -30,8 +31,10 @@ struct Impact {
 ///     s = max(-m u + gamma_min, 0),   m u+ = max(gamma_c + e_d s, 0),   gamma+ = min(gamma_c + e_d s, 0),
 ///
 /// where gamma_c = m u + s is gamma at the end of the compression. `gamma_min` <= 0 may be -infinity;
-/// `restitution` = e_d is 0 to 1 [1].
-inline Impact impact_through_film(double momentum, double gamma_min, double restitution) {
+/// `restitution` = e_d is 0 to 1 [1]. If m u+ is below `least` >= 0 [M L/T], the sphere stays and the
+/// solids keep the rest, so that the infinitely many bounces of a dry sphere end.
+inline Impact impact_through_film(double momentum, double gamma_min, double restitution,
+                                  double least) {
   Impact impact;
   impact.lowest_gamma = std::max(momentum, gamma_min);
   impact.solid_impulse = impact.lowest_gamma - momentum;
@@ -39,6 +42,7 @@ inline Impact impact_through_film(double momentum, double gamma_min, double rest
   const double after = impact.lowest_gamma + impact.restitution;
   impact.momentum = std::max(after, 0.0);
   impact.gamma = std::min(after, 0.0);
+  if (impact.momentum < least) impact.restitution -= std::exchange(impact.momentum, 0.0);
   return impact;
 }
 
@@ -85,20 +89,16 @@ inline double time_of_fall(double gap, double velocity, double acceleration, dou
 
 /// Makes the impact of a sphere with the velocity `velocity` < 0 [L/T] at the time `time` of a step
 /// and records it. `acceleration` [L/T^2] is that of the external force. Returns the velocity u+ after
-/// it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest, so that the infinitely
-/// many bounces of a dry sphere end.
+/// it; 0 if the sphere stays. A flight of less than 1e-3 steps counts as rest.
 inline double strike(ReboundStep& step, double time, double velocity, double acceleration,
                      const ContactSetting& setting, double restitution) {
   constexpr double kShortestFlight = 1e-3;  // of the step
-  const auto impact = impact_through_film(setting.mass * velocity, setting.gamma_min, restitution);
+  const double least =
+      setting.mass * kShortestFlight * setting.step * std::max(0.0, -acceleration) / 2;
+  const auto impact =
+      impact_through_film(setting.mass * velocity, setting.gamma_min, restitution, least);
   add_impact(step.budget, setting.mass, velocity, impact);
-  double after = impact.momentum * setting.per_mass;
-  if (acceleration < 0 && 2 * after < kShortestFlight * setting.step * -acceleration) {
-    // The solids keep what is left of the bounce.
-    step.budget.solid_impulse -= setting.mass * after;
-    step.budget.solid_work -= setting.mass * after * after / 2;
-    after = 0;
-  }
+  const double after = impact.momentum * setting.per_mass;
   step.lowest_gamma = std::min(step.lowest_gamma, impact.lowest_gamma);
   if (step.first_impact < 0) step.first_impact = time;
   step.last_impact = time;

@@ -76,19 +76,13 @@ class EventDriven {
 
   double land(double t) {
     move_to(t, 0, velocity(t));
+    const double least = std::max(0.0, -f_.value(t)) * shortest_flight_ / 2;
     const auto impact =
-        impact_through_film(std::min(0.0, m_ * velocity_), gamma_min_, restitution_);
+        impact_through_film(std::min(0.0, m_ * velocity_), gamma_min_, restitution_, least);
     add_impact(budget_, m_, velocity_, impact);
     gamma_ = impact.gamma;
     lowest_gamma_ = std::min(lowest_gamma_, impact.lowest_gamma);
-    double after = impact.momentum / m_;
-    const double push = f_.value(t);
-    if (push < 0 && 2 * m_ * after < -push * shortest_flight_) {
-      // The solids keep what is left of the bounce.
-      budget_.solid_impulse -= m_ * after;
-      budget_.solid_work -= m_ * after * after / 2;
-      after = 0;
-    }
+    const double after = impact.momentum / m_;
     if (restitution_ > 0 && impact.solid_impulse > 0)
       rebounds_.push_back({t, velocity_, impact.solid_impulse, after, after / -velocity_});
     velocity_ = after;
