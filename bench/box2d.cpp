@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "tests/particles/box2d/box2d_case.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace {
 
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
                     std::stoi(o["--max-iterations"])};
   auto discs = box_of_discs(count);
   if (const double friction = std::stod(o["--friction"]); friction > 0) {
-    setting.friction = FrictionLaw{friction};
+    setting.laws.friction = FrictionLaw{friction};
     add_rotation(discs.particles);
   }
   const double until = std::stod(o["--until"]), stretch = std::stod(o["--print"]);

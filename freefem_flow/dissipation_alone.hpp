@@ -3,7 +3,7 @@
 #pragma once
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

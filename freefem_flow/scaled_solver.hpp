@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {

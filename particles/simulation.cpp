@@ -12,8 +12,6 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/body_step.hpp"
-#include "viscontact/particles/contact/film.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
@@ -23,21 +21,6 @@
 namespace viscontact::particles {
 
 namespace {
-
-/// Updates the gamma of each pair in the projection. Returns the number of glued pairs.
-std::size_t remember(const Particles& p, const ProjectionResult& projected, const ContactLaw& law) {
-  const auto radius = [&](std::int32_t k) {
-    return k < 0 ? std::numeric_limits<double>::infinity() : p.radii[index_of(k)];
-  };
-  std::size_t glued = 0;
-  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
-    auto& pair = *projected.pairs[f];
-    absorb_impulse(pair, projected.impulse_errors[f],
-                   law.lower_bound(radius(pair.second), radius(pair.first)));
-    if (pair.gamma < 0) ++glued;
-  }
-  return glued;
-}
 
 /// Length of the displacement of particle k [L]. Throws Error(kNotConverged) if a component of the
 /// displacement or of the position exceeds `largest` [L] in magnitude or is not a number.
@@ -58,21 +41,14 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-void scale_impulses(Pair& pair, double factor) {
-  pair.impulse *= factor;
-  pair.friction = factor * pair.friction;
-  pair.carried *= factor;
+/// Calls `change` for each number that `memory` keeps of the impulses of a step, with that of `other`.
+template <class Change>
+void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
+  for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
+    if (kMemoryFields[f].is_impulse) change(memory.values()[f], other.values()[f]);
 }
 
 }  // namespace
-
-PeriodicCell cell_of(const Setting& setting) {
-  auto cell = cell_of(setting.domain);
-  if (!setting.fluid) return cell;
-  if (const auto* flow = std::get_if<LinearFlow>(&setting.fluid->boundary))
-    cell.gradient = flow->gradient;
-  return cell;
-}
 
 Simulation::Simulation(Setting setting, State state, int threads)
     : setting_(std::move(setting)),
@@ -80,13 +56,31 @@ Simulation::Simulation(Setting setting, State state, int threads)
       mean_radius_(mean_radius(state_.particles)),
       first_time_(state_.time),
       pool_(std::make_unique<ThreadPool>(threads)),
-      obstacles_(obstacles_of(setting_)) {
+      obstacles_(obstacles_of(setting_)),
+      grid_(setting_.time_step, setting_.scheme == Scheme::kLeapfrog, jump_times(setting_)) {
   state_.particles.cell = cell_of(setting_.domain);
   wrap_into_cell(state_);
-  std::vector<const PiecewiseConstant*> functions;
-  for (const auto* map : {&setting_.forces, &setting_.torques})
-    for (const auto& [particle, function] : *map) functions.push_back(&function);
-  jump_times_ = jump_times(functions);
+}
+
+/// Multiplies the impulses of all pairs, which are guesses for a part of a step of another length.
+void Simulation::scale_impulses(double factor) {
+  for_pairs([&](Pair& pair) {
+    pair.impulse *= factor;
+    if (pair.memory == PairMemories::kNone) return;
+    auto& memory = state_.memories.make(pair.memory);
+    for_impulses(memory, memory, [&](double& value, double) { value *= factor; });
+  });
+}
+
+/// Updates what the laws remember of each pair in the projection. Returns the number of glued pairs.
+std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
+  std::size_t glued = 0;
+  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
+    auto& pair = *projected.pairs[f];
+    setting_.laws.remember(pair, state_.memories, radii_of(pair), projected.impulse_errors[f], h);
+    if (pair.gamma < 0) ++glued;
+  }
+  return glued;
 }
 
 void Simulation::move(double h) {
@@ -123,12 +117,12 @@ ProjectionResult Simulation::project(double h, double next) {
   if (!neighbour_list_is_valid(state_, displacements_, *pool_)) {
     state_.skins.clear();
     rebuild_neighbour_list(state_, displacements_, *pool_);
+    state_.memories.keep_only(state_.pairs, state_.walls);
   }
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
     StepProjection<D> projection(state_, h, planes, displacements_, mobilities_, *pool_);
-    const ConstraintStep constraints{setting_.friction.value_or(FrictionLaw{}),
-                                     setting_.law,
+    const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
                                      state_.time,
                                      next,
@@ -181,7 +175,7 @@ void Simulation::add_works_of_arms(double h) {
 
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
-  report.glued = remember(state_.particles, projected, setting_.law);
+  report.glued = remember(projected, h);
   const double kick = kick_length(h);
   for (std::size_t k = 0; k < link_forces_.size(); ++k) link_impulses_[k] += kick * link_forces_[k];
   link_time_ += kick;
@@ -217,12 +211,12 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
-    for_pairs([](Pair& pair) { scale_impulses(pair, 0.5); });
+    scale_impulses(0.5);
     advance<D>(h / 2, middle, halvings + 1, report);
     advance<D>(h / 2, next, halvings + 1, report);
     // The caller may continue with a part of twice the length, for which the impulses are the first
     // guess.
-    if (halvings > 0) for_pairs([](Pair& pair) { scale_impulses(pair, 2); });
+    if (halvings > 0) scale_impulses(2);
     return;
   }
   accept(projected, h, next, report);
@@ -230,9 +224,9 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     for_pairs([&](const Pair& pair) {
       if (pair.impulse == 0) return;
       auto& sums = impulses_of_parts_[key_of(pair)];
-      sums.normal += pair.impulse;
-      sums.friction = sums.friction + pair.friction;
-      sums.carried += pair.carried;
+      sums.of_contact += pair.impulse;
+      for_impulses(sums.memory, state_.memories.of(pair.memory),
+                   [](double& sum, double value) { sum += value; });
     });
 }
 
@@ -252,50 +246,34 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
 }
 
 StepReport Simulation::step(double end) {
-  double h = setting_.time_step;
-  const double tiny = 1e-6 * h;
-  if (!(end > state_.time + tiny)) return {.time = state_.time, .parts = 1};
-  double next = state_.grid_time + static_cast<double>(state_.steps + 1 - state_.grid_step) * h;
-  const double grid_end = next;
-  if (setting_.scheme == Scheme::kLeapfrog)
-    next = leapfrog_step_end(state_.time, next, h, jump_times_);
-  const bool is_off_grid = next != grid_end;
-  const bool cut = next > end + tiny;
-  if (cut) next = end;
-  // A step on the grid has exactly the length h, whatever the rounding errors of times are.
-  if (cut || std::abs(next - state_.time - h) > tiny) h = next - state_.time;
-  StepReport report{.time = next};
-  link_impulses_.assign(setting_.links.force_count(state_.particles.dimension), 0.0);
+  const auto interval = grid_.next(state_, end);
+  if (!interval) return {.time = state_.time, .parts = 1};
+  const auto& p = state_.particles;
+  StepReport report{.time = interval->end};
+  link_impulses_.assign(setting_.links.force_count(p.dimension), 0.0);
   link_time_ = 0;
   arm_works_.assign(setting_.links.arms.size(), 0.0);
-  if (state_.particles.dimension == 2)
-    advance_whole<2>(h, next, report);
+  if (p.dimension == 2)
+    advance_whole<2>(interval->h, interval->end, report);
   else
-    advance_whole<3>(h, next, report);
+    advance_whole<3>(interval->h, interval->end, report);
   if (!impulses_of_parts_.empty()) {
     for_pairs([&](Pair& pair) {
       const auto sums = impulses_of_parts_.find(key_of(pair));
       const auto impulses = sums == impulses_of_parts_.end() ? Impulses{} : sums->second;
-      pair.impulse = impulses.normal;
-      pair.friction = impulses.friction;
-      pair.carried = impulses.carried;
+      pair.impulse = impulses.of_contact;
+      auto memory = state_.memories.of(pair.memory);
+      for_impulses(memory, impulses.memory, [](double& value, double sum) { value = sum; });
+      state_.memories.set(pair.memory, memory);
     });
     impulses_of_parts_.clear();
   }
   for (std::size_t k = 0; k < link_impulses_.size(); ++k)
     state_.link_forces[k] = link_impulses_[k] / link_time_;
   state_.arm_powers = arm_works_;
-  for (auto& power : state_.arm_powers) power /= h;
+  for (auto& power : state_.arm_powers) power /= interval->h;
   wrap_into_cell(state_);
-  ++state_.steps;
-  if (cut || is_off_grid) {
-    // The next step ends on the grid again.
-    const bool is_before_grid = !cut && next < grid_end - tiny;
-    state_.grid_time =
-        cut ? next
-            : (is_before_grid ? grid_end : grid_end + setting_.time_step) - setting_.time_step;
-    state_.grid_step = state_.steps;
-  }
+  StepGrid::count(state_, *interval);
   return report;
 }
 

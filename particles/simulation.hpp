@@ -14,87 +14,14 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/body_step.hpp"
-#include "viscontact/particles/contact/contact_law.hpp"
-#include "viscontact/particles/contact/friction_law.hpp"
-#include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/domain/plane.hpp"
-#include "viscontact/particles/fluid/flow_estimate.hpp"
-#include "viscontact/particles/fluid/fluid.hpp"
-#include "viscontact/particles/given_motion.hpp"
-#include "viscontact/particles/links/links.hpp"
-#include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/piecewise_constant.hpp"
-#include "viscontact/particles/projection/solver_settings.hpp"
+#include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_report.hpp"
+#include "viscontact/particles/step_times.hpp"
 
 namespace viscontact::particles {
 
 struct ProjectionResult;
-
-/// How the velocities of (5.3) are read, docs/physics.md (5.10).
-enum class Scheme {
-  kEuler,     ///< u^n is the velocity at time t^n; positions are of first order
-  kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
-};
-
-/// What moves the particles, and how their motion is computed. A case file's values are checked
-/// when it is read. The keys of the maps must be numbers of existing particles.
-struct Setting {
-  std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
-  /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
-  Domain domain;
-  Vector gravity{};  ///< acceleration, on all particles [L/T^2]
-  /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
-  std::map<std::int32_t, PiecewiseConstant> forces;
-  ContactLaw law;  ///< of each pair: how strong the film may pull, and what the solids do
-  /// Coulomb's friction of solid contact; needs particles that turn (add_rotation), and no fluid.
-  std::optional<FrictionLaw> friction;
-  Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
-  double time_step = 0;  ///< h [T], > 0
-  Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
-  SolverSettings solver;           ///< tolerances and limits of the projection
-  std::optional<Fluid> fluid;      ///< around the particles; needs a domain
-  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
-  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
-  std::map<std::int32_t, PiecewiseConstant> torques;
-  /// Motions of the particles that are driven through the fluid, by the number of the particle. A
-  /// driven particle has no entry in `forces`, and gravity does not change its motion.
-  std::map<std::int32_t, GivenMotion> given_motions;
-};
-
-/// The cell of the domain, with the mean velocity gradient of the fluid.
-PeriodicCell cell_of(const Setting& setting);
-
-/// What is recorded of one step in a fluid.
-struct FluidStepReport {
-  double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
-  /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
-  double apparent_viscosity = 0;
-  double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
-  /// Of the velocities of the particles; < 0 if they were not estimated in this step.
-  RelativeErrors velocity_errors;
-  RelativeErrors force_errors;  ///< the same of the forces of the fluid
-};
-
-/// What is recorded of one step.
-struct StepReport {
-  double time = 0;           ///< at the end of the step [T]
-  std::size_t contacts = 0;  ///< number of contacts in the projection
-  std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
-  int iterations = 0;        ///< sum over all parts of the step
-  /// Largest residual |min(D + h G v, w (p - gamma))| of a close pair, divided by the mean radius.
-  double residual = 0;
-  /// Largest residual divided by w and by the impulses at work on the particles of the contact.
-  double impulse_residual = 0;
-  bool converged = true;  ///< the residuals of all contacts are within the tolerances
-  /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
-  /// linearised gaps; no gap is smaller than its linearised gap.
-  double largest_overlap = 0;
-  int parts = 0;  ///< number of parts that the step was divided into, 1 to 2^kMostHalvings
-  /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
-  std::size_t unresolved = 0;
-  FluidStepReport fluid{};  ///< zeros without a fluid
-};
 
 /// The lecture's problem for many particles, docs/physics.md (5.2) (Maury 2006, "A time-stepping
 /// scheme for inelastic collisions"; Lefebvre 2009, "Numerical simulation of gluey particles"):
@@ -150,6 +77,11 @@ class Simulation {
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
+  std::size_t remember(const ProjectionResult& projected, double h);
+  void scale_impulses(double factor);
+  PairRadii radii_of(const Pair& pair) const {
+    return particles::radii_of(pair, state_.particles, obstacles_);
+  }
   void add_works_of_arms(double h);
   template <class Visit>
   void for_pairs(const Visit& visit) {
@@ -165,7 +97,7 @@ class Simulation {
   void turn_freely(double h, double next);
   void move_bodies_freely(double h, double next);
   bool has_constraints() const {
-    return setting_.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
+    return setting_.laws.friction || !setting_.links.empty() || !state_.particles.bodies.empty();
   }
   std::vector<BodyLoad> loads_of_bodies(
       const std::function<Vector(const PiecewiseConstant&)>& mean) const;
@@ -189,15 +121,14 @@ class Simulation {
   // that are done [M L/T, M L^2/T], with the sum of the times for which they act.
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
-  std::vector<double> arm_works_;   // of the arms in the parts of a step that are done [M L^2/T^2]
-  std::vector<double> jump_times_;  // of forces and torques [T]
-  std::vector<Plane> obstacles_;    // walls of the domain, then planes
+  std::vector<double> arm_works_;  // of the arms in the parts of a step that are done [M L^2/T^2]
+  std::vector<Plane> obstacles_;   // walls of the domain, then planes
+  StepGrid grid_;
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
   // bodies and of the image, and the state before the step.
   struct Impulses {
-    double normal = 0;
-    Vector friction{};
-    double carried = 0;
+    double of_contact = 0;
+    PairMemory memory{};
   };
   std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;

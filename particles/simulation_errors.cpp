@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 #include "viscontact/particles/simulation.hpp"
 

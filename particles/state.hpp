@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscontact/particles/pair_memory.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -26,12 +27,8 @@ struct Pair {
   /// The image of `second` that meets `first` (periods.hpp); 0 without a shift. Two images of one
   /// particle may both touch another particle, and are then two pairs.
   std::int32_t image = 0;
-  /// Impulse of friction on `second` in the last step [M L/T], tangential; the first guess of the
-  /// next one. Zero without friction.
-  Vector friction{};
-  /// Part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
-  /// docs/physics.md (5.7), which bounds the friction. Zero without friction.
-  double carried = 0;
+  /// Number of what else the laws remember of the pair, in State::memories.
+  std::int32_t memory = PairMemories::kNone;
   /// Place of the plane in the list of planes; only if `first` is negative.
   std::size_t plane() const { return static_cast<std::size_t>(-1 - first); }
   /// True if all members are equal.
@@ -53,6 +50,7 @@ struct State {
   /// Pairs of particles that may touch soon, in order of first, second, image.
   std::vector<Pair> pairs;
   std::vector<Pair> walls;  ///< particles at planes, in order of plane, particle
+  PairMemories memories;    ///< of `pairs` and `walls`, by Pair::memory
   // Pairs outside the list cannot touch as long as no particle has moved further than its skin
   // since the list was made.
   /// Flat array of positions when `pairs` was made [L]; empty if there is no list yet.

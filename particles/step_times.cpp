@@ -1,27 +1,34 @@
-// Places the steps of the leapfrog scheme around jumps of forces (step_times.hpp).
+// Places the steps, those of the leapfrog scheme around jumps of forces (step_times.hpp).
 #include "viscontact/particles/step_times.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace viscontact::particles {
+namespace {
 
-std::vector<double> jump_times(std::span<const PiecewiseConstant* const> functions) {
+// Differences of times below this share of a step are rounding errors.
+constexpr double kTiny = 1e-6;
+
+}  // namespace
+
+std::vector<double> jump_times(const Setting& setting) {
   std::vector<double> times;
-  for (const auto* function : functions) {
-    const auto& pieces = function->pieces;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const Vector after = k + 1 < pieces.size() ? pieces[k + 1].value : Vector{};
-      if (pieces[k].until > 0 && pieces[k].value != after) times.push_back(pieces[k].until);
+  for (const auto* map : {&setting.forces, &setting.torques})
+    for (const auto& [particle, function] : *map) {
+      const auto& pieces = function.pieces;
+      for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const Vector after = k + 1 < pieces.size() ? pieces[k + 1].value : Vector{};
+        if (pieces[k].until > 0 && pieces[k].value != after) times.push_back(pieces[k].until);
+      }
     }
-  }
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps) {
-  // Differences of times below this share of a step are rounding errors.
-  constexpr double kTiny = 1e-6;
   const auto next = std::ranges::upper_bound(jumps, time + kTiny * h);
   const double until_jump = next == jumps.end() ? 2 * h : *next - time;
   // At most this far from a jump, a whole step would leave less than h/8 to it.
@@ -32,6 +39,34 @@ double leapfrog_step_end(double time, double grid_end, double h, std::span<const
   // Back on the grid in one step, or in two of equal length if it is near.
   if (rest < h / 2 - kTiny * h) return time + (rest + h) / 2;
   return grid_end;
+}
+
+std::optional<StepInterval> StepGrid::next(const State& state, double end) const {
+  const double tiny = kTiny * time_step_;
+  if (!(end > state.time + tiny)) return std::nullopt;
+  const double on_grid =
+      state.grid_time + static_cast<double>(state.steps + 1 - state.grid_step) * time_step_;
+  StepInterval step{time_step_, on_grid};
+  if (leapfrog_) step.end = leapfrog_step_end(state.time, on_grid, time_step_, jumps_);
+  const bool is_cut = step.end > end + tiny;
+  if (is_cut) {
+    step.end = end;
+    step.new_grid = end;
+  } else if (step.end != on_grid) {
+    // The next step ends on the grid again.
+    step.new_grid = (step.end < on_grid - tiny ? on_grid : on_grid + time_step_) - time_step_;
+  }
+  step.reaches_end = step.end >= end - tiny;
+  // A step on the grid has exactly the length h, whatever the rounding errors of times are.
+  if (is_cut || std::abs(step.end - state.time - time_step_) > tiny) step.h = step.end - state.time;
+  return step;
+}
+
+void StepGrid::count(State& state, const StepInterval& step) {
+  ++state.steps;
+  if (!step.new_grid) return;
+  state.grid_time = *step.new_grid;
+  state.grid_step = state.steps;
 }
 
 }  // namespace viscontact::particles

@@ -1,17 +1,19 @@
-// Where the steps of a simulation end, docs/physics.md (5.10). Times are in the unit of the case.
+// The grid of time steps, docs/physics.md (5.10): where each step of a simulation ends. Times are in
+// the unit of the case.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/setting.hpp"
+#include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
-/// Times > 0 at which one of the functions jumps, increasing, each once.
-std::vector<double> jump_times(std::span<const PiecewiseConstant* const> functions);
+/// Times > 0 at which a force or torque of the setting jumps [T], increasing, each once.
+std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step from `time` with Scheme::kLeapfrog, which without jumps is `grid_end`, one
 /// time step `h` later at most.
@@ -22,5 +24,36 @@ std::vector<double> jump_times(std::span<const PiecewiseConstant* const> functio
 /// shortened to between h/4 and 3 h/4 such that the jump is in the middle of one. Of jumps that
 /// follow each other within h/2 only the first is resolved.
 double leapfrog_step_end(double time, double grid_end, double h, std::span<const double> jumps);
+
+/// The next step of a simulation.
+struct StepInterval {
+  double h = 0;              ///< length [T], > 0; exactly the time step for a step on the grid
+  double end = 0;            ///< time at which it ends [T]
+  bool reaches_end = false;  ///< whether the run ends here, within rounding errors of times
+  /// If the step does not end on the grid: where the grid begins anew (State::grid_time) [T].
+  std::optional<double> new_grid{};
+};
+
+/// The grid of the steps of a simulation.
+class StepGrid {
+ public:
+  /// `time_step` > 0 is the length h of a step. With `leapfrog`, steps are placed around the times
+  /// `jumps` at which forces and torques jump (jump_times()); see step_times.cpp.
+  explicit StepGrid(double time_step, bool leapfrog = false, std::vector<double> jumps = {})
+      : time_step_(time_step), leapfrog_(leapfrog), jumps_(std::move(jumps)) {}
+
+  /// The step that begins at `state`. It ends at `end` if that is earlier than the end of a whole
+  /// step by more than a millionth of h. Nothing if less than a millionth of h is left until `end`:
+  /// rounding errors of the times would otherwise cause tiny steps.
+  std::optional<StepInterval> next(const State& state, double end) const;
+
+  /// Counts the step that is done in `state`, and moves the grid if the step did not end on it.
+  static void count(State& state, const StepInterval& step);
+
+ private:
+  double time_step_;
+  bool leapfrog_;
+  std::vector<double> jumps_;
+};
 
 }  // namespace viscontact::particles

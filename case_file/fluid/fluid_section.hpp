@@ -5,7 +5,7 @@
 
 #include "viscontact/case_file/toml_section.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 
 namespace viscontact::case_file {
 

@@ -20,7 +20,9 @@ using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy over
 constexpr double kLeastGapOfMesh = 1e-3;
 
 /// Gap at which the solids of rough particles touch [L]; 0 for smooth ones.
-double gap_of_solids(const ParticlesCase& c) { return 2 * c.setting.law.roughness.value_or(0); }
+double gap_of_solids(const ParticlesCase& c) {
+  return 2 * c.setting.laws.film.roughness.value_or(0);
+}
 
 /// True if each side of the domain is open or periodic, and at least one is open.
 bool has_only_open_sides(const ParticlesCase& c) {

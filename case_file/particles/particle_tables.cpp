@@ -190,7 +190,7 @@ ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c) 
   if (root.has("arrangement"))
     c.arrangement = read_arrangement(root.section("arrangement"), c.setting.domain,
                                      c.setting.fluid.has_value(), c.particles);
-  if (!c.setting.fluid && (c.setting.friction || c.particles.turn()))
+  if (!c.setting.fluid && (c.setting.laws.friction || c.particles.turn()))
     particles::add_rotation(c.particles);
   if (c.particles.count() == 0 && !c.particles_file.empty())
     throw_bad_input({c.particles_file.string()},

@@ -46,7 +46,7 @@ int read_dimension(const TomlSection& space) {
 
 /// Reads the contact law. In a fluid its viscosity is that of the fluid, unless it is given.
 void read_law(const TomlSection& section, const std::optional<particles::Fluid>& fluid,
-              particles::ContactLaw& law) {
+              particles::FilmLaw& law) {
   if (section.has("gamma_min")) law.gamma_min = section.number("gamma_min", kNotPositive);
   if (section.has("viscosity")) law.viscosity = section.number("viscosity", kModeratelyPositive);
   if (section.has("roughness")) law.roughness = section.number("roughness", kModeratelyPositive);
@@ -125,7 +125,7 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
         "time_step",
         fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
-  read_law(contact, c.setting.fluid, c.setting.law);
+  read_law(contact, c.setting.fluid, c.setting.laws.film);
   if (contact.has("scheme")) {
     const auto scheme = contact.text("scheme");
     if (scheme != "euler" && scheme != "leapfrog")
@@ -145,7 +145,7 @@ void read_friction(const TomlSection& section, ParticlesCase& c) {
     section.fail("coefficient",
                  "belongs to particles without a fluid; a case with [fluid] must have no section "
                  "[friction]");
-  if (!c.setting.law.gamma_min && !c.setting.law.viscosity)
+  if (!c.setting.laws.film.gamma_min && !c.setting.laws.film.viscosity)
     section.fail("coefficient",
                  "has no effect, because smooth particles never touch; viscous_contact must have "
                  "gamma_min (0: no film), or viscosity and roughness");
@@ -160,7 +160,7 @@ void read_friction(const TomlSection& section, ParticlesCase& c) {
                    fmt::format("is '{}'; it must be \"fixed_point\" or \"convex\"", method));
   }
   section.finish();
-  c.setting.friction = law;
+  c.setting.laws.friction = law;
 }
 
 void read_solver(const TomlSection& solver, particles::SolverSettings& settings) {

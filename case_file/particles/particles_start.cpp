@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "viscontact/case_file/particles/bodies_section.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::case_file {

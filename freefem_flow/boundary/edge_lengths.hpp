@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {

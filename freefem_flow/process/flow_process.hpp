@@ -12,7 +12,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
 #include "viscontact/freefem_flow/process/solver_command.hpp"
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 
 namespace viscontact::freefem_flow {
 

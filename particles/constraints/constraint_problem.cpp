@@ -59,7 +59,7 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
     wanted[k - 1] = p[k] - v[k] / w[k];
     square += wanted[k - 1] * wanted[k - 1];
   }
-  residual.normal = std::abs(std::min(v[0], w[0] * (p[0] - block.lowest)));
+  residual.normal = contact_residual(v[0], w[0] * (p[0] - block.lowest));
   double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
   if (is_in_cone(block, lifts_sliding, p[0])) {
     const auto cone = FrictionCone::nearest(block.friction, p[0] - v[0] / w[0] - block.capacity,

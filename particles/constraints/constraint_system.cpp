@@ -51,10 +51,13 @@ void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
 }
 
 template <int D>
-void ConstraintSystem<D>::add(const Contact<D>& contact, const Vector& friction) {
-  tangents_.push_back(
-      tangents_of(contact, particles_, step_.law, step_.obstacles, step_.begin, step_.end));
-  frictions_.push_back(friction);
+void ConstraintSystem<D>::add(const Contact<D>& contact, const Pair& pair,
+                              const PairMemory& memory) {
+  tangents_.push_back(tangents_of(contact, particles_, step_.obstacles, step_.begin, step_.end));
+  tangents_.back().capacity =
+      pair.gamma -
+      step_.laws.lowest_gamma(pair, memory, radii_of(pair, particles_, step_.obstacles));
+  frictions_.push_back(memory.friction());
   carried_.push_back(0);
   residuals_.emplace_back();
 }
@@ -93,8 +96,8 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   const auto& tangents = tangents_[c];
   ConstraintBlock block;
   block.row = problem_.rows.size();
-  block.lowest = contact.gamma;
-  block.friction = step_.friction.coefficient;
+  block.lowest = contact.lowest;
+  block.friction = step_.laws.friction ? step_.laws.friction->coefficient : 0;
   block.capacity = tangents.capacity;
   block.allowed = contact.allowed;
   block.allowed_slip = allowed_slip;
@@ -235,7 +238,8 @@ template <int D>
 SolverResult ConstraintSystem<D>::solve(ContactSystem<D>& system, bool is_rough,
                                         double allowed_slip, int max_iterations) {
   problem_ = {};
-  problem_.lifts_sliding = step_.friction.method == FrictionMethod::kConvex;
+  problem_.lifts_sliding =
+      step_.laws.friction && step_.laws.friction->method == FrictionMethod::kConvex;
   number_units(system);
   for (std::size_t c = 0; c < system.contacts.size(); ++c)
     add_contact(system.contacts[c], c, allowed_slip);

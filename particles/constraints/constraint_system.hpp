@@ -11,12 +11,11 @@
 #include "viscontact/particles/bodies/body_step.hpp"
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/constraints/contact_rows.hpp"
-#include "viscontact/particles/contact/contact_law.hpp"
-#include "viscontact/particles/contact/friction_law.hpp"
+#include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/dual_problem/contact_system.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/particles.hpp"
-#include "viscontact/particles/projection/contact_system.hpp"
 
 namespace viscontact::particles {
 
@@ -24,10 +23,8 @@ namespace viscontact::particles {
 /// simulation: before the solution they hold the motion without constraints, after it that of the
 /// solution.
 struct ConstraintStep {
-  /// Law of friction between the solids.
-  FrictionLaw friction;
-  /// Law of the film in contact.
-  ContactLaw law;
+  /// Of the contacts.
+  const ContactLaws& laws;
   /// The planes, which may move.
   std::span<const Plane> obstacles;
   double begin = 0,         ///< time at which the step begins [T]
@@ -54,8 +51,9 @@ class ConstraintSystem {
   /// Makes the particles of all links take part. Call it before the first contact is added.
   void join_linked(ContactSystem<D>& system) const;
 
-  /// Adds the contact that is next in the ContactSystem; `friction` is the guess (Pair::friction).
-  void add(const Contact<D>& contact, const Vector& friction);
+  /// Adds the contact that is next in the ContactSystem, which is that of `pair`. Its memory holds the
+  /// guess of the friction.
+  void add(const Contact<D>& contact, const Pair& pair, const PairMemory& memory);
 
   /// The equations of the links, and what their residuals may be [L], to be set before solve().
   const std::vector<LinkEquations>& links() const { return links_; }
@@ -72,10 +70,11 @@ class ConstraintSystem {
   SolverResult solve(ContactSystem<D>& system, bool is_rough, double allowed_slip,
                      int max_iterations);
 
-  /// Impulse of friction on the second particle of contact number `c` [M L/T].
-  const Vector& friction(std::size_t c) const { return frictions_[c]; }
-  /// Part of the normal impulse of contact number `c` that the solids carry [M L/T].
-  double carried(std::size_t c) const { return carried_[c]; }
+  /// Writes the friction of contact number `c` and what its solids carry into its memory.
+  void remember(std::size_t c, PairMemory& memory) const {
+    memory.set_friction(frictions_[c]);
+    memory[Remembered::kCarried] = carried_[c];
+  }
   /// Residual of contact number `c` in the last solution [L].
   const BlockResidual& residual(std::size_t c) const { return residuals_[c]; }
   /// Residual of link number `l` of links() in the last solution [L]; of a torsion spring times the

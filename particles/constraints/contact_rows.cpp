@@ -2,7 +2,6 @@
 #include "viscontact/particles/constraints/contact_rows.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace viscontact::particles {
 namespace {
@@ -36,19 +35,17 @@ Vector normal_of(const Contact<D>& contact) {
 
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
-                               const ContactLaw& law, std::span<const Plane> obstacles,
-                               double begin, double end) {
+                               std::span<const Plane> obstacles, double begin, double end) {
   ContactTangents<D> tangents;
   const auto j = index_of(contact.second);
   const Vector normal = normal_of(contact);
   tangents.directions = tangent_basis<D>(normal);
   const double r_j = particles.radii[j];
-  double r_i = std::numeric_limits<double>::infinity();
   tangents.second_arm = r_j;
   if (contact.first >= 0) {
     // The arms add up to the distance of the centres, so that the impulses of the pair keep the
     // angular momentum also while the gap is open.
-    r_i = particles.radii[index_of(contact.first)];
+    const double r_i = particles.radii[index_of(contact.first)];
     const double distance = r_i + r_j + contact.gap - contact.tolerated;
     tangents.first_arm = r_i * (distance / (r_i + r_j));
     tangents.second_arm = r_j * (distance / (r_i + r_j));
@@ -57,7 +54,6 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
     const Vector point = particles.position(j) - (r_j + contact.gap) * normal;
     tangents.surface = obstacle.displacement(point, begin, end);
   }
-  tangents.capacity = contact.gamma - law.lower_bound(r_j, r_i);
   return tangents;
 }
 
@@ -77,9 +73,9 @@ ConstraintRow<D> contact_row(const Contact<D>& contact, const ContactTangents<D>
   return row;
 }
 
-template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&, const ContactLaw&,
+template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&,
                                            std::span<const Plane>, double, double);
-template ContactTangents<3> tangents_of<3>(const Contact<3>&, const Particles&, const ContactLaw&,
+template ContactTangents<3> tangents_of<3>(const Contact<3>&, const Particles&,
                                            std::span<const Plane>, double, double);
 template ConstraintRow<2> contact_row<2>(const Contact<2>&, const ContactTangents<2>&,
                                          const ContactSide&, const ContactSide&, std::size_t);

@@ -8,7 +8,6 @@
 
 #include "viscontact/particles/constraints/constraint_problem.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/contact/contact_law.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/particles.hpp"
 
@@ -25,11 +24,10 @@ struct ContactTangents {
   double capacity = 0;   ///< ConstraintBlock::capacity
 };
 
-/// The tangents of a contact in a step from time `begin` to `end` [T].
+/// The tangents of a contact in a step from time `begin` to `end` [T]; `capacity` is left 0.
 template <int D>
 ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& particles,
-                               const ContactLaw& law, std::span<const Plane> obstacles,
-                               double begin, double end);
+                               std::span<const Plane> obstacles, double begin, double end);
 
 /// Part of a row for one unit: the displacement along `direction` of the point that is at `arm` [L]
 /// from the centre of the unit.

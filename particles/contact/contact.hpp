@@ -26,15 +26,23 @@ struct Contact {
   /// D_ij at the beginning of the step, plus `tolerated` [L]. A plane is taken at its position at
   /// the end of the step.
   double gap = 0;
-  double gamma = 0;  ///< gamma_ij^n [M L/T], <= 0
-  /// p_ij = h lambda_ij [M L/T], >= gamma: before the solution a guess, then the solution.
+  double lowest = 0;  ///< lower bound of the impulse [M L/T], <= 0: gamma_ij^n
+  /// p_ij = h lambda_ij [M L/T], >= lowest: before the solution a guess, then the solution.
   double impulse = 0;
   /// Largest residual with which the contact counts as converged [L], > 0.
   double allowed = 0;
   double tolerated = 0;       ///< overlap that is left as it is [L], >= 0
   std::int32_t image = 0;     ///< Pair::image
   std::int32_t obstacle = 0;  ///< number of the obstacle, if `first` is negative
+  /// Change of the gap per impulse of this contact [T/M]: h (1/m_i + 1/m_j) without a fluid.
+  double w = 0;
 };
+
+/// Residual of the contact conditions gap >= 0, p >= lowest, one of them with equality: 0 for a
+/// solution. `slack` is w (p - lowest), in the unit of the gap.
+inline double contact_residual(double gap_after, double slack) {
+  return std::abs(std::min(gap_after, slack));
+}
 
 /// Vector from the centre of particle `first` to that of the image `image` of particle `second`
 /// [L].

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <variant>
+#include <vector>
 
+#include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/vector.hpp"
 
 namespace viscontact::particles {
@@ -40,5 +42,10 @@ inline std::array<double, 2> periods_of(const Domain& domain) {
   return {box->periodic[0] ? box->to[0] - box->from[0] : 0,
           box->periodic[1] ? box->to[1] - box->from[1] : 0};
 }
+
+/// The walls of a domain, at rest, in the order of the obstacles above. The wall of a disc is a
+/// circle that is seen from inside. The side of a cylinder is parallel to the axis of the particles:
+/// its gap is the distance from it, and its normal has no component along the axis.
+std::vector<Plane> obstacles_of(const Domain& domain);
 
 }  // namespace viscontact::particles

@@ -16,7 +16,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
       scale(contacts.size()),
       per_allowed(contacts.size()),
       rows_(contacts.size()),
-      gamma_(contacts.size()),
+      lowest_(contacts.size()),
       in_block_(contacts.size()),
       offsets_(mobilities.size() + 2, 0),
       inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
@@ -29,15 +29,15 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     const bool particles = contact.first >= 0;
     const auto i = index_of(particles ? contact.first : wall), j = index_of(contact.second);
     const double of_first = particles ? mobilities[i] : 0;
-    const double root = std::sqrt(of_first + mobilities[j]);
+    const double root = std::sqrt(contact.w);
     rows_[c] = {
         static_cast<std::int32_t>(i), contact.second, contact.normal, 1 / root, of_first / root,
         mobilities[j] / root};
     scale[c] = root;
     per_allowed[c] = root / contact.allowed;
-    z[c] = std::max(contact.impulse, contact.gamma) * root;
-    bound[c] = contact.gamma * root;
-    gamma_[c] = contact.gamma;
+    z[c] = std::max(contact.impulse, contact.lowest) * root;
+    bound[c] = contact.lowest * root;
+    lowest_[c] = contact.lowest;
     double gradient = contact.gap;
     for (std::size_t d = 0; d < D; ++d)
       gradient += contact.normal[d] *

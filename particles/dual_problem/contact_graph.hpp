@@ -135,7 +135,7 @@ class ContactGraph {
   /// allowed for it, for impulse z_c and gradient g_c. The contact has converged if this is at most
   /// 1.
   double residual(std::size_t c, double z_c, double gradient) const {
-    return per_allowed[c] * std::abs(std::min(gradient, z_c - bound[c]));
+    return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
   }
 
   /// Sets `impulses` to h lambda of the contacts [M L/T], in the order in which they were given.
@@ -143,7 +143,7 @@ class ContactGraph {
     // A contact at its bound returns exactly gamma, so that no rounding error of z/scale remains in
     // the new gamma.
     for (std::size_t c = 0; c < count(); ++c)
-      impulses[c] = z[c] == bound[c] ? gamma_[c] : z[c] / scale[c];
+      impulses[c] = z[c] == bound[c] ? lowest_[c] : z[c] / scale[c];
   }
 
  private:
@@ -183,7 +183,7 @@ class ContactGraph {
   void number_bodies_of_blocks();
 
   std::vector<Row> rows_;
-  std::vector<double> gamma_;  // gamma of the contacts, as given
+  std::vector<double> lowest_;  // Contact::lowest, as given
   // Numbers of first and second among the bodies of the contact's block.
   std::vector<std::array<std::int32_t, 2>> in_block_;
   std::vector<std::size_t> block_bodies_;  // number of bodies of each block

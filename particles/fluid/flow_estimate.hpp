@@ -6,18 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/fluid/fluid.hpp"
+#include "viscontact/particles/fluid.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/particles.hpp"
+#include "viscontact/particles/step_report.hpp"
 
 namespace viscontact::particles {
-
-/// Three estimates of errors, each relative to the largest result, >= 0; < 0: not made.
-struct RelativeErrors {
-  double best = -1;         ///< of the most accurate results, extrapolated from two meshes
-  double of_one_mesh = -1;  ///< of the results on the mesh of the placement, which move particles
-  double of_penalty = -1;   ///< the part of both that is the error of the penalty
-};
 
 /// A flow from two meshes, with estimates of its errors.
 struct FlowEstimate {

@@ -5,25 +5,12 @@
 #include <limits>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/contact/film.hpp"
 #include "viscontact/particles/fluid/contact/contact_residuals.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 namespace viscontact::particles {
-namespace {
-
-/// Radius of the first body of a pair [L]: infinite for a plane, < 0 for a round wall, which is
-/// around the particle.
-double radius_of_first(const Particles& p, const Pair& pair, const std::vector<Plane>& obstacles) {
-  if (pair.first >= 0) return p.radii[index_of(pair.first)];
-  const auto& place = obstacles[pair.plane()].start;
-  return place.is_curved() ? -place.radius : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
-
 /// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
 void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
@@ -57,12 +44,6 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
                         setting_.solver, mean_radius_, error_of_answers(*setting_.fluid))
           .impulse_errors;
-  const auto shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
-  const auto lowest_gamma = [&](const Pair& pair) {
-    return setting_.law.lower_bound_in_fluid(shape, p.radii[index_of(pair.second)],
-                                             radius_of_first(p, pair, obstacles_),
-                                             setting_.fluid->threshold_gap);
-  };
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
@@ -70,11 +51,12 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       pair.impulse = contact.impulse;
       if (contact.w > 0) {
         ++report.contacts;
-        absorb_impulse(pair, errors[c], lowest_gamma(pair));
+        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_), errors[c], h);
       }
       if (pair.gamma < 0) ++report.glued;
       ++c;
     }
+  state_.memories.keep_only(state_.pairs, state_.walls);
   move_bodies(motion, h, next);
   const auto n = layout_.directions();
   for (std::size_t k = 0; k < p.count(); ++k) {

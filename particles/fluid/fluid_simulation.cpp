@@ -13,13 +13,14 @@
 #include <optional>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/fluid/flow_estimate.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/fluid/step_equation.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
+#include "viscontact/particles/step_times.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -50,6 +51,9 @@ FluidSimulation::FluidSimulation(Setting setting, State state, std::unique_ptr<F
       pool_(1),
       obstacles_(obstacles_of(setting_)) {
   auto& p = state_.particles;
+  auto& film = setting_.laws.film;
+  film.shape = p.dimension == 1 ? FilmShape::kSpheres : FilmShape::kDiscs;
+  film.begins_at = setting_.fluid->threshold_gap;
   p.cell = cell_of(setting_);
   p.cell.moved_for = state_.time;
   if (layout_.components == 3) {
@@ -286,27 +290,16 @@ void FluidSimulation::estimate(const StepEquation& equation, std::span<const dou
 }
 
 StepReport FluidSimulation::step(double end) {
-  double h = setting_.time_step;
-  const double tiny = 1e-6 * h;
-  if (!(end > state_.time + tiny)) return {.time = state_.time, .parts = 1};
-  double next = state_.grid_time + static_cast<double>(state_.steps + 1 - state_.grid_step) * h;
-  const bool is_cut = next > end + tiny;
-  if (is_cut) {
-    next = end;
-    h = end - state_.time;
-  }
-  StepReport report{.time = next};
-  auto motion = solve(h, next, state_.steps == 0 || next >= end - tiny);
+  const auto interval = StepGrid(setting_.time_step).next(state_, end);
+  if (!interval) return {.time = state_.time, .parts = 1};
+  StepReport report{.time = interval->end};
+  auto motion = solve(interval->h, interval->end, state_.steps == 0 || interval->reaches_end);
   report.iterations = motion.contact.iterations;
   report.fluid = motion.fluid;
   report.parts = 1;
-  examine(motion, h, report);
-  accept(std::move(motion), h, next, report);
-  ++state_.steps;
-  if (is_cut) {
-    state_.grid_time = next;
-    state_.grid_step = state_.steps;
-  }
+  examine(motion, interval->h, report);
+  accept(std::move(motion), interval->h, interval->end, report);
+  StepGrid::count(state_, *interval);
   return report;
 }
 

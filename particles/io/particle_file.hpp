@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 

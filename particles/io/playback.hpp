@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 
 namespace viscontact::particles {
@@ -18,7 +18,7 @@ struct Frame {
   /// Flat array [L], `dimension` numbers for each particle; single precision is enough for a
   /// picture.
   std::vector<float> positions;
-  std::vector<PlanePosition> planes;     ///< all obstacles, in the order of obstacles.hpp
+  std::vector<PlanePosition> planes;     ///< all obstacles, in the order of domain.hpp
   std::vector<CurrentContact> contacts;  ///< glued (gamma < 0) or touching
   std::vector<float> angles{};           ///< of each disc [rad]; empty if none turns
   /// Of each sphere in space, unit quaternions (w, x, y, z); empty if none turns.

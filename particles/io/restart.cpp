@@ -18,7 +18,9 @@
 namespace viscontact::particles {
 namespace {
 
-constexpr int kVersion = 6;
+// Version 7 differs from version 6 by memories that version 6 has no array for. It is written only
+// where a pair has such a memory.
+constexpr int kVersion = 7;
 constexpr std::string_view kWhat = "# viscontact: restart of particles, version ";
 constexpr std::string_view kHash = "# sha256 of the rest: ";
 constexpr std::string_view kOrder =
@@ -44,6 +46,10 @@ struct StoredArrays {
   std::vector<Vector> frictions;     ///< of pairs and walls; empty if all are 0
   std::vector<double> carried;       ///< as `frictions`
   std::vector<StoredBody> bodies;
+  /// The further memories of pairs and walls that are not 0: their names, each with a line break, and
+  /// their numbers one after the other. Each memory has as many numbers as there are pairs and walls.
+  std::vector<char> names;
+  std::vector<double> memories;
 };
 
 /// Calls `field` for each stored field, in the order of a file of version `version`, for writing
@@ -82,6 +88,65 @@ void for_fields(State& state, Arrays& arrays, int version, Field&& field) {
   field(state.link_forces);
   if (version < 6) return;
   field(state.arm_powers);
+  if (version < 7) return;
+  field(arrays.names);
+  field(arrays.memories);
+}
+
+/// The first of kMemoryFields that has no array of its own in version 6.
+constexpr std::size_t kFirstNamed = 4;
+
+/// Moves the memories of the state into the arrays of a file.
+void store_memories(const State& state, StoredArrays& arrays) {
+  const auto all = [&](const auto& visit) {
+    for (const auto* pairs : {&state.pairs, &state.walls})
+      for (const auto& pair : *pairs) visit(state.memories.of(pair.memory));
+  };
+  all([&](const PairMemory& memory) {
+    arrays.frictions.push_back(memory.friction());
+    arrays.carried.push_back(memory[Remembered::kCarried]);
+  });
+  for (std::size_t f = kFirstNamed; f < kMemoryFields.size(); ++f) {
+    std::vector<double> values;
+    all([&](const PairMemory& memory) { values.push_back(memory.values()[f]); });
+    if (std::ranges::all_of(values, [](double value) { return value == 0; })) continue;
+    const auto name = kMemoryFields[f].name;
+    arrays.names.insert(arrays.names.end(), name.begin(), name.end());
+    arrays.names.push_back('\n');
+    arrays.memories.insert(arrays.memories.end(), values.begin(), values.end());
+  }
+}
+
+/// Sets the memories of the state. Returns false if the arrays do not fit its pairs.
+bool take_memories(const StoredArrays& arrays, State& state) {
+  const auto count = state.pairs.size() + state.walls.size();
+  const auto fits = [&](std::size_t size) { return size == 0 || size == count; };
+  if (!fits(arrays.frictions.size()) || !fits(arrays.carried.size())) return false;
+  std::vector<PairMemory> memories(count);
+  for (std::size_t k = 0; k < arrays.frictions.size(); ++k)
+    memories[k].set_friction(arrays.frictions[k]);
+  for (std::size_t k = 0; k < arrays.carried.size(); ++k) {
+    if (!(arrays.carried[k] >= 0)) return false;
+    memories[k][Remembered::kCarried] = arrays.carried[k];
+  }
+  std::size_t begin = 0, used = 0;
+  while (begin < arrays.names.size()) {
+    const auto rest = std::string_view(arrays.names.data(), arrays.names.size()).substr(begin);
+    const auto name = rest.substr(0, rest.find('\n'));
+    const auto field = std::ranges::find(kMemoryFields, name, &MemoryField::name);
+    if (name.size() == rest.size() || field == kMemoryFields.end() ||
+        used + count > arrays.memories.size())
+      return false;
+    const auto place = static_cast<std::size_t>(field - kMemoryFields.begin());
+    for (std::size_t k = 0; k < count; ++k) memories[k].values()[place] = arrays.memories[used + k];
+    begin += name.size() + 1;
+    used += count;
+  }
+  if (used != arrays.memories.size()) return false;
+  std::size_t k = 0;
+  for (auto* pairs : {&state.pairs, &state.walls})
+    for (auto& pair : *pairs) state.memories.set(pair.memory, memories[k++]);
+  return true;
 }
 
 class Writer {
@@ -211,8 +276,7 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
       at_obstacle ? pair.first < 0 : pair.first >= 0 && pair.first < pair.second;
   return first_in_range && pair.second >= 0 && index_of(pair.second) < particles &&
          pair.gamma <= 0 && std::isfinite(pair.gamma) && std::isfinite(pair.impulse) &&
-         pair.gamma_error >= 0 && pair.carried >= 0 && pair.image >= -kLargestImage &&
-         pair.image <= kLargestImage;
+         pair.gamma_error >= 0 && pair.image >= -kLargestImage && pair.image <= kLargestImage;
 }
 
 }  // namespace
@@ -220,11 +284,7 @@ bool is_consistent(const Pair& pair, bool at_obstacle, std::size_t particles) {
 std::string write_restart(const State& state) {
   StoredArrays arrays;
   for (const auto& pair : state.pairs) arrays.images.push_back(pair.image);
-  for (const auto* pairs : {&state.pairs, &state.walls})
-    for (const auto& pair : *pairs) {
-      arrays.frictions.push_back(pair.friction);
-      arrays.carried.push_back(pair.carried);
-    }
+  store_memories(state, arrays);
   const auto clear_zeros = [](auto& values) {
     using Value = std::remove_cvref_t<decltype(values[0])>;
     if (std::ranges::all_of(values, [](const Value& value) { return value == Value{}; }))
@@ -237,9 +297,10 @@ std::string write_restart(const State& state) {
     arrays.bodies.push_back({body.centre, body.velocity, body.angle, body.orientation,
                              body.angular_momentum, body.angular_velocity});
   std::string bytes;
-  for_fields(state, arrays, kVersion, Writer{bytes});
+  const int version = arrays.names.empty() ? kVersion - 1 : kVersion;
+  for_fields(state, arrays, version, Writer{bytes});
   std::string text;
-  text.append(kWhat).append(std::to_string(kVersion)).append(", ").append(kOrder).append("\n");
+  text.append(kWhat).append(std::to_string(version)).append(", ").append(kOrder).append("\n");
   text.append(kHash).append(sha256(bytes)).append("\n");
   return text + bytes;
 }
@@ -257,20 +318,10 @@ State read_restart(const std::filesystem::path& path) {
   State state;
   StoredArrays arrays;
   for_fields(state, arrays, version, reader);
-  const auto fits = [](const auto& values, std::size_t count) {
-    return values.empty() || values.size() == count;
-  };
-  const auto all_pairs = state.pairs.size() + state.walls.size();
-  if (!reader.at_end() || !fits(arrays.images, state.pairs.size()) ||
-      !fits(arrays.frictions, all_pairs) || !fits(arrays.carried, all_pairs))
+  if (!reader.at_end() || (!arrays.images.empty() && arrays.images.size() != state.pairs.size()) ||
+      !take_memories(arrays, state))
     reader.throw_short();
-  const auto pair_at = [&](std::size_t k) -> Pair& {
-    return k < state.pairs.size() ? state.pairs[k] : state.walls[k - state.pairs.size()];
-  };
-  for (std::size_t k = 0; k < arrays.images.size(); ++k) pair_at(k).image = arrays.images[k];
-  for (std::size_t k = 0; k < arrays.frictions.size(); ++k)
-    pair_at(k).friction = arrays.frictions[k];
-  for (std::size_t k = 0; k < arrays.carried.size(); ++k) pair_at(k).carried = arrays.carried[k];
+  for (std::size_t k = 0; k < arrays.images.size(); ++k) state.pairs[k].image = arrays.images[k];
   for (const auto& stored : arrays.bodies) {
     RigidBody body;
     body.centre = stored.centre;

@@ -48,6 +48,7 @@ ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
   Contact<D> contact{};
   contact.first = row.first.particle;
   contact.second = row.second.particle;
+  contact.w = w(contact.first, contact.second);
   for (const auto particle : {contact.first, contact.second})
     if (particle >= 0) contact.gap += norm(state_.particles.position(index_of(particle)));
   return scales.of(contact);
@@ -117,12 +118,12 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const double gap = gap_after(here, displacements_);
     const double residual = constraints_
                                 ? constraints_->residual(c).normal
-                                : std::abs(std::min(gap, scale.w * (here.impulse - here.gamma)));
+                                : contact_residual(gap, here.w * (here.impulse - here.lowest));
     record.residual(residual, scale);
     if (constraints_) record.slip(constraints_->residual(c).tangential);
     result.impulse_errors[c] = residual / scale.w;
     record_gap(chosen_[c], gap - here.tolerated);
-    if ((here.impulse != 0 || here.gamma < 0) &&
+    if ((here.impulse != 0 || here.lowest < 0) &&
         turns_too_far(state_.particles, here, displacements_))
       ++result.unresolved;
   }

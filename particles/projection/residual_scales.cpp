@@ -26,14 +26,14 @@ ResidualScales<D>::ResidualScales(const State& state, double h,
     const double gap = gap_after(contact, displacements_);
     // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
     const double impulse = std::max(std::abs(contact.impulse),
-                                    (contact.gamma < 0 ? std::abs(gap) : -gap) / w(contact));
+                                    (contact.lowest < 0 ? std::abs(gap) : -gap) / contact.w);
     for (const auto particle : {contact.first, contact.second})
       if (particle >= 0) {
         auto& largest = body_scales_[index_of(system.body_of(particle))].impulse;
         largest = std::max(largest, impulse);
       }
     auto& of_island = island_impulses_[index_of(system.island(system.body_of(contact.second)))];
-    of_island = std::max(of_island, std::sqrt(w(contact)) * impulse);
+    of_island = std::max(of_island, std::sqrt(contact.w) * impulse);
   }
 }
 
@@ -60,7 +60,7 @@ template <int D>
 ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
   // Rounding errors are taken as 128 units in the last place of the lengths that are added below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
-  ResidualScale scale{w(contact), std::numeric_limits<double>::infinity(), std::abs(contact.gap)};
+  ResidualScale scale{contact.w, std::numeric_limits<double>::infinity(), std::abs(contact.gap)};
   double around = 0;
   for (const auto particle : {contact.first, contact.second}) {
     if (particle < 0) continue;

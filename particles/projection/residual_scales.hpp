@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/projection/contact_system.hpp"
+#include "viscontact/particles/dual_problem/contact_system.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
@@ -48,10 +48,6 @@ class ResidualScales {
     double moved = 0;
   };
   ParticleScale of_particle(std::int32_t particle, const double* moves) const;
-  double w(const Contact<D>& contact) const {
-    return (contact.first < 0 ? 0.0 : mobilities_[index_of(contact.first)]) +
-           mobilities_[index_of(contact.second)];
-  }
 
   const State& state_;
   double h_;

@@ -84,7 +84,8 @@ void StepProjection<D>::choose(const std::vector<std::size_t>& pairs) {
     is_chosen_[k] = 1;
     chosen_.push_back(k);
     system_.add(contact(k));
-    if (constraints_) constraints_->add(system_.contacts.back(), pair(k).friction);
+    if (constraints_)
+      constraints_->add(system_.contacts.back(), pair(k), state_.memories.of(pair(k).memory));
   }
 }
 
@@ -174,8 +175,9 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
     pair(chosen_[c]).impulse = system_.contacts[c].impulse;
     if (constraints_) {
-      pair(chosen_[c]).friction = constraints_->friction(c);
-      pair(chosen_[c]).carried = constraints_->carried(c);
+      auto memory = state_.memories.of(pair(chosen_[c]).memory);
+      constraints_->remember(c, memory);
+      state_.memories.set(pair(chosen_[c]).memory, memory);
     }
     result.pairs.push_back(&pair(chosen_[c]));
   }

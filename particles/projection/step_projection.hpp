@@ -13,10 +13,10 @@
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/constraints/constraint_system.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/projection/contact_system.hpp"
+#include "viscontact/particles/dual_problem/contact_system.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/residual_scales.hpp"
-#include "viscontact/particles/projection/solver_settings.hpp"
+#include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
@@ -81,7 +81,13 @@ class StepProjection {
     return contact_of<D>(p, pair(k), planes_);
   }
   Contact<D> contact(std::size_t k) {
-    return resolved(contact_at_start(k), state_.particles, pair(k), planes_, tolerated_);
+    auto contact = resolved(contact_at_start(k), state_.particles, pair(k), planes_, tolerated_);
+    contact.w = w(contact.first, contact.second);
+    return contact;
+  }
+  // Contact::w for two particles, or for an obstacle (< 0) and a particle.
+  double w(std::int32_t first, std::int32_t second) const {
+    return (first < 0 ? 0.0 : mobilities_[index_of(first)]) + mobilities_[index_of(second)];
   }
   ResidualScales<D> residual_scales() { return {state_, h_, displacements_, mobilities_, system_}; }
   bool takes_part(std::int32_t particle) const {

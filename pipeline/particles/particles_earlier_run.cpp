@@ -12,7 +12,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 #include "viscontact/pipeline/particles/particles_folder.hpp"

@@ -13,8 +13,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/io/flow_vtk.hpp"
 #include "viscontact/particles/io/link_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
@@ -68,7 +68,7 @@ ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& prove
   playback_.radii.assign(particles.radii.begin(), particles.radii.end());
   playback_.ids = particles.ids;
   playback_.bodies = particles.bodies.of_particle;
-  playback_.has_friction = setting.friction.has_value();
+  playback_.has_friction = setting.laws.friction.has_value();
   for (const auto& hinge : setting.links.hinges) playback_.links.hinges.push_back(hinge.at);
   for (const auto& spring : setting.links.springs)
     playback_.links.springs.push_back({spring.first, spring.second});
@@ -87,7 +87,8 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
   const auto name = fmt::format("particles_{:05}.vtp", files_.size());
   results::write_output(
       folder_ / name, TextKind::kXml,
-      particles::write_vtp(state.particles, contacts, setting.friction.has_value()), provenance_);
+      particles::write_vtp(state.particles, contacts, setting.laws.friction.has_value()),
+      provenance_);
   if (has_links_)
     results::write_output(folder_ / links_name(name), TextKind::kXml,
                           particles::write_links(setting, state), provenance_);

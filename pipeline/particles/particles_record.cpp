@@ -13,7 +13,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::pipeline {
 namespace {

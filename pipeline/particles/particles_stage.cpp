@@ -17,7 +17,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/io/vtk.hpp"

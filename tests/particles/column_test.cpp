@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -64,7 +64,7 @@ TEST_P(Column, ThatHasFallenCarriesItsWeights) {
   for (const int count : {2, 10}) {
     SCOPED_TRACE(count);
     auto setting = on_the_floor(0.02);
-    setting.law.gamma_min = 0;
+    setting.laws.film.gamma_min = 0;
     const double tolerance = tolerance_of(setting, count);
     Simulation simulation(setting, column(GetParam(), count, 0.01), 1);
     run(simulation, 1.5, [](const StepReport& report) { EXPECT_TRUE(report.converged); });

@@ -137,7 +137,7 @@ TEST_P(Conservation, InelasticContactsNeverGainEnergy) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Setting setting;
     setting.time_step = 0.02;
-    setting.law.gamma_min = 0;
+    setting.laws.film.gamma_min = 0;
     setting.solver.tolerance = 1e-9;
     Simulation simulation(setting, thrown(GetParam(), seed), 1);
     const auto& p = simulation.state().particles;

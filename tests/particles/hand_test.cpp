@@ -11,7 +11,7 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kRounding = 2e-11;
 Setting setting_of(double time_step, std::optional<double> gamma_min = {}) {
   Setting setting;
   setting.time_step = time_step;
-  setting.law.gamma_min = gamma_min;
+  setting.laws.film.gamma_min = gamma_min;
   setting.solver.tolerance = 1e-14;
   return setting;
 }

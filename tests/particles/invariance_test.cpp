@@ -31,7 +31,7 @@ Scene falling(int dimension) {
   if (dimension == 3) scene.setting.planes.push_back(plane_at_rest({0, 0, -8}, {0, 0, 1}));
   scene.setting.planes[0].velocity = {{{1, {0, 0.5, 0}}, {10, {0.1, 0, 0}}}};
   scene.setting.planes[0].angular_velocity = {0, 0, 0.02};
-  scene.setting.law.gamma_min = -1;
+  scene.setting.laws.film.gamma_min = -1;
   scene.setting.forces[3] = {{{1.234, {5, -1, 0}}, {9, {-2, 3, 0}}}};
   scene.setting.time_step = 0.05;
   scene.setting.solver.tolerance = 1e-13;
@@ -146,7 +146,7 @@ Scene big_lattice(int dimension) {
   scene.setting.planes = {piston, plane_at_rest({0, -1, 0}, {0, 1, 0}),
                           plane_at_rest({2.0 * side, 0, 0}, {-1, 0, 0})};
   scene.setting.gravity = {0, -1, 0};
-  scene.setting.law.gamma_min = -0.5;
+  scene.setting.laws.film.gamma_min = -0.5;
   scene.setting.time_step = 0.02;
   scene.setting.solver.max_iterations = 25;
   return scene;

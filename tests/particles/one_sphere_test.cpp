@@ -57,7 +57,7 @@ Scene scene_of(const Case& c, int dimension, Random& random) {
   s.gravity = weight / c.mass * normal;
   for (const auto& piece : c.pieces)
     s.forces[0].pieces.push_back({piece.until, (piece.value - weight) * normal});
-  if (std::isfinite(c.gamma_min)) s.law.gamma_min = c.gamma_min;
+  if (std::isfinite(c.gamma_min)) s.laws.film.gamma_min = c.gamma_min;
   s.time_step = c.step;
   // As far as the gap's rounding, of coordinates of up to 12, allows.
   s.solver.tolerance = 1e-14 / c.radius;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -59,10 +59,10 @@ Scene random_scene(Random& random) {
     s.planes.push_back(plane);
   }
   if (random.chance(0.3))
-    s.law.gamma_min = random.chance(0.3) ? 0 : -random.decades(-4, 1);
+    s.laws.film.gamma_min = random.chance(0.3) ? 0 : -random.decades(-4, 1);
   else if (random.chance(0.5)) {
-    s.law.viscosity = random.decades(-2, 1);
-    s.law.roughness = random.decades(-6, -2);
+    s.laws.film.viscosity = random.decades(-2, 1);
+    s.laws.film.roughness = random.decades(-6, -2);
   }
   return scene;
 }
@@ -108,7 +108,7 @@ TEST(RandomMotions, ObeyTheContactLaw) {
           const double other = pair.first < 0 ? std::numeric_limits<double>::infinity()
                                               : p.radii[static_cast<std::size_t>(pair.first)];
           const double lowest =
-              s.law.lower_bound(p.radii[static_cast<std::size_t>(pair.second)], other);
+              s.laws.film.lowest_gamma(p.radii[static_cast<std::size_t>(pair.second)], other);
           EXPECT_GE(pair.gamma, lowest);
           EXPECT_LE(pair.gamma, 0);
           solid += pair.gamma < 0 && pair.gamma == lowest ? 1 : 0;

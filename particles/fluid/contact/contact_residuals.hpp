@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/particles/fluid/contact/fluid_contact.hpp"
-#include "viscontact/particles/projection/solver_settings.hpp"
+#include "viscontact/particles/solver_settings.hpp"
 
 namespace viscontact::particles {
 

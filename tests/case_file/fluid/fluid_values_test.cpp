@@ -147,7 +147,7 @@ TEST(FluidCase, ContactLawHasTheViscosityOfTheFluid) {
   const auto with = [](const char* law) {
     return read_particles_text(
                changed(kDiscsInDisc, "end_time = 1.0", std::string("end_time = 1.0\n") + law))
-        .setting.law;
+        .setting.laws.film;
   };
   EXPECT_EQ(with("roughness = 1e-3").viscosity, 2.0);
   EXPECT_EQ(with("roughness = 1e-3\nviscosity = 5.0").viscosity, 5.0);

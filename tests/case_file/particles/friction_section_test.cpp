@@ -38,14 +38,14 @@ class FrictionSection : public ::testing::Test {
 
 TEST_F(FrictionSection, MakesParticlesTurn) {
   const auto c = read("gamma_min = -1.0", "[friction]\ncoefficient = 0.3", "");
-  ASSERT_TRUE(c.setting.friction.has_value());
-  EXPECT_EQ(c.setting.friction->coefficient, 0.3);
-  EXPECT_EQ(c.setting.friction->method, particles::FrictionMethod::kFixedPoint);
+  ASSERT_TRUE(c.setting.laws.friction.has_value());
+  EXPECT_EQ(c.setting.laws.friction->coefficient, 0.3);
+  EXPECT_EQ(c.setting.laws.friction->method, particles::FrictionMethod::kFixedPoint);
   EXPECT_THAT(c.particles.inertias, ElementsAre(0.25, 1));
   EXPECT_THAT(c.particles.angular_velocities, ElementsAre(0, 0));
   const auto convex =
       read("gamma_min = 0", "[friction]\ncoefficient = 0.0\nmethod = \"convex\"", "", 3);
-  EXPECT_EQ(convex.setting.friction->method, particles::FrictionMethod::kConvex);
+  EXPECT_EQ(convex.setting.laws.friction->method, particles::FrictionMethod::kConvex);
   EXPECT_THAT(convex.particles.inertias, ElementsAre(0.2, 0.8));
 }
 

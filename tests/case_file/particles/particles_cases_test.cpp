@@ -9,7 +9,7 @@
 #include <string>
 
 #include "viscontact/case_file/particles/particles_case.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 namespace viscontact::case_file {
 namespace {

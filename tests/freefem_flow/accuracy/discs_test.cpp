@@ -17,7 +17,7 @@
 #include "tests/freefem_flow/accuracy/exact_flows.hpp"
 #include "tests/freefem_flow/placed_flow.hpp"
 #include "tests/oracles/discs/reference_discs.hpp"
-#include "viscontact/particles/contact/contact_law.hpp"
+#include "viscontact/particles/contact/film_law.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
@@ -140,7 +140,7 @@ struct Approach {
   Body at_contact;  // disc 0 where the gap is 0
   double x, y;      // direction in which the gap opens
   std::vector<Body> others;
-  double r_first;  // of lower_bound_in_fluid
+  double r_first;  // of FilmLaw::lowest_gamma
 };
 
 TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
@@ -153,7 +153,7 @@ TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
       {"smaller disc", DiscDomain{{}, 8}, {-1, 0}, -1, 0, {{0.5, 0, 0.5}}, 0.5},
       {"round wall", DiscDomain{{}, 3}, {2, 0}, -1, 0, {}, -3}};
   for (const auto& [name, domain, at_contact, x, y, others, r_first] : approaches) {
-    const double r_eff = particles::ContactLaw::effective_radius(1, r_first);
+    const double r_eff = particles::FilmLaw::effective_radius(1, r_first);
     const double gap = 0.002 * r_eff;
     // Simpson's rule in ln q; R q is nearly q^(-1/2), so that its error is below 1e-4.
     constexpr std::array kWeights = {1, 4, 2, 4, 1};
@@ -170,11 +170,12 @@ TEST(Disc, TheForceOfItsApproachAddsUpToGammaMin) {
       const auto forces = flow.solver().quantities().fluid_forces;
       impulse += kWeights[i] * step / 3 * q * (forces[0] * x + forces[1] * y);
     }
-    particles::ContactLaw law;
+    particles::FilmLaw law;
     law.viscosity = 1;
     law.roughness = gap / 2;
-    const double gamma_min =
-        law.lower_bound_in_fluid(particles::FilmShape::kDiscs, 1, r_first, 10 * gap);
+    law.shape = particles::FilmShape::kDiscs;
+    law.begins_at = 10 * gap;
+    const double gamma_min = law.lowest_gamma(1, r_first);
     EXPECT_GT(-impulse / gamma_min, 1.003) << name;
     EXPECT_LT(-impulse / gamma_min, 1.012) << name;
   }

@@ -20,8 +20,8 @@ constexpr double kGravity = 9.81;
 Setting setting_of(double h, double friction = 0) {
   Setting setting;
   setting.time_step = h;
-  setting.law.gamma_min = 0;
-  setting.friction = FrictionLaw{friction};
+  setting.laws.film.gamma_min = 0;
+  setting.laws.friction = FrictionLaw{friction};
   setting.solver.tolerance = 1e-10;
   return setting;
 }
@@ -166,7 +166,7 @@ TEST(RigidBodiesInACell, ABodyThatCrossesThePeriodKeepsItsShapeAndMeetsOthersThe
   add_rotation(state.particles);
   Setting setting;
   setting.time_step = 0.01;
-  setting.law.gamma_min = 0;
+  setting.laws.film.gamma_min = 0;
   setting.domain = BoxDomain{.from = {0, 0}, .to = {10, 4}, .periodic = {true, false}};
   state.particles.cell = cell_of(setting.domain);
   add_rigid_body(state.particles, {{0, 1}});

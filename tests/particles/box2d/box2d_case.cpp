@@ -49,7 +49,7 @@ Setting box(int count) {
   plane({width, 0, 0}, {-1, 0, 0});
   setting.gravity = {0, -1, 0};
   setting.time_step = 0.05;
-  setting.law.gamma_min = -2;
+  setting.laws.film.gamma_min = -2;
   return setting;
 }
 

@@ -1,6 +1,4 @@
 // The walls of a domain as obstacles: their order, gaps and normals, and discs that stay in them.
-#include "viscontact/particles/domain/obstacles.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +6,8 @@
 
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -77,7 +76,7 @@ TEST(Obstacles, ContactOnAnAxisHasOneComponent) {
   const auto pair = contact_of<1>(state.particles, {0, 1, -0.5, 0.25}, places);
   EXPECT_EQ(pair.gap, 1);
   EXPECT_EQ(pair.normal[0], 1);
-  EXPECT_EQ(pair.gamma, -0.5);
+  EXPECT_EQ(pair.lowest, -0.5);
   EXPECT_EQ(pair.impulse, 0.25);
   const auto lid = contact_of<1>(state.particles, {-3, 1}, places);
   EXPECT_EQ(lid.first, -1);
@@ -91,7 +90,7 @@ Simulation discs_in_a_circle(double time_step) {
   Setting setting;
   setting.domain = DiscDomain{{10, -20, 0}, 6};
   setting.gravity = {0.3, -1, 0};
-  setting.law.gamma_min = 0;
+  setting.laws.film.gamma_min = 0;
   setting.time_step = time_step;
   Random random(7);
   State state = random_cloud(
@@ -121,7 +120,7 @@ TEST(Obstacles, DiscSwingsInACircleLikeAPendulum) {
   Setting setting;
   setting.domain = DiscDomain{{0, 0, 0}, 5};
   setting.gravity = {0, -1, 0};
-  setting.law.gamma_min = 0;
+  setting.laws.film.gamma_min = 0;
   setting.time_step = 1e-3;
   State state = no_particles(2);
   add_particle(state, {length * std::sin(angle), -length * std::cos(angle), 0}, 1, 2);
@@ -141,7 +140,7 @@ TEST(Obstacles, FastDiscDoesNotLeaveACircle) {
   for (const Vector& start : {Vector{0, 0, 0}, Vector{0, 3, 0}, Vector{-3.9, 0, 0}}) {
     Setting setting;
     setting.domain = DiscDomain{{0, 0, 0}, 5};
-    setting.law.gamma_min = 0;
+    setting.laws.film.gamma_min = 0;
     setting.time_step = 1;
     State state = no_particles(2);
     add_particle(state, start, 1, 2, {30, 8, 0});

@@ -15,7 +15,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/restart.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
@@ -103,7 +103,7 @@ TEST(ClosePairsInPeriod, ListTwoImagesOfOneParticle) {
 Simulation lively_discs(const Vector& shift) {
   Setting setting;
   setting.domain = box(12, 11, true, true);
-  setting.law.gamma_min = -0.5;
+  setting.laws.film.gamma_min = -0.5;
   setting.time_step = 0.02;
   Random random(11);
   State state = random_cloud(
@@ -160,7 +160,7 @@ TEST(PeriodicSimulation, KeepsMomentumAndGapsAcrossTheSides) {
 TEST(PeriodicSimulation, KeepsGammaWithThePair) {
   Setting setting;
   setting.domain = box(20, 20, true, false);
-  setting.law.gamma_min = -100;
+  setting.laws.film.gamma_min = -100;
   setting.time_step = 0.25;
   State state = no_particles(2);
   add_particle(state, {15, 10, 0}, 1, 1, {2, 0, 0});
@@ -183,7 +183,7 @@ TEST(PeriodicSimulation, TwoImagesOfOneParticleTouchAnother) {
   // A disc lies on the floor, and another one falls between it and its image.
   Setting setting;
   setting.domain = box(4.2, 50, true, false);
-  setting.law.gamma_min = 0;
+  setting.laws.film.gamma_min = 0;
   setting.gravity = {0, -1, 0};
   setting.time_step = 0.05;
   State state = no_particles(2);

@@ -116,7 +116,7 @@ Problem<2> packed_lattice(int side, Random& random) {
     c.first = first;
     c.second = second;
     c.normal = normal;
-    c.gamma = random.chance(0.3) ? -random.uniform(0, 1) : 0;
+    c.lowest = random.chance(0.3) ? -random.uniform(0, 1) : 0;
     problem.contacts.push_back(c);
   };
   for (int y = 0; y < side; ++y)
@@ -131,6 +131,7 @@ Problem<2> packed_lattice(int side, Random& random) {
       // Twice the same, as two films beside each other would be: no numbers tell their shares.
       if (x > 0 && y > 0) contact(k - side - 1, k, {std::sqrt(0.5), std::sqrt(0.5)});
     }
+  problem.set_w();
   return problem;
 }
 
@@ -152,7 +153,7 @@ TEST(Projection, OfDuplicateContactsHasOneVelocityAndTheirImpulsesAddUp) {
     // Each contact in two halves.
     const auto contacts = problem.contacts.size();
     for (std::size_t c = 0; c < contacts; ++c) {
-      problem.contacts[c].gamma /= 2;
+      problem.contacts[c].lowest /= 2;
       problem.contacts.push_back(problem.contacts[c]);
     }
     const auto twice = answer_of(problem, 1e-12);
@@ -206,6 +207,7 @@ TEST(Projection, ThatCannotBeSaysSo) {
     contact.allowed = 1e-6;
     problem.contacts.push_back(contact);
   }
+  problem.set_w();
   ThreadPool pool(1);
   ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<2> factor;

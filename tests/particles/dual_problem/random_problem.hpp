@@ -17,6 +17,13 @@ struct Problem {
   std::vector<Contact<D>> contacts;
   std::vector<double> displacements, mobilities;
 
+  /// Sets the w of each contact, which follows from the mobilities.
+  void set_w() {
+    for (auto& contact : contacts)
+      contact.w = (contact.first < 0 ? 0 : mobilities[index_of(contact.first)]) +
+                  mobilities[index_of(contact.second)];
+  }
+
   DenseProblem dense() const {
     const auto rows = static_cast<Eigen::Index>(contacts.size());
     const auto columns = static_cast<Eigen::Index>(displacements.size());
@@ -26,7 +33,7 @@ struct Problem {
     for (Eigen::Index c = 0; c < rows; ++c) {
       const auto& contact = contacts[static_cast<std::size_t>(c)];
       result.gap[c] = contact.gap;
-      result.gamma[c] = contact.gamma;
+      result.gamma[c] = contact.lowest;
       for (int d = 0; d < D; ++d) {
         const double n = contact.normal[static_cast<std::size_t>(d)];
         if (contact.first >= 0) result.g(c, contact.first * D + d) = -n;
@@ -59,10 +66,11 @@ Problem<D> random_problem(Random& random) {
     const Vector normal = random.direction(D);
     std::copy_n(normal.begin(), D, contact.normal.begin());
     contact.gap = random.chance(0.5) ? 0 : random.uniform(0, 0.5);
-    contact.gamma = random.chance(0.5) ? 0 : -random.decades(-3, 1);
-    contact.impulse = random.chance(0.5) ? 0 : random.uniform(contact.gamma, 1);
+    contact.lowest = random.chance(0.5) ? 0 : -random.decades(-3, 1);
+    contact.impulse = random.chance(0.5) ? 0 : random.uniform(contact.lowest, 1);
     problem.contacts.push_back(contact);
   }
+  problem.set_w();
   return problem;
 }
 

@@ -10,7 +10,7 @@
 
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::particles {

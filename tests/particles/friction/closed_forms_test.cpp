@@ -20,8 +20,8 @@ constexpr double kGravity = 9.81;
 Setting setting_of(double h, double friction, std::optional<double> gamma_min = 0.0) {
   Setting setting;
   setting.time_step = h;
-  setting.law.gamma_min = gamma_min;
-  setting.friction = FrictionLaw{friction};
+  setting.laws.film.gamma_min = gamma_min;
+  setting.laws.friction = FrictionLaw{friction};
   setting.solver.tolerance = 1e-12;
   return setting;
 }
@@ -161,7 +161,7 @@ TEST_P(Friction, ATurningOrMovingPlaneDragsWhatLiesOnIt) {
 TEST_P(Friction, TheConvexRelaxationLiftsSlidingContacts) {
   // After a step of sliding at v_t the gap is h mu_s |v_t|, physics.md (5.9).
   auto setting = incline(0.01, 0.3, 0);
-  setting.friction->method = FrictionMethod::kConvex;
+  setting.laws.friction->method = FrictionMethod::kConvex;
   Simulation simulation(setting, on_floor(GetParam(), {5, 0, 0}), 1);
   simulation.step(1);
   const auto& p = simulation.state().particles;

@@ -19,8 +19,8 @@ struct Units {
 Setting convex_setting(double h, double mu_s, double gamma_min = 0) {
   Setting setting;
   setting.time_step = h;
-  setting.law.gamma_min = gamma_min;
-  setting.friction = FrictionLaw{mu_s, FrictionMethod::kConvex};
+  setting.laws.film.gamma_min = gamma_min;
+  setting.laws.friction = FrictionLaw{mu_s, FrictionMethod::kConvex};
   return setting;
 }
 

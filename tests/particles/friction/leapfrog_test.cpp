@@ -31,7 +31,7 @@ Simulation release(double h, Scheme scheme) {
 double released_from_solid(double h, Scheme scheme) {
   auto before = release(h, scheme);
   auto setting = before.setting();
-  setting.law.gamma_min = -2;
+  setting.laws.film.gamma_min = -2;
   Simulation simulation(setting, before.state(), 1);
   run(simulation, 10);
   return simulation.state().particles.position(0)[1] - 1;
@@ -107,7 +107,7 @@ TEST(Leapfrog, FreeFallIsExactAlsoInStepsThatAFastDiscDivides) {
   Setting setting;
   setting.time_step = 0.02;
   setting.scheme = Scheme::kLeapfrog;
-  setting.law.gamma_min = 0;
+  setting.laws.film.gamma_min = 0;
   setting.gravity = {0, -1, 0};
   Simulation simulation(setting, state, 1);
   run(simulation, 0.4, [](const StepReport& report) { EXPECT_TRUE(report.converged); });

@@ -33,8 +33,8 @@ State tower(int width, int rows) {
 Setting with_gravity(double friction) {
   Setting setting;
   setting.time_step = 0.01;
-  setting.law.gamma_min = 0;
-  if (friction > 0) setting.friction = FrictionLaw{friction};
+  setting.laws.film.gamma_min = 0;
+  if (friction > 0) setting.laws.friction = FrictionLaw{friction};
   setting.gravity = {0, -1, 0};
   setting.planes = {plane_at_rest({}, {0, 1, 0})};
   return setting;

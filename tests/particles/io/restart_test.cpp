@@ -140,10 +140,13 @@ TEST_F(RestartFile, OfAFluidIsReadAsItWasWritten) {
 
 TEST_F(RestartFile, OfFrictionHasWhatTheSolidsCarried) {
   State state = disc_on_plane(-0.5);
-  state.walls[0].friction = {0.125, 0, 0};
-  state.walls[0].carried = 1.0 / 3;
-  EXPECT_EQ(read(write_restart(state)).walls, state.walls);
-  state.walls[0].carried = -1;
+  PairMemory memory;
+  memory.set_friction({0.125, 0, 0});
+  memory[Remembered::kCarried] = 1.0 / 3;
+  state.memories.set(state.walls[0].memory, memory);
+  const auto again = read(write_restart(state));
+  EXPECT_EQ(again.memories.of(again.walls[0].memory), memory);
+  state.memories.make(state.walls[0].memory)[Remembered::kCarried] = -1;
   EXPECT_THAT(bad_input([&] { read(write_restart(state)); }),
               HasSubstr("is not a whole restart file"));
 }
@@ -178,8 +181,8 @@ TEST_F(RestartFile, WithListsOfOtherLengthsIsRefused) {
 
 TEST_F(RestartFile, OfALaterVersionIsRefused) {
   auto text = write_restart(disc_on_plane(-0.5));
-  text.replace(text.find("version 6"), 9, "version 7");
-  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 6 can be read"));
+  text.replace(text.find("version 6"), 9, "version 8");
+  EXPECT_THAT(bad_input([&] { read(text); }), HasSubstr("versions 1 to 7 can be read"));
 }
 
 TEST_F(RestartFile, WithoutAFiniteGammaIsRefused) {

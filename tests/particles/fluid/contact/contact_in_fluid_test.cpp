@@ -107,7 +107,7 @@ TEST(ContactInFluid, OfASphereThatFallsHasTheImpulseOfTheFilmBelowTheThreshold) 
 
 TEST(ContactInFluid, StopsAtSolidContact) {
   auto system = sphere_on_floor(0, 0.1);
-  system.setting.law.gamma_min = -2;
+  system.setting.laws.film.gamma_min = -2;
   system.setting.forces[0] = {{{1, {-7, 0, 0}}, {1e9, {7, 0, 0}}}};
   auto simulation = system.simulation(constant_drag(100));
   run(simulation, 1);

@@ -56,8 +56,8 @@ TEST(RoughContactInFluid, OfASphereIsThatOfTheThresholdModel) {
     auto system = in_fluid(1, 10, h, threshold);
     add_particle(system.state, {2, 0, 0}, 1, mass);
     system.setting.forces[0] = {{{2, {-200, 0, 0}}, {4, {200, 0, 0}}}};
-    system.setting.law.viscosity = viscosity;
-    system.setting.law.roughness = 0.005;
+    system.setting.laws.film.viscosity = viscosity;
+    system.setting.laws.film.roughness = 0.005;
     auto simulation = system.simulation(drag);
     Contact direct, expected;
     for (std::size_t row = 1; row < reduced.rows.size(); ++row) {
@@ -78,20 +78,24 @@ TEST(RoughContactInFluid, GammaMinIsWhereTheFilmIsTwiceTheRoughness) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {
     const double mu = random.decades(-5, 5), r = random.decades(-5, 5);
-    ContactLaw law;
+    FilmLaw law;
+    const auto lowest = [&](FilmShape shape, double begins_at) {
+      law.shape = shape;
+      law.begins_at = begins_at;
+      return law.lowest_gamma(r, std::numeric_limits<double>::infinity());
+    };
     law.viscosity = mu;
     law.roughness = r * random.decades(-6, -2);
     const double from = 2 * *law.roughness * random.decades(0.1, 3);
-    const double infinite = std::numeric_limits<double>::infinity();
     const double k = 6 * kPi * mu * r * r;
-    const double of_sphere = law.lower_bound_in_fluid(FilmShape::kSpheres, r, infinite, from);
+    const double of_sphere = lowest(FilmShape::kSpheres, from);
     EXPECT_NEAR(from * std::exp(of_sphere / k) / (2 * *law.roughness), 1, 1e-12);
     // Of discs Gamma(q) = -c/sqrt(q).
     const double c = 6 * std::sqrt(2.0) * kPi * mu * std::pow(r, 1.5);
-    const double of_disc = law.lower_bound_in_fluid(FilmShape::kDiscs, r, infinite, from);
+    const double of_disc = lowest(FilmShape::kDiscs, from);
     EXPECT_NEAR(std::pow(c / (c / std::sqrt(from) - of_disc), 2) / (2 * *law.roughness), 1, 1e-12);
-    EXPECT_EQ(law.lower_bound_in_fluid(FilmShape::kDiscs, r, infinite, 2 * *law.roughness), 0);
-    EXPECT_EQ(law.lower_bound_in_fluid(FilmShape::kSpheres, r, infinite, *law.roughness), 0);
+    EXPECT_EQ(lowest(FilmShape::kDiscs, 2 * *law.roughness), 0);
+    EXPECT_EQ(lowest(FilmShape::kSpheres, *law.roughness), 0);
   }
 }
 
@@ -105,8 +109,8 @@ std::array<double, 3> gammas(double length, double mass, double time) {
     auto system = in_fluid(2, 8 * length, 0.01 * time, 0.05 * length);
     system.setting.domain = std::move(domain);
     system.setting.fluid->viscosity = 0.5 * viscosity;
-    system.setting.law.viscosity = 0.5 * viscosity;
-    system.setting.law.roughness = 0.005 * length;
+    system.setting.laws.film.viscosity = 0.5 * viscosity;
+    system.setting.laws.film.roughness = 0.005 * length;
     return system;
   };
   auto box = rough(BoxDomain{{0, 0}, {8 * length, 8 * length}});

@@ -65,7 +65,7 @@ TEST(InPlane, SpheresOnAnAxisAreDiscsBetweenTwoWalls) {
   playback.radii = {1, 2};
   playback.frames.resize(1);
   playback.frames[0].positions = {3, 6};
-  // Side, floor and lid of a cylinder, as obstacles.hpp has them.
+  // Side, floor and lid of a cylinder, as domain.hpp has them.
   playback.frames[0].planes = {{.point = {0, -5, 0}, .normal = {0, 1, 0}},
                                {.point = {0, 0, 0}, .normal = {1, 0, 0}},
                                {.point = {10, 0, 0}, .normal = {-1, 0, 0}}};

@@ -1,8 +1,6 @@
 // Makes obstacles of the walls of a domain. Lengths are in the unit of the case. A change must keep
 // the order, which is the numbering of obstacles in files.
-#include "viscontact/particles/domain/obstacles.hpp"
-
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -41,12 +39,6 @@ std::vector<Plane> walls(const CylinderDomain& cylinder) {
 
 std::vector<Plane> obstacles_of(const Domain& domain) {
   return std::visit([](const auto& shape) { return walls(shape); }, domain);
-}
-
-std::vector<Plane> obstacles_of(const Setting& setting) {
-  auto obstacles = obstacles_of(setting.domain);
-  obstacles.insert(obstacles.end(), setting.planes.begin(), setting.planes.end());
-  return obstacles;
 }
 
 }  // namespace viscontact::particles

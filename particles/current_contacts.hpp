@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
+#include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
@@ -30,7 +31,7 @@ struct CurrentContact {
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle
-/// and -1, -2, ... for the first, second obstacle (obstacles.hpp).
+/// and -1, -2, ... for the first, second obstacle (domain.hpp).
 std::pair<std::int32_t, std::int32_t> ids_of(const Particles& particles,
                                              const CurrentContact& contact);
 

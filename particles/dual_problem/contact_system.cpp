@@ -1,6 +1,6 @@
 // Numbers the bodies, joins islands, and passes both to the solver. Equations and units are those
 // of contact_system.hpp.
-#include "viscontact/particles/projection/contact_system.hpp"
+#include "viscontact/particles/dual_problem/contact_system.hpp"
 
 #include <algorithm>
 

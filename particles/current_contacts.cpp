@@ -1,11 +1,11 @@
 // Contacts and overlaps of a state, in the units of the case (current_contacts.hpp).
-#include "viscontact/particles/contact/current_contacts.hpp"
+#include "viscontact/particles/current_contacts.hpp"
 
 #include <algorithm>
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/domain/obstacles.hpp"
+#include "viscontact/particles/domain/domain.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
@@ -28,14 +28,15 @@ double smallest_gap_of_images(const Particles& p) {
   return smallest;
 }
 
-ContactFriction friction_of(const Setting& setting, const Pair& pair) {
+ContactFriction friction_of(const Setting& setting, const PairMemory& memory) {
   // Solvers project friction on its bound, so that it reaches the bound within rounding errors. The
   // sum over the parts of a divided step reaches it if its direction did not change.
   constexpr double kRounding = 1e-9;
-  if (!setting.friction || !(pair.carried > 0)) return ContactFriction::kNone;
-  const double bound = setting.friction->coefficient * pair.carried;
-  return norm(pair.friction) >= (1 - kRounding) * bound ? ContactFriction::kSlides
-                                                        : ContactFriction::kSticks;
+  const double carried = memory[Remembered::kCarried];
+  if (!setting.laws.friction || !(carried > 0)) return ContactFriction::kNone;
+  const double bound = setting.laws.friction->coefficient * carried;
+  return norm(memory.friction()) >= (1 - kRounding) * bound ? ContactFriction::kSlides
+                                                            : ContactFriction::kSticks;
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
     for (const auto& pair : *pairs)
       if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
         contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
-                            friction_of(setting, pair)});
+                            friction_of(setting, state.memories.of(pair.memory))});
   return contacts;
 }
 

@@ -1,0 +1,34 @@
+// Restitution of solids that touch through a film, docs/physics.md (5.15) (Poisson's law: what the
+// solids give back is a share of the impulse that they took). Units are those of film_law.hpp.
+#pragma once
+
+#include <algorithm>
+
+namespace viscontact::particles {
+
+/// A blow has two phases. In the compression the film takes what it can, from gamma to gamma_min, and
+/// the solids take the rest s of the impulse p:
+///
+///     s = max(p - (gamma - gamma_min), 0),   gamma_c = max(gamma - p, gamma_min).
+///
+/// In the restitution the solids give back e_d s, and the film is pulled open, which takes up to
+/// -gamma_c. The impulse p' of this phase obeys
+///
+///     p' >= gamma_c + e_d s,   opening velocity >= 0,   one of them with equality,
+///     gamma after the blow = gamma_c + e_d s - p'.
+struct RestitutionLaw {
+  double coefficient = 0;  ///< e_d of the solids, 0 to 1 [1]; 0: they give nothing back
+
+  bool is_on() const { return coefficient > 0; }  ///< whether solids rebound
+
+  /// s >= 0 [M L/T] of the impulse `p` of the compression on a film that can take up `capacity` =
+  /// gamma - gamma_min >= 0 [M L/T].
+  static double solid_impulse(double p, double capacity) { return std::max(p - capacity, 0.0); }
+
+  /// gamma_c + e_d s [M L/T], the lower bound of p'.
+  double lowest_in_restitution(double gamma_c, double solid_impulse) const {
+    return gamma_c + coefficient * solid_impulse;
+  }
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,108 @@
+// What contact laws remember of a pair besides gamma, declared once: the restart file, contacts.csv,
+// the frames and the page learn it from kMemoryFields. To add a memory, add a row there and its place
+// in Remembered. Units are those of the case.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "viscontact/particles/vector.hpp"
+
+namespace viscontact::particles {
+
+/// The places in a PairMemory, in the order of kMemoryFields.
+enum class Remembered : std::uint8_t {
+  kFrictionX,  ///< impulse of friction on `second` in the last step [M L/T], tangential: the first
+  kFrictionY,  ///< guess of the next one
+  kFrictionZ,
+  kCarried,  ///< part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
+             ///< docs/physics.md (5.7), which bounds the friction
+};
+
+/// How files know a number that a law remembers.
+struct MemoryField {
+  std::string_view name;  ///< in restart files and as a column
+  bool is_impulse;        ///< of the last step: a step that is divided sums it over its parts
+  bool is_shown;          ///< whether contacts.csv, the frames and the page have it
+};
+
+/// All numbers that laws remember. Restart files store them by name.
+inline constexpr std::array kMemoryFields = {
+    MemoryField{"friction_x", true, false},
+    MemoryField{"friction_y", true, false},
+    MemoryField{"friction_z", true, false},
+    MemoryField{"carried", true, false},
+};
+
+/// The numbers of one pair; all are 0 where nothing is remembered.
+class PairMemory {
+ public:
+  double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
+  double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
+  /// All numbers, in the order of kMemoryFields.
+  std::array<double, kMemoryFields.size()>& values() { return values_; }
+  const std::array<double, kMemoryFields.size()>& values() const { return values_; }
+
+  /// Impulse of friction [M L/T].
+  Vector friction() const { return {values_[0], values_[1], values_[2]}; }
+  /// Sets the impulse of friction [M L/T].
+  void set_friction(const Vector& p) { std::copy_n(p.begin(), 3, values_.begin()); }
+  /// True if all members are equal.
+  bool operator==(const PairMemory&) const = default;
+
+ private:
+  std::array<double, kMemoryFields.size()> values_{};
+};
+
+/// The memories of the pairs of a state. A pair has a row here only if a law remembers something of
+/// it, so that cases without such laws need no room for them.
+class PairMemories {
+ public:
+  /// The number of no row.
+  static constexpr std::int32_t kNone = -1;
+
+  /// The memory with number `row` (Pair::memory); zeros if it is kNone.
+  const PairMemory& of(std::int32_t row) const {
+    static constexpr PairMemory kZeros{};
+    return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];
+  }
+  /// The same to be changed. If `row` is kNone, a row of zeros is made and `row` becomes its number.
+  PairMemory& make(std::int32_t& row) {
+    if (row == kNone) {
+      row = static_cast<std::int32_t>(rows_.size());
+      rows_.emplace_back();
+    }
+    return rows_[static_cast<std::size_t>(row)];
+  }
+  /// Sets the memory of a pair, which has no row afterwards if `memory` is zero and it had none.
+  void set(std::int32_t& row, const PairMemory& memory) {
+    if (row != kNone || !(memory == PairMemory{})) make(row) = memory;
+  }
+  bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
+
+  /// Drops the rows of pairs that are in none of the lists, and those of zeros. The lists hold Pair.
+  template <class... Lists>
+  void keep_only(Lists&... lists) {
+    if (rows_.empty()) return;
+    PairMemories kept;
+    const auto keep = [&](auto& pairs) {
+      for (auto& pair : pairs) {
+        const auto memory = of(pair.memory);
+        pair.memory = kNone;
+        kept.set(pair.memory, memory);
+      }
+    };
+    (keep(lists), ...);
+    *this = std::move(kept);
+  }
+
+ private:
+  std::vector<PairMemory> rows_;
+};
+
+}  // namespace viscontact::particles

@@ -1,0 +1,20 @@
+// What follows from the setting of a case (setting.hpp).
+#include "viscontact/particles/setting.hpp"
+
+namespace viscontact::particles {
+
+PeriodicCell cell_of(const Setting& setting) {
+  auto cell = cell_of(setting.domain);
+  if (!setting.fluid) return cell;
+  if (const auto* flow = std::get_if<LinearFlow>(&setting.fluid->boundary))
+    cell.gradient = flow->gradient;
+  return cell;
+}
+
+std::vector<Plane> obstacles_of(const Setting& setting) {
+  auto obstacles = obstacles_of(setting.domain);
+  obstacles.insert(obstacles.end(), setting.planes.begin(), setting.planes.end());
+  return obstacles;
+}
+
+}  // namespace viscontact::particles

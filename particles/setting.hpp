@@ -1,0 +1,60 @@
+// What moves the particles of a simulation, and how their motion is computed: the content of a case
+// file. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their states
+// read it. Lengths, masses and times are in any one consistent system of units.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "viscontact/particles/contact/contact_laws.hpp"
+#include "viscontact/particles/domain/domain.hpp"
+#include "viscontact/particles/domain/periods.hpp"
+#include "viscontact/particles/domain/plane.hpp"
+#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/given_motion.hpp"
+#include "viscontact/particles/links/links.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/solver_settings.hpp"
+
+namespace viscontact::particles {
+
+/// How the velocities of (5.3) are read, docs/physics.md (5.10).
+enum class Scheme {
+  kEuler,     ///< u^n is the velocity at time t^n; positions are of first order
+  kLeapfrog,  ///< u^n is the velocity half a step before t^n; of second order away from impacts
+};
+
+/// What moves the particles, and how their motion is computed. A case file's values are checked
+/// when it is read. The keys of the maps must be numbers of existing particles.
+struct Setting {
+  std::vector<Plane> planes;  ///< rigid planes, at rest or moving, that particles cannot cross
+  /// Holds the particles, and the fluid if there is one. Its walls are obstacles.
+  Domain domain;
+  Vector gravity{};  ///< acceleration, on all particles [L/T^2]
+  /// Forces on single particles, by the number of the particle, in addition to gravity [M L/T^2].
+  std::map<std::int32_t, PiecewiseConstant> forces;
+  ContactLaws
+      laws;     ///< of each pair; friction needs particles that turn (add_rotation), and no fluid
+  Links links;  ///< hinges, springs and arms; need particles that turn, except on an axis
+  double time_step = 0;            ///< h [T], > 0
+  Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
+  SolverSettings solver;           ///< tolerances and limits of the projection
+  std::optional<Fluid> fluid;      ///< around the particles; needs a domain
+  /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
+  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
+  std::map<std::int32_t, PiecewiseConstant> torques;
+  /// Motions of the particles that are driven through the fluid, by the number of the particle. A
+  /// driven particle has no entry in `forces`, and gravity does not change its motion.
+  std::map<std::int32_t, GivenMotion> given_motions;
+};
+
+/// The cell of the domain, with the mean velocity gradient of the fluid.
+PeriodicCell cell_of(const Setting& setting);
+
+/// All obstacles of a case: the walls of its domain, then its planes. Files number them -1, -2, ...
+/// in this order.
+std::vector<Plane> obstacles_of(const Setting& setting);
+
+}  // namespace viscontact::particles

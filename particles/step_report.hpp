@@ -1,0 +1,47 @@
+// What is recorded of one step of a simulation, for steps.csv and run.json. Lengths, masses and times
+// are in the units of the case.
+#pragma once
+
+#include <cstddef>
+
+namespace viscontact::particles {
+
+/// Three estimates of errors, each relative to the largest result, >= 0; < 0: not made.
+struct RelativeErrors {
+  double best = -1;         ///< of the most accurate results, extrapolated from two meshes
+  double of_one_mesh = -1;  ///< of the results on the mesh of the placement, which move particles
+  double of_penalty = -1;   ///< the part of both that is the error of the penalty
+};
+
+/// What is recorded of one step in a fluid.
+struct FluidStepReport {
+  double dissipation = 0;  ///< of the flow [M L^2/T^3], in two dimensions per unit length
+  /// Over the viscosity of the fluid; FlowQuantities says when it is 0.
+  double apparent_viscosity = 0;
+  double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
+  /// Of the velocities of the particles; < 0 if they were not estimated in this step.
+  RelativeErrors velocity_errors;
+  RelativeErrors force_errors;  ///< the same of the forces of the fluid
+};
+
+/// What is recorded of one step.
+struct StepReport {
+  double time = 0;           ///< at the end of the step [T]
+  std::size_t contacts = 0;  ///< number of contacts in the projection
+  std::size_t glued = 0;     ///< number of contacts with gamma < 0 after the step
+  int iterations = 0;        ///< sum over all parts of the step
+  /// Largest residual |min(D + h G v, w (p - gamma))| of a close pair, divided by the mean radius.
+  double residual = 0;
+  /// Largest residual divided by w and by the impulses at work on the particles of the contact.
+  double impulse_residual = 0;
+  bool converged = true;  ///< the residuals of all contacts are within the tolerances
+  /// Largest overlap -(D + h G v) after the step, divided by the mean radius. It is computed from
+  /// linearised gaps; no gap is smaller than its linearised gap.
+  double largest_overlap = 0;
+  int parts = 0;  ///< number of parts that the step was divided into, 1 to 2^kMostHalvings
+  /// Number of contacts that turn further than kLargestTurn (contact.hpp) in the smallest parts.
+  std::size_t unresolved = 0;
+  FluidStepReport fluid{};  ///< zeros without a fluid
+};
+
+}  // namespace viscontact::particles
