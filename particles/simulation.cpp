@@ -12,6 +12,7 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/impacts/impacts.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
@@ -83,6 +84,9 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   return glued;
 }
 
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
 void Simulation::move(double h) {
   auto& p = state_.particles;
   pool_->for_blocks(p.positions.size(), [&](std::size_t begin, std::size_t end) {
@@ -121,6 +125,7 @@ ProjectionResult Simulation::project(double h, double next) {
   }
   for (;;) {
     rebuild_wall_list(state_, planes, margin, *pool_);
+    find_impacts<D>(h, next);
     StepProjection<D> projection(state_, h, planes, displacements_, mobilities_, *pool_);
     const ConstraintStep constraints{setting_.laws,
                                      obstacles_,
@@ -134,13 +139,18 @@ ProjectionResult Simulation::project(double h, double next) {
                                      &setting_.links,
                                      link_forces_};
     if (has_constraints()) projection.add_constraints(constraints);
+    if (impacts<D>()) projection.follow(*impacts<D>());
     auto projected = projection.solve(setting_.solver, mean_radius_);
     double gone = 0;
     for (const auto body : projected.bodies) gone = std::max(gone, length_of(index_of(body)));
+    if (impacts<D>())
+      for (const auto body : impacts<D>()->touched())
+        gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists cover, so the step is repeated with
     // longer lists. The loop ends because skins and margin only grow.
     margin = std::max(margin, 2 * gone);
+    undo_impacts();
     rebuild_neighbour_list(state_, displacements_, *pool_);
     move_freely<D>(h, next);
   }
@@ -173,6 +183,36 @@ void Simulation::add_works_of_arms(double h) {
   }
 }
 
+/// Finds the blows of a part of a step, whose displacements are those without contacts.
+template <int D>
+void Simulation::find_impacts(double h, double next) {
+  impacts<D>().reset();
+  if (!setting_.laws.restitution.is_on()) return;
+  const ImpactStep step{setting_.laws,
+                        obstacles_,
+                        state_.time,
+                        next,
+                        h,
+                        kick_length(h),
+                        setting_.solver.tolerance * mean_radius_,
+                        displacements_,
+                        mobilities_,
+                        turns_,
+                        turn_mobilities_,
+                        body_steps_};
+  impacts<D>() = std::make_unique<Impacts<D>>(state_, step);
+  impacts<D>()->run();
+}
+
+/// Takes back what the blows changed in the state, before a part of a step is computed anew.
+void Simulation::undo_impacts() {
+  if (impacts_in_plane_) impacts_in_plane_->undo();
+  if (impacts_in_space_) impacts_in_space_->undo();
+  impacts_in_plane_.reset();
+  impacts_in_space_.reset();
+}
+
+template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
   report.glued = remember(projected, h);
@@ -182,6 +222,13 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   state_.link_forces = link_forces_;
   add_works_of_arms(h);
   move(h);
+  if (impacts<D>()) {
+    impacts<D>()->add_late_changes(state_.particles);
+    if (!body_steps_.empty()) place_members(state_.particles);
+    const auto& rebounds = impacts<D>()->rebounds();
+    rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
+    impacts<D>().reset();
+  }
   state_.time = next;
   if (setting_.scheme == Scheme::kLeapfrog) state_.velocity_lag = h / 2;
   ++report.parts;
@@ -208,6 +255,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
       !(std::max(projected.link_residual, -projected.smallest_gap) <= kBroken * mean_radius_))
     throw_contradiction(projected, next);
   if (projected.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
+    undo_impacts();
     if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
@@ -219,7 +267,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
     if (halvings > 0) scale_impulses(2);
     return;
   }
-  accept(projected, h, next, report);
+  accept<D>(projected, h, next, report);
   if (halvings > 0)
     for_pairs([&](const Pair& pair) {
       if (pair.impulse == 0) return;
@@ -238,6 +286,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     advance<D>(h, next, 0, report);
   } catch (...) {
     impulses_of_parts_.clear();
+    undo_impacts();
     if (before_division_) state_ = std::move(*before_division_);
     before_division_.reset();
     throw;
@@ -250,6 +299,7 @@ StepReport Simulation::step(double end) {
   if (!interval) return {.time = state_.time, .parts = 1};
   const auto& p = state_.particles;
   StepReport report{.time = interval->end};
+  rebounds_.clear();
   link_impulses_.assign(setting_.links.force_count(p.dimension), 0.0);
   link_time_ = 0;
   arm_works_.assign(setting_.links.arms.size(), 0.0);

@@ -14,6 +14,7 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
 #include "viscontact/particles/step_report.hpp"
@@ -22,6 +23,8 @@
 namespace viscontact::particles {
 
 struct ProjectionResult;
+template <int D>
+class Impacts;
 
 /// The lecture's problem for many particles, docs/physics.md (5.2) (Maury 2006, "A time-stepping
 /// scheme for inelastic collisions"; Lefebvre 2009, "Numerical simulation of gluey particles"):
@@ -39,6 +42,8 @@ class Simulation {
   /// `state` is what read_restart returned, or a state of which only the particles are set.
   /// `threads` >= 1 is the number of threads.
   Simulation(Setting setting, State state, int threads);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
 
   /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
   /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, no
@@ -61,6 +66,9 @@ class Simulation {
   const State& state() const { return state_; }        ///< after the last step
   const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
+  /// The blows of the last step in which solids touched, in order of time; empty without restitution.
+  const std::vector<Rebound>& rebounds() const { return rebounds_; }
+
   /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
   /// state are those at an earlier time (State::velocity_lag); particles and bodies without links and
   /// without an impulse of a contact in the last step get what forces, gravity and torques have given
@@ -76,6 +84,7 @@ class Simulation {
   void advance(double h, double next, int halvings, StepReport& report);
   template <int D>
   void advance_whole(double h, double next, StepReport& report);
+  template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
   std::size_t remember(const ProjectionResult& projected, double h);
   void scale_impulses(double factor);
@@ -106,6 +115,17 @@ class Simulation {
   template <int D>
   ProjectionResult project(double h, double next);
   void move(double h);
+  // The blows of the part of a step that is being computed.
+  template <int D>
+  std::unique_ptr<Impacts<D>>& impacts() {
+    if constexpr (D == 2)
+      return impacts_in_plane_;
+    else
+      return impacts_in_space_;
+  }
+  template <int D>
+  void find_impacts(double h, double next);
+  void undo_impacts();
 
   Setting setting_;
   State state_;
@@ -124,6 +144,9 @@ class Simulation {
   std::vector<double> arm_works_;  // of the arms in the parts of a step that are done [M L^2/T^2]
   std::vector<Plane> obstacles_;   // walls of the domain, then planes
   StepGrid grid_;
+  std::unique_ptr<Impacts<2>> impacts_in_plane_;
+  std::unique_ptr<Impacts<3>> impacts_in_space_;
+  std::vector<Rebound> rebounds_;
   // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
   // bodies and of the image, and the state before the step.
   struct Impulses {

@@ -59,7 +59,7 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
   if (dimension == 3)
     step.angular_momentum = step.angular_momentum + step.inverse_turn_mobility * change;
   else
-    step.angular_momentum[2] = step.inverse_turn_mobility[8] * turn[2];
+    step.angular_momentum[2] = step.inverse_turn_mobility[8] * turn[2] + step.late_momentum[2];
   step.displacement = displacement;
   step.turn = turn;
 }
@@ -75,7 +75,7 @@ Vector displacement_at(const Vector& displacement, const Vector& turn, const Vec
 
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension) {
   body.centre = body.centre + step.displacement;
-  body.velocity = (1 / h) * step.displacement;
+  body.velocity = (1 / h) * step.displacement + step.late_velocity;
   body.angular_momentum = step.angular_momentum;
   if (dimension == 3)
     body.orientation = turned(body.orientation, step.turn);

@@ -56,6 +56,35 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
+/// The contact of two particles in a step with blows: its normal is that where they are after the blows,
+/// and its gap is the linear one there, taken back to the beginning of the step.
+template <int D>
+Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
+  const auto& p = state_.particles;
+  auto contact = contact_of<D>(p, pair(k), planes_);
+  const auto start = separation<D>(p, pair(k).first, pair(k).second, pair(k).image);
+  const auto moved = [&](std::int32_t particle) {
+    if (impacts_->is_touched(particle)) return impacts_->displacement(particle);
+    const auto body = system_.body_of(particle);
+    return body < 0 ? point_of(displacements_.data(), index_of(particle), D)
+                    : point_of(system_.free_displacement(index_of(body)), 0, D);
+  };
+  const Vector relative = moved(pair(k).second) - moved(pair(k).first);
+  std::array<double, D> end = start;
+  double square = 0, along = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    end[d] += relative[d];
+    square += end[d] * end[d];
+  }
+  if (!(square > 0)) return contact;
+  for (std::size_t d = 0; d < D; ++d) {
+    contact.normal[d] = end[d] / std::sqrt(square);
+    along += contact.normal[d] * start[d];
+  }
+  contact.gap = along - p.radii[index_of(pair(k).first)] - p.radii[index_of(pair(k).second)];
+  return contact;
+}
+
 /// True if the displacements close the gap of pair k.
 template <int D>
 bool StepProjection<D>::gap_would_close(std::size_t k) {

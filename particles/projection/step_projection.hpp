@@ -14,6 +14,7 @@
 #include "viscontact/particles/constraints/constraint_system.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/dual_problem/contact_system.hpp"
+#include "viscontact/particles/impacts/impacts.hpp"
 #include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/residual_scales.hpp"
 #include "viscontact/particles/solver_settings.hpp"
@@ -63,6 +64,10 @@ class StepProjection {
   /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
   /// object.
   void add_constraints(const ConstraintStep& step);
+  /// Starts from displacements that blows have changed, after which no pair is left that its path would
+  /// close. Contacts are therefore linearised where the blows leave the particles: at the beginning of
+  /// the step, particles that only pass each other would be stopped. `impacts` must outlive this object.
+  void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v. `mean_radius` [L], > 0, is the length
   /// that the tolerances of `settings` refer to.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
@@ -78,8 +83,10 @@ class StepProjection {
     const auto& p = state_.particles;
     if (!tangents_.empty() && pair(k).first < 0)
       return contact_of<D>(p, pair(k), tangents_[k - state_.pairs.size()]);
+    if (impacts_ != nullptr && pair(k).first >= 0) return contact_at_end(k);
     return contact_of<D>(p, pair(k), planes_);
   }
+  Contact<D> contact_at_end(std::size_t k);
   Contact<D> contact(std::size_t k) {
     auto contact = resolved(contact_at_start(k), state_.particles, pair(k), planes_, tolerated_);
     contact.w = w(contact.first, contact.second);
@@ -120,6 +127,7 @@ class StepProjection {
   const Links* links_ = nullptr;
   std::optional<ConstraintSystem<D>> constraints_;
   std::optional<PairsOfParticles> pairs_of_particles_;
+  const Impacts<D>* impacts_ = nullptr;
 };
 
 }  // namespace viscontact::particles

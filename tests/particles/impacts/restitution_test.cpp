@@ -1,0 +1,298 @@
+// Restitution of many particles against closed forms: (4.13) for one particle, Newton's cradle, the
+// dry ball that comes to rest, and what every blow must keep.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "tests/particles/systems.hpp"
+#include "viscontact/particles/bodies/rigid_bodies.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/rotation.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+struct Scene {
+  State state;
+  Setting setting;
+};
+
+/// A particle of the radius 1 that flies at the velocity -1 to the plane y = 0 with the film `k`
+/// ln(1/100), at the Stokes number m/k.
+Scene flying(int dimension, double stokes, double gap, double dry, double step) {
+  Scene scene{no_particles(dimension), {}};
+  add_particle(scene.state, {0, 1 + gap, 0}, 1, stokes, {0, -1, 0});
+  scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  scene.setting.laws.film.gamma_min = -std::log(100.0);
+  scene.setting.laws.restitution.coefficient = dry;
+  scene.setting.time_step = step;
+  return scene;
+}
+
+class Restitution : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Dimensions, Restitution, ::testing::Values(2, 3));
+
+TEST_P(Restitution, OfOneParticleIsThatOfTheClosedForm) {
+  constexpr double kDry = 0.97;
+  int kept = 0;
+  for (const double stokes : {1.0, 5.0, 9.3, 9.4, 27.0, 152.0, 1000.0})
+    for (const double gap : {0.1, 1.0, 10.0})
+      for (const double step : {0.1, 0.0137, 0.001}) {
+        auto scene = flying(GetParam(), stokes, gap, kDry, step * gap);
+        Simulation simulation(scene.setting, scene.state, 1);
+        std::vector<Rebound> rebounds;
+        run(simulation, 2 * gap, [&](const StepReport& report) {
+          EXPECT_TRUE(report.converged);
+          rebounds.insert(rebounds.end(), simulation.rebounds().begin(),
+                          simulation.rebounds().end());
+        });
+        const double solid = stokes - std::log(100.0);
+        const double e = kDry - (1 + kDry) * std::log(100.0) / stokes;
+        const double velocity = simulation.state().particles.velocity(0)[1];
+        EXPECT_NEAR(velocity, std::max(e, 0.0), 1e-10) << stokes << " " << gap << " " << step;
+        const double gamma = pair_of(simulation.state(), -1, 0).gamma;
+        if (e > 0) {
+          EXPECT_EQ(gamma, 0);
+          // It left at the time of the blow, not at the end of a step.
+          EXPECT_NEAR(simulation.state().particles.position(0)[1],
+                      1 + e * (simulation.state().time - gap), 1e-10 * (1 + gap));
+        } else if (solid > 0) {
+          ++kept;
+          EXPECT_NEAR(gamma, -std::log(100.0) + kDry * solid, 1e-10);
+        } else {
+          EXPECT_NEAR(gamma, -stokes, 1e-10);
+        }
+        if (solid <= 0) {
+          EXPECT_TRUE(rebounds.empty());
+          continue;
+        }
+        ASSERT_EQ(rebounds.size(), 1U);
+        EXPECT_EQ(rebounds[0].first, -1);
+        EXPECT_NEAR(rebounds[0].time, gap, 1e-10 * gap);
+        EXPECT_NEAR(rebounds[0].approach_velocity, -1, 1e-12);
+        EXPECT_NEAR(rebounds[0].solid_impulse, solid, 1e-10 * stokes);
+        EXPECT_NEAR(rebounds[0].velocity, std::max(e, 0.0), 1e-10);
+      }
+  EXPECT_GT(kept, 0);
+}
+
+TEST_P(Restitution, OfADryBallThatFallsEndsWhenTheSumOfItsFlightsDoes) {
+  for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
+    for (const double dry : {0.5, 0.9}) {
+      Scene scene{no_particles(GetParam()), {}};
+      add_particle(scene.state, {0, 2, 0}, 1, 3);
+      scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+      scene.setting.gravity = {0, -2, 0};
+      scene.setting.laws.film.gamma_min = 0;
+      scene.setting.laws.restitution.coefficient = dry;
+      scene.setting.time_step = 1e-3;
+      scene.setting.scheme = scheme;
+      Simulation simulation(scene.setting, scene.state, 1);
+      const double stops = std::sqrt(2 * 1.0 / 2) * (1 + dry) / (1 - dry);
+      double last = 0, highest = 0;
+      std::vector<double> heights;
+      run(simulation, 1.2 * stops, [&](const StepReport& report) {
+        for (const auto& rebound : simulation.rebounds()) last = rebound.time;
+        if (!simulation.rebounds().empty()) {
+          heights.push_back(highest);
+          highest = 0;
+        }
+        highest = std::max(highest, simulation.state().particles.position(0)[1] - 1);
+        EXPECT_LT(report.iterations, 1000);
+      });
+      EXPECT_NEAR(last, stops, 1e-3 * stops) << dry;
+      // Heights fall by e_d^2 with each rebound; the apex lies between two steps.
+      ASSERT_GT(heights.size(), 3U);
+      EXPECT_NEAR(heights[1], dry * dry, 2e-3);
+      EXPECT_NEAR(heights[2], std::pow(dry, 4), 4e-3);
+      // It rests without chatter: no velocity beyond that of one step's load.
+      EXPECT_NEAR(simulation.state().particles.position(0)[1], 1, 1e-6);
+      EXPECT_LE(std::abs(simulation.state().particles.velocity(0)[1]), 1.01e-3);
+    }
+}
+
+TEST_P(Restitution, PassesABlowOnThroughTouchingParticles) {
+  // Of five equal particles that touch, as many leave as arrive (Newton's cradle).
+  for (const int arrive : {1, 2, 3})
+    for (const double between : {0.0, 1e-3}) {
+      Scene scene{no_particles(GetParam()), {}};
+      for (int k = 0; k < 5; ++k) {
+        const bool flies = k < arrive;
+        add_particle(scene.state, {2 * k + k * between - (flies ? 0.5 : 0), 0, 0}, 1, 1,
+                     {flies ? 1.0 : 0.0, 0, 0});
+      }
+      scene.setting.laws.film.gamma_min = 0;
+      scene.setting.laws.restitution.coefficient = 1;
+      scene.setting.time_step = 0.07;
+      Simulation simulation(scene.setting, scene.state, 1);
+      run(simulation, 2);
+      for (int k = 0; k < 5; ++k)
+        EXPECT_NEAR(simulation.state().particles.velocity(static_cast<std::size_t>(k))[0],
+                    k >= 5 - arrive ? 1 : 0, 1e-9)
+            << arrive << " " << between << " " << k;
+    }
+}
+
+/// Discs or spheres that fly about in a box of walls without gravity.
+Scene gas(int dimension, std::size_t count, double friction, double dry, double gamma_min) {
+  Random random(11);
+  const double width = dimension == 2 ? 3 * std::sqrt(double(count)) : 3 * std::cbrt(double(count));
+  Scene scene;
+  scene.state = random_cloud(
+      dimension, count, width, [&] { return random.uniform(0.5, 1); }, random);
+  auto& p = scene.state.particles;
+  if (friction > 0) add_rotation(p);
+  for (auto& v : p.velocities) v = random.uniform(-1, 1);
+  scene.setting.laws.film.gamma_min = gamma_min;
+  if (friction > 0) scene.setting.laws.friction = FrictionLaw{friction};
+  scene.setting.laws.restitution.coefficient = dry;
+  scene.setting.time_step = 0.05;
+  return scene;
+}
+
+double energy(const Particles& p) {
+  double sum = kinetic_energy(p);
+  const auto turns = turn_components(p.dimension);
+  for (std::size_t k = 0; k < p.angular_velocities.size(); ++k)
+    sum += p.inertias[k / turns] * p.angular_velocities[k] * p.angular_velocities[k] / 2;
+  return sum;
+}
+
+TEST_P(Restitution, KeepsMomentumAndNeverAddsEnergy) {
+  for (const double friction : {0.0, 0.3})
+    for (const double gamma_min : {0.0, -0.1})
+      for (const double dry : {0.9, 1.0}) {
+        auto scene = gas(GetParam(), GetParam() == 2 ? 400 : 200, friction, dry, gamma_min);
+        // Towards each other, so that many meet at once.
+        auto& p = scene.state.particles;
+        for (std::size_t k = 0; k < p.velocities.size(); ++k)
+          p.velocities[k] -= 0.3 * p.positions[k];
+        Simulation simulation(scene.setting, scene.state, 1);
+        const Vector before = momentum(p);
+        double last = energy(p), scale = 0;
+        for (std::size_t k = 0; k < p.count(); ++k) scale += p.masses[k] * norm(p.velocity(k));
+        std::size_t rebounds = 0;
+        run(simulation, 8, [&](const StepReport& report) {
+          EXPECT_TRUE(report.converged) << report.residual;
+          EXPECT_LE(report.largest_overlap, 1e-6);
+          rebounds += simulation.rebounds().size();
+          const double now = energy(simulation.state().particles);
+          // Tolerated overlaps of 5e-7 radii that are removed in a step give speeds of 1e-5.
+          EXPECT_LE(now, last * (1 + 1e-9)) << report.time << " friction " << friction
+                                            << " gamma_min " << gamma_min << " e " << dry;
+          last = now;
+        });
+        EXPECT_GT(rebounds, p.count());
+        EXPECT_LE(norm(momentum(simulation.state().particles) - before), 1e-12 * scale);
+      }
+}
+
+TEST_P(Restitution, DoesNotDependOnTheOrderOfTheParticles) {
+  auto scene = gas(GetParam(), 30, 0.3, 0.8, -0.05);
+  auto& p = scene.state.particles;
+  for (std::size_t k = 0; k < p.velocities.size(); ++k) p.velocities[k] -= 0.3 * p.positions[k];
+  scene.setting.solver.tolerance = 1e-13;
+  auto other = scene;
+  std::vector<std::size_t> order(p.count());
+  std::iota(order.begin(), order.end(), 0U);
+  std::reverse(order.begin(), order.end());
+  std::swap(order[3], order[20]);
+  const auto d = static_cast<std::size_t>(GetParam());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    auto& q = other.state.particles;
+    q.radii[k] = p.radii[order[k]];
+    q.masses[k] = p.masses[order[k]];
+    q.inertias[k] = p.inertias[order[k]];
+    for (std::size_t i = 0; i < d; ++i) {
+      q.positions[k * d + i] = p.positions[order[k] * d + i];
+      q.velocities[k * d + i] = p.velocities[order[k] * d + i];
+    }
+  }
+  Simulation one(scene.setting, scene.state, 1), two(other.setting, other.state, 1);
+  run(one, 4);
+  run(two, 4);
+  // Rounding errors grow by the ratio of flight and radius in each collision, of which a particle has
+  // about five.
+  for (std::size_t k = 0; k < order.size(); ++k)
+    EXPECT_LE(norm(two.state().particles.position(k) - one.state().particles.position(order[k])),
+              1e-8);
+}
+
+TEST_P(Restitution, OfThePileAtRestIsNoChatter) {
+  // A column of three rests on the plane; nothing hits it.
+  Scene scene{no_particles(GetParam()), {}};
+  for (int k = 0; k < 3; ++k) add_particle(scene.state, {0, 1.0 + 2 * k, 0}, 1, 1);
+  scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  scene.setting.gravity = {0, -10, 0};
+  scene.setting.laws.film.gamma_min = 0;
+  scene.setting.laws.restitution.coefficient = 0.9;
+  scene.setting.time_step = 0.01;
+  Simulation simulation(scene.setting, scene.state, 1);
+  std::size_t rebounds = 0;
+  run(simulation, 2, [&](const StepReport&) { rebounds += simulation.rebounds().size(); });
+  EXPECT_EQ(rebounds, 0U);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(simulation.state().particles.position(k)[1], 1.0 + 2.0 * double(k), 1e-6);
+}
+
+TEST(RestitutionOfDiscs, TakesTheImpulseOfTheWholeBlowForFriction) {
+  // A disc without spin hits a plane obliquely. It slides through the blow if |v_t| > 3 mu (1 + e) |v_n|,
+  // and loses mu (1 + e) |v_n|; else it rolls after it, with 2/3 of its tangential velocity.
+  for (const double slip : {0.3, 5.0}) {
+    Scene scene{no_particles(2), {}};
+    add_particle(scene.state, {0, 1.5, 0}, 1, 2, {slip, -1, 0});
+    add_rotation(scene.state.particles);
+    scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.friction = FrictionLaw{0.3};
+    scene.setting.laws.restitution.coefficient = 0.8;
+    scene.setting.time_step = 0.3;
+    Simulation simulation(scene.setting, scene.state, 1);
+    run(simulation, 1.5);
+    const auto& p = simulation.state().particles;
+    const bool slides = slip > 3 * 0.3 * 1.8;
+    EXPECT_NEAR(p.velocity(0)[1], 0.8, 1e-12);
+    EXPECT_NEAR(p.velocity(0)[0], slides ? slip - 0.3 * 1.8 : slip * 2 / 3, 1e-10);
+    EXPECT_NEAR(p.angular_velocities[0], slides ? -2 * 0.3 * 1.8 : -slip * 2 / 3, 1e-10);
+  }
+}
+
+TEST(RestitutionOfDiscs, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
+  auto scene = flying(2, 3, 1, 0.6, 0.013);
+  scene.setting.laws.film.gamma_min = 0;
+  scene.setting.planes[0].velocity = constant({0, 0.25, 0});
+  Simulation simulation(scene.setting, scene.state, 1);
+  run(simulation, 2);
+  EXPECT_NEAR(simulation.state().particles.velocity(0)[1], 0.25 + 0.6 * 1.25, 1e-10);
+}
+
+TEST(RestitutionOfDiscs, OfARigidBodyHasItsMassAndInertia) {
+  // A dumbbell along x falls on its left disc: the contact sees the mass 1/(1/m + r^2/I).
+  Scene scene{no_particles(2), {}};
+  add_particle(scene.state, {0, 1.5, 0}, 1, 1, {0, -1, 0});
+  add_particle(scene.state, {4, 5.5, 0}, 1, 1, {0, -1, 0});
+  auto& p = scene.state.particles;
+  add_rotation(p);
+  add_rigid_body(p, {.members = {0, 1}});
+  scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  scene.setting.laws.film.gamma_min = 0;
+  scene.setting.laws.restitution.coefficient = 0.7;
+  scene.setting.time_step = 0.0173;
+  Simulation simulation(scene.setting, scene.state, 1);
+  const auto body = p.bodies.bodies[0];
+  run(simulation, 0.6);
+  // The left disc is at -(2, 2) from the centre; the impulse J along y turns by -2 J.
+  const double w = 1 / body.mass + 4 / body.inertia[8];
+  const double impulse = 1.7 / w;
+  const auto& after = simulation.state().particles.bodies.bodies[0];
+  EXPECT_NEAR(after.velocity[1], -1 + impulse / body.mass, 1e-9);
+  EXPECT_NEAR(after.angular_velocity[2], -2 * impulse / body.inertia[8], 1e-9);
+}
+
+}  // namespace
+}  // namespace viscontact::particles
