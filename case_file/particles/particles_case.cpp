@@ -114,6 +114,22 @@ void read_method(const TomlSection& solver) {
                 fmt::format("is '{}'; it must be \"conjugate_gradients\", the only method", text));
 }
 
+/// Reads the key `restitution`, after the film and the fluid are known.
+void read_restitution(const TomlSection& section, ParticlesCase& c) {
+  constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
+  if (!section.has("restitution")) return;
+  auto& laws = c.setting.laws;
+  laws.restitution.coefficient = section.number("restitution", kShare);
+  if (!laws.restitution.is_on()) return;
+  if (c.setting.fluid)
+    section.fail("restitution",
+                 "is for particles without a fluid; a case with [fluid] must not have the key");
+  if (!laws.film.gamma_min && !laws.film.roughness)
+    section.fail("restitution",
+                 "has no effect, because smooth particles never touch; viscous_contact must have "
+                 "gamma_min (0: no film), or viscosity and roughness");
+}
+
 void read_contact(const TomlSection& contact, ParticlesCase& c) {
   c.end_time = contact.number("end_time", kModeratelyPositive);
   c.setting.time_step = contact.number("time_step", kModeratelyPositive);
@@ -126,6 +142,7 @@ void read_contact(const TomlSection& contact, ParticlesCase& c) {
         fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
                     c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
   read_law(contact, c.setting.fluid, c.setting.laws.film);
+  read_restitution(contact, c);
   if (contact.has("scheme")) {
     const auto scheme = contact.text("scheme");
     if (scheme != "euler" && scheme != "leapfrog")
@@ -241,6 +258,12 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
   read_forces_by_id(root, c);
   read_bodies(root, c);
   read_links(root, c);
+  if (c.setting.laws.restitution.is_on() &&
+      !(c.setting.links.hinges.empty() && c.setting.links.arms.empty()))
+    root.section("viscous_contact")
+        .fail("restitution",
+              "must be left out, because the case has hinges or arms, through which a blow would "
+              "pass; bodies and springs may rebound");
   if (root.has("sweep")) c.sweep = read_particles_sweep(root.section("sweep"));
   root.finish();
   check_start(c, lines);

@@ -166,22 +166,25 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
                                        state_.particles.position(index_of(pair(k).second)),
                                        state_.particles.radii[index_of(pair(k).second)])
                       : norm(at_start) - approach.sum;
-  // Slower approaches would not be seen in a step.
-  constexpr double kUnseen = 1e-3;
-  // A bounce whose flight would be shorter than a part of the step has ended: the rest is load. A pair
-  // that bore a load, or hardly approached, before the step rests, and only blows can hit it.
+  // A bounce whose flight would be shorter than a part of the step has ended: the rest is load.
   constexpr double kShortestFlight = 0.05;  // of the step
   const double load = -2 * step_.h * dot(normal, approach.b);
   const double ended =
       std::max(kShortestFlight * load / (2 * step_.laws.restitution.coefficient), 0.0);
-  const double closes = -dot(normal, approach.before);
+  // A pair that bore a load, or hardly approached, before the step rests. Blows alone can hit it, if they
+  // are more than half of the velocity that forces give its particles in the step: what is less shakes a
+  // packing without end.
+  constexpr double kUnseen = 1e-3;  // of the tolerance: slower approaches are not seen in a step
   const double unseen = kUnseen * step_.touching / step_.h;
+  const double pulled = step_.h / 2 *
+                        std::max(std::abs(dot(normal, acceleration(pair(k).second))),
+                                 std::abs(dot(normal, acceleration(pair(k).first))));
   const bool bore_load = pair(k).impulse != 0 || pair(k).gamma < 0;
-  const bool rests =
-      gap_at_start <= step_.touching && closes <= (bore_load ? std::abs(load) / 2 : unseen);
+  const bool rests = gap_at_start <= step_.touching &&
+                     -dot(normal, approach.before) <= (bore_load ? pulled : unseen);
   const Vector velocity = rests ? approach.at_rest : approach.a + (2 * time) * approach.b;
   const double rate = dot(normal, velocity);
-  if (!(-rate > std::max(ended, unseen))) return std::nullopt;
+  if (!(-rate > std::max({ended, unseen, rests ? pulled : 0.0}))) return std::nullopt;
   return Hit{k, normal, rate};
 }
 

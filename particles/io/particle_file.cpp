@@ -269,6 +269,20 @@ std::string contact_rows(double time, const Particles& particles,
   return text;
 }
 
+std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds) {
+  std::string text;
+  for (const auto& rebound : rebounds) {
+    CurrentContact contact{};
+    contact.first = rebound.first;
+    contact.second = rebound.second;
+    const auto [first, second] = ids_of(particles, contact);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", format_number(rebound.time),
+                   first, second, format_number(rebound.approach_velocity),
+                   format_number(rebound.solid_impulse), format_number(rebound.velocity));
+  }
+  return text;
+}
+
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
   std::string text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error\n", contacts.size());
   for (const auto& contact : contacts) {

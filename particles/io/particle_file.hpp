@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/impacts/rebound.hpp"
 
 namespace viscontact::particles {
 
@@ -66,6 +67,12 @@ inline constexpr const char* kContactsHeader = "time,i,j,gap,gamma\n";
 /// The rows of contacts.csv at `time` [T]. i and j are as in write_contacts().
 std::string contact_rows(double time, const Particles& particles,
                          std::span<const CurrentContact> contacts);
+
+/// The line with the names of the columns of rebounds.csv.
+inline constexpr const char* kReboundsHeader =
+    "time,first,second,approach_velocity,solid_impulse,velocity\n";
+/// The rows of rebounds.csv. first and second are as i and j in write_contacts().
+std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
 /// CSV text with the columns i,j,gap,gamma,gamma_error. i and j are the ids of two particles; j is
 /// -1, -2, ... for the first, second obstacle.

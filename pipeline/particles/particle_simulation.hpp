@@ -28,6 +28,11 @@ class ParticleSimulation {
     return in_fluid_ ? in_fluid_->reported_particles() : dry_->reported_particles();
   }
 
+  /// The blows of the last step; see Simulation::rebounds. None in a fluid.
+  std::vector<particles::Rebound> rebounds() const {
+    return dry_ ? dry_->rebounds() : std::vector<particles::Rebound>{};
+  }
+
   /// True if there is a fluid. The functions below need one.
   bool has_fluid() const { return in_fluid_ != nullptr; }
   particles::FluidSimulation& fluid() { return *in_fluid_; }

@@ -20,9 +20,9 @@ inline constexpr auto kParticleResults = std::to_array<const char*>(
 inline constexpr auto kFluidResults =
     std::to_array<const char*>({"motion.csv", "contacts.csv", "flow.pvd"});
 
-/// Those that only a run with rigid bodies or links has.
+/// Those that only a run with rigid bodies, links or restitution has.
 inline constexpr auto kLinkResults = std::to_array<const char*>(
-    {"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd"});
+    {"bodies.csv", "hinges.csv", "springs.csv", "arms.csv", "links.pvd", "rebounds.csv"});
 
 /// Throws Error(kBadInput) if a file in the folder has the name of a result or of a frame but
 /// Viscontact did not write it.

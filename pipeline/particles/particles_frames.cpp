@@ -62,6 +62,7 @@ ParticleFrames::ParticleFrames(fs::path folder, const results::Provenance& prove
     : folder_(std::move(folder)),
       provenance_(provenance),
       has_links_(!setting.links.empty()),
+      has_rebounds_(setting.laws.restitution.is_on()),
       tables_(particles::time_tables(setting, particles)),
       table_rows_(tables_.size()) {
   playback_.dimension = particles.dimension;
@@ -104,6 +105,14 @@ void ParticleFrames::add(const particles::Setting& setting, const particles::Sta
     keep(frame_at(state.time, setting, state.particles, std::move(contacts)));
 }
 
+void ParticleFrames::add_rebounds(const particles::Particles& particles,
+                                  std::span<const particles::Rebound> rebounds) {
+  constexpr std::size_t kMostRows = 1000000;
+  const auto more = rebounds.first(std::min(rebounds.size(), kMostRows - rebound_count_));
+  rebounds_ += particles::rebound_rows(particles, more);
+  rebound_count_ += more.size();
+}
+
 void ParticleFrames::add_flow(const particles::FlowField& flow) {
   const auto name = flow_name(files_.back().second);
   results::write_output(folder_ / name, TextKind::kXml,
@@ -137,22 +146,26 @@ void ParticleFrames::resume_fluid(double time) {
             earlier_rows("motion.csv", playback_.radii.size());
 }
 
+/// The rows of a table whose first column is a time, until `time` [T], without the header.
+std::string ParticleFrames::rows_until(const fs::path& table, double time) {
+  std::istringstream lines(results::without_provenance(read_file(table)));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    const auto row_time = parse_number(line.substr(0, line.find(',')));
+    if (!row_time) continue;
+    if (*row_time > time) break;
+    text += line + "\n";
+  }
+  return text;
+}
+
 /// The rows of a table until the last frame, of which each frame has `rows_per_frame`. The file may
 /// have rows of later frames, because it is written before restart.bin.
 std::string ParticleFrames::earlier_rows(const std::string& name,
                                          std::size_t rows_per_frame) const {
   const auto path = folder_ / name;
-  std::istringstream lines(results::without_provenance(read_file(path)));
-  std::string text;
-  std::size_t rows = 0;
-  for (std::string line; std::getline(lines, line);) {
-    const auto row_time = parse_number(line.substr(0, line.find(',')));
-    if (!row_time) continue;
-    if (*row_time > files_.back().first) break;
-    text += line + "\n";
-    ++rows;
-  }
-  if (rows != files_.size() * rows_per_frame)
+  auto text = rows_until(path, files_.back().first);
+  if (static_cast<std::size_t>(std::ranges::count(text, '\n')) != files_.size() * rows_per_frame)
     throw_bad_input({path.string()},
                     fmt::format("does not have {} rows for each frame", rows_per_frame));
   return text;
@@ -169,6 +182,7 @@ std::vector<std::pair<std::string, std::string>> ParticleFrames::tables() const 
   std::vector<std::pair<std::string, std::string>> texts;
   for (std::size_t t = 0; t < tables_.size(); ++t)
     texts.emplace_back(tables_[t].name, tables_[t].header + table_rows_[t]);
+  if (has_rebounds_) texts.emplace_back("rebounds.csv", particles::kReboundsHeader + rebounds_);
   return texts;
 }
 
@@ -190,6 +204,8 @@ void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles
   if (setting.fluid) resume_fluid(time);
   for (std::size_t t = 0; t < tables_.size(); ++t)
     table_rows_[t] = earlier_rows(tables_[t].name, tables_[t].count);
+  if (has_rebounds_) rebounds_ = rows_until(folder_ / "rebounds.csv", time);
+  rebound_count_ = static_cast<std::size_t>(std::ranges::count(rebounds_, '\n'));
 }
 
 void ParticleFrames::end(const particles::Setting& setting, const particles::State& state,

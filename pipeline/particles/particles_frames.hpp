@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/impacts/rebound.hpp"
 #include "viscontact/particles/io/link_file.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/playback.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/results/provenance.hpp"
@@ -50,6 +52,10 @@ class ParticleFrames {
   void add(const particles::Setting& setting, const particles::State& state,
            std::span<const double> link_force_errors);
 
+  /// Adds rows to the table of rebounds, which has at most a million, because they are 80 MB long.
+  void add_rebounds(const particles::Particles& particles,
+                    std::span<const particles::Rebound> rebounds);
+
   /// True if the flow of the last frame has not been written. The flow around the particles of a
   /// frame is known only in the next step.
   bool lacks_flow(const particles::Setting& setting) const {
@@ -79,7 +85,7 @@ class ParticleFrames {
   const std::string& motion() const { return motion_; }
   /// The text of contacts.csv; empty without a fluid.
   const std::string& contacts() const { return contacts_; }
-  /// Names and texts of the tables of bodies and links that the case has.
+  /// Names and texts of the tables of bodies, links and rebounds that the case has.
   std::vector<std::pair<std::string, std::string>> tables() const;
 
  private:
@@ -87,14 +93,16 @@ class ParticleFrames {
   void add_contact_rows(double time, const std::vector<particles::CurrentContact>& contacts);
   void show_flow(const FrameFile& flow);
   void resume_fluid(double time);
+  static std::string rows_until(const std::filesystem::path& table, double time);
   std::string earlier_rows(const std::string& name, std::size_t rows_per_frame) const;
 
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
-  bool has_links_;
+  bool has_links_, has_rebounds_;
   particles::Playback playback_;
   std::vector<FrameFile> files_, flows_;
-  std::string motion_, contacts_;
+  std::string motion_, contacts_, rebounds_;
+  std::size_t rebound_count_ = 0;  // rows in rebounds_
   std::vector<particles::TimeTable> tables_;
   std::vector<std::string> table_rows_;  // of tables_, without headers
   std::size_t every_ = 1, kept_bytes_ = 0;

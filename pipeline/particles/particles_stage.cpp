@@ -65,6 +65,7 @@ class Run {
     while (simulation_.state().time < case_.end_time - times.tiny && !stop_.stop_requested()) {
       const auto report = simulation_.step(case_.end_time);
       record_.add(simulation_.state().steps, report);
+      frames_.add_rebounds(simulation_.state().particles, simulation_.rebounds());
       if (simulation_.has_fluid()) {
         record_.unknowns = simulation_.fluid().unknowns();
         if (frames_.lacks_flow(case_.setting)) frames_.add_flow(simulation_.fluid().flow());

@@ -49,6 +49,16 @@ def lottery():
     write("lottery.csv", 3, rows)
 
 
+def shaken_discs():
+    """Discs of radii 0.7 to 1 on a lattice over the floor."""
+    random.seed(5)
+    rows = []
+    for k in range(500):
+        radius = random.uniform(0.7, 1.0)
+        rows.append((1.05 + 2.1 * (k % 24), 1.05 + 2.1 * (k // 24), random.uniform(-0.5, 0.5), 0, radius, radius**2))
+    write("shaken_discs.csv", 2, rows)
+
+
 def settling():
     """Discs of radii 0.3 to 1 on a lattice over the floor."""
     random.seed(4)
@@ -89,5 +99,5 @@ def heap():
 
 
 if __name__ == "__main__":
-    for make in (billiard_break, billiards, heap, lottery, settling, raft):
+    for make in (billiard_break, billiards, heap, lottery, settling, shaken_discs, raft):
         make()
