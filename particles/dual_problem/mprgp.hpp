@@ -1,7 +1,7 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// contact_graph.hpp, and for the same problem in a fluid (fluid/mobility_graph.hpp). Sums must be
+// contact_graph.hpp, and for the same problem in a fluid (fluid/contact/contact_problem.cpp). Sums must be
 // taken in blocks of the thread pool, so that the results do not depend on the number of threads.
 #pragma once
 

@@ -2,17 +2,16 @@
 // the case.
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "viscontact/common/error.hpp"
-#include "viscontact/particles/fluid/contact/contact_residuals.hpp"
 #include "viscontact/particles/fluid/fluid_motion.hpp"
 #include "viscontact/particles/fluid/held_rows.hpp"
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 
 namespace viscontact::particles {
-/// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report.
-void FluidSimulation::examine(const Motion& motion, double h, StepReport& report) const {
+
+/// Throws Error(kNotConverged) if the step cannot be accepted; otherwise fills the report and the
+/// errors of the impulses.
+void FluidSimulation::examine(Motion& motion, double h, StepReport& report) const {
   const double largest = largest_resolved_distance(setting_.solver.tolerance, mean_radius_);
   const double longest = h * fastest(motion.moved, layout_);
   if (!(longest < largest))
@@ -20,9 +19,8 @@ void FluidSimulation::examine(const Motion& motion, double h, StepReport& report
                 fmt::format("a particle moves by {} in the step to time {}, too far for the "
                             "precision of a double; check the forces and the time step",
                             longest, report.time));
-  const auto residuals =
-      measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
-                        setting_.solver, mean_radius_, error_of_answers(*setting_.fluid));
+  auto residuals =
+      measure_residuals(motion.contact.contacts, motion.moved, contact_conditions(motion.free, h));
   if (!residuals.converged && -residuals.smallest_gap > mean_radius_)
     throw Error(ErrorKind::kNotConverged,
                 fmt::format("no solution of the step to time {} was found: particles would overlap "
@@ -33,17 +31,14 @@ void FluidSimulation::examine(const Motion& motion, double h, StepReport& report
   report.residual = residuals.largest / mean_radius_;
   report.impulse_residual = residuals.largest_relative;
   report.largest_overlap = (0 - residuals.smallest_gap) / mean_radius_;
+  motion.impulse_errors = std::move(residuals.impulse_errors);
 }
 
 /// Changes the state by a step.
 void FluidSimulation::accept(Motion motion, double h, double next, StepReport& report) {
   auto& p = state_.particles;
-  state_.pairs = std::move(motion.contact.pairs.pairs);
-  state_.walls = std::move(motion.contact.pairs.walls);
-  const auto errors =
-      measure_residuals(motion.contact.contacts, motion.free, motion.moved, h, layout_,
-                        setting_.solver, mean_radius_, error_of_answers(*setting_.fluid))
-          .impulse_errors;
+  state_.pairs = std::move(motion.contact.pairs);
+  state_.walls = std::move(motion.contact.walls);
   std::size_t c = 0;
   for (auto* pairs : {&state_.pairs, &state_.walls})
     for (auto& pair : *pairs) {
@@ -51,7 +46,8 @@ void FluidSimulation::accept(Motion motion, double h, double next, StepReport& r
       pair.impulse = contact.impulse;
       if (contact.w > 0) {
         ++report.contacts;
-        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_), errors[c], h);
+        setting_.laws.remember(pair, state_.memories, radii_of(pair, p, obstacles_),
+                               motion.impulse_errors[c], h);
       }
       if (pair.gamma < 0) ++report.glued;
       ++c;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "viscontact/particles/fluid/contact/step_contacts.hpp"
+#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 namespace viscontact::particles {
@@ -22,14 +22,11 @@ struct FluidSimulation::Motion {
       arm_powers;                   ///< State::arm_powers after the step [M L^2/T^3]
   std::vector<double> at_end;       ///< u^{n+1}
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
-  /// The contacts of the step, solved.
-  StepContacts contact;
-  /// What the step reports.
-  FluidStepReport fluid;
-  /// Dissipation, apparent viscosity and forces of the flow.
-  FlowQuantities quantities;
-  /// Estimates of the errors of the forces; empty if they were not made.
-  ForceErrors force_errors;
+  StepContacts contact;          ///< the contacts of the step, solved
+  std::vector<double> impulse_errors;  ///< of contact.contacts, ContactResiduals::impulse_errors
+  FluidStepReport fluid;               ///< what the step reports
+  FlowQuantities quantities;           ///< dissipation, apparent viscosity and forces of the flow
+  ForceErrors force_errors;  ///< estimates of the errors of the forces; empty if they were not made
 };
 
 /// Relative rounding error of the velocities that a fluid solver answers. With a penalty they are

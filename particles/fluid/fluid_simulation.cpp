@@ -102,12 +102,18 @@ std::vector<double> FluidSimulation::free_velocities(const StepEquation& equatio
   return free;
 }
 
+ContactConditions FluidSimulation::contact_conditions(std::span<const double> free,
+                                                      double h) const {
+  return {free, h, layout_, setting_.solver, mean_radius_, error_of_answers(*setting_.fluid)};
+}
+
 StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
                                                 std::span<const double> free, double h,
                                                 double next) {
   const bool is_split = setting_.fluid->coupling == Coupling::kSplitting;
   const auto is_movable = [&](std::int32_t k) {
-    return !equation.is_driven(k) && !(is_split && equation.inertia()[layout_.at(k, 0)] == 0);
+    return k >= 0 && !equation.is_driven(k) &&
+           !(is_split && equation.inertia()[layout_.at(k, 0)] == 0);
   };
   const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
@@ -118,21 +124,15 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
         velocities[i] = loads[i] / equation.inertia()[i];
     return velocities;
   };
-  const auto are_apart_by_arm = [&](std::int32_t first, std::int32_t second) {
-    return std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
-      return std::minmax(arm.first, arm.second) == std::minmax(first, second);
-    });
+  // An arm gives the distance of its particles.
+  const auto is_left_out = [&](const Pair& pair) {
+    return (!is_movable(pair.first) && !is_movable(pair.second)) ||
+           std::ranges::any_of(setting_.links.arms, [&](const Arm& arm) {
+             return std::minmax(arm.first, arm.second) == std::minmax(pair.first, pair.second);
+           });
   };
-  const auto places = positions_of(obstacles_, next);
-  const ContactConditions conditions{h,
-                                     setting_.fluid->threshold_gap,
-                                     places,
-                                     mean_radius_,
-                                     error_of_answers(*setting_.fluid),
-                                     setting_.solver,
-                                     is_movable,
-                                     are_apart_by_arm};
-  return solve_contacts(state_, free, mobility, conditions, pool_);
+  return solve_contacts(state_, setting_.fluid->threshold_gap, positions_of(obstacles_, next),
+                        is_left_out, mobility, contact_conditions(free, h), pool_);
 }
 
 /// Changes velocities until hinges and arms, and the springs of particles that accelerate, hold after

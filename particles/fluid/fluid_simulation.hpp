@@ -4,11 +4,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"
@@ -18,6 +16,7 @@ namespace viscontact::particles {
 class HeldMotion;
 class HeldSolver;
 class StepEquation;
+struct ContactConditions;
 struct StepContacts;
 
 /// Estimates of the errors of the forces of one step, each >= 0 [M L/T^2, M L^2/T^2]; both are
@@ -94,7 +93,8 @@ class FluidSimulation {
                                  double h, double next);
   void estimate(const StepEquation& equation, std::span<const double> forces,
                 const HeldMotion* held, Motion& motion);
-  void examine(const Motion& motion, double h, StepReport& report) const;
+  ContactConditions contact_conditions(std::span<const double> free, double h) const;
+  void examine(Motion& motion, double h, StepReport& report) const;
   void accept(Motion motion, double h, double next, StepReport& report);
   std::vector<double> hold_after_step(const StepEquation& equation, const HeldMotion& held,
                                       std::span<const double> flow, std::vector<double>& velocities,

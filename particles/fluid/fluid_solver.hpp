@@ -17,6 +17,15 @@ namespace viscontact::particles {
 /// angular velocity), 1 on the axis of a cylinder (velocity along z).
 constexpr std::size_t motion_components(int dimension) { return dimension == 1 ? 1 : 3; }
 
+/// The place of the components of motions, velocities or forces of a particle in an array.
+struct MotionLayout {
+  std::size_t components = 3;  ///< motion_components()
+  /// Number of components along the axes, and of a contact's normal.
+  std::size_t directions() const { return components == 1 ? 1 : 2; }
+  /// Place of component `d` of particle `k`, both from 0.
+  std::size_t at(std::int32_t k, std::size_t d) const { return index_of(k) * components + d; }
+};
+
 /// The particles at one time, as the fluid sees them.
 struct FluidParticles {
   const Particles* particles = nullptr;  ///< not null when place() is called

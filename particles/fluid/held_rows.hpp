@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
 #include "viscontact/particles/fluid/held_solver.hpp"
 #include "viscontact/particles/links/link_rows.hpp"
 #include "viscontact/particles/particles.hpp"

@@ -304,7 +304,7 @@ std::vector<double> StepEquation::mobility_of_step() const {
   return mobility;
 }
 
-bool StepEquation::put_in_contact(std::span<const FluidContact> contacts) {
+bool StepEquation::put_in_contact(std::span<const Contact<2>> contacts) {
   const auto before = thetas_;
   for (const auto& contact : contacts) {
     if (contact.impulse == 0) continue;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
+#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/simulation.hpp"
 #include "viscontact/particles/state.hpp"
@@ -77,7 +77,7 @@ class StepEquation {
 
   /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the
   /// inertia of any.
-  bool put_in_contact(std::span<const FluidContact> contacts);
+  bool put_in_contact(std::span<const Contact<2>> contacts);
 
   /// True if all given motions are the same as in the step before.
   bool drives_as_before() const;

@@ -1,11 +1,11 @@
-// Lists pairs that are close to contact (fluid_contacts.hpp). Lengths are in the unit of the case.
+// Lists pairs that are close to contact, chooses the contacts of a step among them and measures
+// their residuals (fluid_contacts.hpp). Units are those of the case.
 #include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
 
-#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
-#include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/neighbours/close_pairs.hpp"
 
 namespace viscontact::particles {
@@ -18,43 +18,23 @@ auto place_of_pair(const Pair& pair) {
 
 /// Sorts the pairs, and adds those of `before` that remember something.
 void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
-  const auto is_less = [](const Pair& a, const Pair& b) {
-    return place_of_pair(a) < place_of_pair(b);
-  };
-  std::ranges::sort(pairs, is_less);
-  std::ranges::sort(before, is_less);
+  std::ranges::sort(pairs, {}, place_of_pair);
+  std::ranges::sort(before, {}, place_of_pair);
+  std::erase_if(before, [&](const Pair& old) {
+    return !(old.gamma < 0) &&
+           !std::ranges::binary_search(pairs, place_of_pair(old), {}, place_of_pair);
+  });
+  // Of a pair that is in both, that of `before` is taken.
   std::vector<Pair> merged;
-  auto old = before.begin();
-  for (const auto& pair : pairs) {
-    for (; old != before.end() && is_less(*old, pair); ++old)
-      if (old->gamma < 0) merged.push_back(*old);
-    if (old != before.end() && place_of_pair(*old) == place_of_pair(pair))
-      merged.push_back(*old++);
-    else
-      merged.push_back(pair);
-  }
-  for (; old != before.end(); ++old)
-    if (old->gamma < 0) merged.push_back(*old);
+  std::ranges::set_union(before, pairs, std::back_inserter(merged), {}, place_of_pair,
+                         place_of_pair);
   pairs = std::move(merged);
 }
 
-template <int D>
-FluidContact contact_in(const Particles& p, const Pair& pair,
-                        std::span<const PlanePosition> obstacles, double threshold) {
-  const auto contact = contact_of<D>(p, pair, obstacles);
-  FluidContact of{pair.first < 0 ? -1 : pair.first, pair.second};
-  for (std::size_t d = 0; d < D; ++d) of.normal[d] = contact.normal[d];
-  of.gap = contact.gap - threshold;
-  of.gamma = pair.gamma;
-  of.impulse = pair.impulse;
-  if (pair.image != 0) of.image_opening = dot(of.normal, velocity_of_image(p.cell, pair.image));
-  return of;
-}
-
-}  // namespace
-
-PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obstacles, double reach,
-                         ThreadPool& pool) {
+/// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The side
+/// of a cylinder, whose normal has no component along the axis, is left out.
+void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
+                double reach, ThreadPool& pool) {
   // Only the nearest images have a number, so that the search must stay below half a period.
   constexpr double kShareOfPeriod = 0.499;
   const auto& p = state.particles;
@@ -66,36 +46,181 @@ PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obst
   const auto close = p.cell.is_periodic()
                          ? close_pairs_in_period(p.cell, p.positions, extents, pool)
                          : close_pairs(p.dimension, p.positions, extents, pool);
-  PairLists lists;
   for (const auto& pair : close) {
     if (p.bodies.are_one(pair.first, pair.second)) continue;
     Pair made{pair.first, pair.second};
     made.image = pair.image;
-    lists.pairs.push_back(made);
+    step.pairs.push_back(made);
   }
   for (std::size_t w = 0; w < obstacles.size(); ++w) {
     if (p.dimension == 1 && obstacles[w].normal[0] == 0) continue;
     for (std::size_t k = 0; k < p.count(); ++k)
       if (gap(obstacles[w], p.position(k), p.radii[k]) < reach)
-        lists.walls.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)});
+        step.walls.push_back({-1 - static_cast<std::int32_t>(w), static_cast<std::int32_t>(k)});
   }
-  keep_memory(lists.pairs, state.pairs);
-  keep_memory(lists.walls, state.walls);
-  return lists;
+  keep_memory(step.pairs, state.pairs);
+  keep_memory(step.walls, state.walls);
 }
 
-FluidContact fluid_contact_of(const Particles& particles, const Pair& pair,
-                              std::span<const PlanePosition> obstacles, double threshold,
-                              std::span<const double> free_velocities, double h) {
-  if (particles.dimension == 1) return contact_in<1>(particles, pair, obstacles, threshold);
+/// contact_of() a pair. On an axis the normal has one component. A round wall is taken as its
+/// tangent where the particle is after it moved with the velocities without contact.
+Contact<2> contact_in_fluid(const Particles& p, const Pair& pair,
+                            std::span<const PlanePosition> obstacles,
+                            const ContactConditions& conditions) {
+  if (p.dimension == 1) {
+    const auto on_axis = contact_of<1>(p, pair, obstacles);
+    Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
+    contact.gap = on_axis.gap;
+    contact.lowest = on_axis.lowest;
+    contact.impulse = on_axis.impulse;
+    return contact;
+  }
   if (pair.first >= 0 || !obstacles[pair.plane()].is_curved())
-    return contact_in<2>(particles, pair, obstacles, threshold);
+    return contact_of<2>(p, pair, obstacles);
   const auto k = index_of(pair.second);
-  const Vector moved{h * free_velocities[3 * k], h * free_velocities[3 * k + 1], 0};
-  const auto tangent = tangent_at(obstacles[pair.plane()], particles.position(k) + moved);
-  auto at_tangent = pair;
-  at_tangent.first = -1;
-  return contact_in<2>(particles, at_tangent, std::span(&tangent, 1), threshold);
+  const double* velocity = &conditions.free_velocities[conditions.layout.at(pair.second, 0)];
+  const Vector moved{conditions.h * velocity[0], conditions.h * velocity[1], 0};
+  return contact_of<2>(p, pair, tangent_at(obstacles[pair.plane()], p.position(k) + moved));
+}
+
+/// Makes the contacts of the listed pairs.
+void make_contacts(StepContacts& step, const Particles& p, double threshold,
+                   std::span<const PlanePosition> obstacles, const ContactConditions& conditions) {
+  for (const auto* list : {&step.pairs, &step.walls})
+    for (const auto& pair : *list) {
+      auto contact = contact_in_fluid(p, pair, obstacles, conditions);
+      contact.gap -= threshold;
+      // A threshold gap that is crossed by less than the tolerance counts as reached.
+      if (std::abs(contact.gap) <= conditions.solver.tolerance * conditions.mean_radius / 2)
+        contact.gap = 0;
+      // A mean flow moves an image of a particle relative to the particle.
+      if (pair.image != 0) {
+        const auto velocity = velocity_of_image(p.cell, pair.image);
+        contact.gap +=
+            conditions.h * (contact.normal[0] * velocity[0] + contact.normal[1] * velocity[1]);
+      }
+      step.contacts.push_back(contact);
+    }
+}
+
+/// Solves for contacts in rounds, in which those join whose gaps the others close.
+void solve_listed(StepContacts& step, const Mobility& mobility,
+                  const ContactConditions& conditions) {
+  ContactProblem problem(conditions, mobility);
+  std::vector<std::size_t> chosen;
+  std::vector<char> is_chosen(step.contacts.size(), 0);
+  for (;;) {
+    const auto before = chosen.size();
+    for (std::size_t c = 0; c < step.contacts.size(); ++c) {
+      const auto& contact = step.contacts[c];
+      const double after =
+          gap_after(contact, problem.velocities().data(), conditions.h, conditions.layout);
+      const bool takes_part = after < 0 || contact.lowest < 0 || contact.impulse != 0;
+      if (is_chosen[c] != 0 || !takes_part) continue;
+      is_chosen[c] = 1;
+      chosen.push_back(c);
+      problem.add(contact);
+    }
+    const bool has_joined = chosen.size() > before;
+    if (!has_joined && !problem.is_rough()) break;
+    step.is_solved =
+        problem.solve(has_joined && problem.iterations() < conditions.solver.max_iterations);
+  }
+  for (auto& contact : step.contacts) contact.impulse = 0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) step.contacts[chosen[i]] = problem.contacts()[i];
+  step.loads = problem.loads();
+  step.velocities = problem.velocities();
+  step.iterations += problem.iterations();
+}
+
+}  // namespace
+
+StepContacts solve_contacts(const State& state, double threshold,
+                            std::span<const PlanePosition> obstacles,
+                            const std::function<bool(const Pair&)>& is_left_out,
+                            const Mobility& mobility, const ContactConditions& conditions,
+                            ThreadPool& pool) {
+  const auto& p = state.particles;
+  const double h = conditions.h;
+  const double of_images = norm(velocity_of_image(p.cell, Periods{1, 0})) +
+                           norm(velocity_of_image(p.cell, Periods{0, 1}));
+  // Contacts push particles at speeds that are seldom above twice the largest one without contact.
+  double reach = threshold +
+                 h * (4 * fastest(conditions.free_velocities, conditions.layout) + of_images) +
+                 1e-3 * conditions.mean_radius;
+  int iterations = 0;
+  for (;;) {
+    StepContacts step;
+    step.iterations = iterations;
+    list_pairs(step, state, obstacles, reach, pool);
+    std::erase_if(step.pairs, is_left_out);
+    std::erase_if(step.walls, is_left_out);
+    make_contacts(step, p, threshold, obstacles, conditions);
+    solve_listed(step, mobility, conditions);
+    const double needed =
+        threshold + h * (2 * fastest(step.velocities, conditions.layout) + of_images);
+    if (needed <= reach) return step;
+    iterations = step.iterations;
+    reach = 2 * needed;
+  }
+}
+
+std::vector<double> set_allowed(std::span<Contact<2>> contacts,
+                                const ContactConditions& conditions) {
+  const auto& [free, h, layout, settings, mean_radius, velocity_error] = conditions;
+  std::vector<double> of_particle(free.size() / layout.components, 0.0);
+  const auto for_particles = [](const Contact<2>& contact, const auto& visit) {
+    for (const auto k : {contact.first, contact.second})
+      if (k >= 0) visit(index_of(k));
+  };
+  for (const auto& contact : contacts) {
+    if (!(contact.w > 0)) continue;
+    const double after = gap_after(contact, free.data(), h, layout);
+    // In a glued pair the film also pulls, so that an open gap calls for an impulse, too.
+    const double stopping = (contact.lowest < 0 ? std::abs(after) : std::max(0.0, -after));
+    const double impulse = std::max(std::abs(contact.impulse), stopping / contact.w);
+    for_particles(contact,
+                  [&](std::size_t k) { of_particle[k] = std::max(of_particle[k], impulse); });
+  }
+  constexpr double kGapError = 1e-14;  // rounding errors of positions
+  const double rounding = kGapError * mean_radius + velocity_error * h * fastest(free, layout);
+  std::vector<double> at_work(contacts.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for_particles(contacts[c],
+                  [&](std::size_t k) { at_work[c] = std::min(at_work[c], of_particle[k]); });
+    auto& contact = contacts[c];
+    contact.allowed = settings.tolerance * mean_radius / 2;
+    if (contact.w > 0)
+      contact.allowed = std::min(
+          contact.allowed, std::max(settings.impulse_tolerance * contact.w * at_work[c], rounding));
+  }
+  return at_work;
+}
+
+ContactResiduals measure_residuals(std::span<Contact<2>> contacts,
+                                   std::span<const double> velocities,
+                                   const ContactConditions& conditions) {
+  const auto at_work = set_allowed(contacts, conditions);
+  ContactResiduals residuals;
+  residuals.impulse_errors.resize(contacts.size());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& contact = contacts[c];
+    const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
+    residuals.smallest_gap = std::min(residuals.smallest_gap, after);
+    // A contact that takes no part must not close.
+    const bool takes_part = contact.w > 0;
+    const double residual =
+        takes_part ? contact_residual(after, contact.w * (contact.impulse - contact.lowest))
+                   : std::max(0.0, -after);
+    residuals.largest = std::max(residuals.largest, residual);
+    residuals.converged = residuals.converged && residual <= contact.allowed;
+    if (!takes_part) continue;
+    residuals.impulse_errors[c] = residual / contact.w;
+    if (at_work[c] > 0)
+      residuals.largest_relative =
+          std::max(residuals.largest_relative, residual / contact.w / at_work[c]);
+  }
+  return residuals;
 }
 
 }  // namespace viscontact::particles

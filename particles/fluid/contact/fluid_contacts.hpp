@@ -1,33 +1,175 @@
-// The pairs of a simulation in a fluid whose gaps may reach the threshold gap D_c in a step. Units
-// are those of the case.
+// The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses that
+// keep their gaps open, as forces on particles whose velocities depend linearly on forces. A gap of
+// a contact is D - D_c here, with the threshold gap D_c. Units are those of the case.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/domain/plane.hpp"
-#include "viscontact/particles/fluid/contact/fluid_contact.hpp"
+#include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
+#include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
 
-/// Pairs of particles, and particles at obstacles, as State holds them.
-struct PairLists {
-  std::vector<Pair> pairs,  ///< two particles each
-      walls;                ///< a particle and an obstacle each
+/// G v: the velocity at which the gap opens [L/T], for the velocities of all particles.
+inline double opening(const Contact<2>& contact, const double* velocities,
+                      const MotionLayout& layout) {
+  double sum = 0;
+  for (std::size_t d = 0; d < layout.directions(); ++d) {
+    sum += contact.normal[d] * velocities[layout.at(contact.second, d)];
+    if (contact.first >= 0) sum -= contact.normal[d] * velocities[layout.at(contact.first, d)];
+  }
+  return sum;
+}
+
+/// Linearised gap D - D_c + h G v at the end of a step of length h [L].
+inline double gap_after(const Contact<2>& contact, const double* velocities, double h,
+                        const MotionLayout& layout) {
+  return contact.gap + h * opening(contact, velocities, layout);
+}
+
+/// The largest speed of a particle [L/T], without its turning, which changes no gap.
+inline double fastest(std::span<const double> velocities, const MotionLayout& layout) {
+  double largest = 0;
+  for (std::size_t k = 0; k < velocities.size(); k += layout.components) {
+    double square = 0;
+    for (std::size_t d = 0; d < layout.directions(); ++d)
+      square += velocities[k + d] * velocities[k + d];
+    largest = std::max(largest, std::sqrt(square));
+  }
+  return largest;
+}
+
+/// Adds G^T force to the forces of all particles [M L/T^2]. A positive force pushes both apart.
+inline void add_contact_force(const Contact<2>& contact, double force, std::span<double> forces,
+                              const MotionLayout& layout) {
+  for (std::size_t d = 0; d < layout.directions(); ++d) {
+    forces[layout.at(contact.second, d)] += contact.normal[d] * force;
+    if (contact.first >= 0) forces[layout.at(contact.first, d)] -= contact.normal[d] * force;
+  }
+}
+
+/// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
+/// without contact; linear, symmetric and positive definite on the forces of contacts.
+using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
+
+/// The step without contact, and how exact its contacts must be.
+struct ContactConditions {
+  std::span<const double> free_velocities;  ///< of all particles without contact [L/T, 1/T]
+  double h = 0;                             ///< length of the step [T], > 0
+  MotionLayout layout;                      ///< of all velocities and forces
+  SolverSettings solver;                    ///< tolerances, and the largest number of iterations
+  double mean_radius = 0;                   ///< [L], > 0
+  /// Relative error of velocities, and of the mobility, which is otherwise linear and symmetric;
+  /// >= 0. It limits how small residuals can be.
+  double velocity_error = 0;
 };
 
-/// All pairs with a gap below `reach` [L] and those that are glued, with their memory from `state`.
-/// `obstacles` are positions at the end of the step. The side of a cylinder, whose normal has no
-/// component along the axis, is left out.
-PairLists pairs_in_reach(const State& state, std::span<const PlanePosition> obstacles, double reach,
-                         ThreadPool& pool);
+/// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps holds
+/// for them.
+///
+/// Returns the impulses at work in each contact [M L/T]: of its two particles the smaller one of the
+/// largest impulse on each. The impulses on a particle are those of its contacts, and those that
+/// would stop the motion without contact that changes a gap.
+std::vector<double> set_allowed(std::span<Contact<2>> contacts,
+                                const ContactConditions& conditions);
 
-/// The contact of a pair, with the gap D - `threshold` [L]. A round wall is taken as its tangent
-/// where the particle is after it moved with `free_velocities` [L/T, 1/T] for a time h [T].
-FluidContact fluid_contact_of(const Particles& particles, const Pair& pair,
-                              std::span<const PlanePosition> obstacles, double threshold,
-                              std::span<const double> free_velocities, double h);
+/// The residuals of a step.
+struct ContactResiduals {
+  std::vector<double> impulse_errors;  ///< residual/w of each contact [M L/T]; 0 where w = 0
+  double largest = 0;                  ///< [L]
+  double largest_relative = 0;         ///< largest impulse error divided by the impulses at work
+  double smallest_gap = 0;             ///< smallest D - D_c + h G v [L], at most 0
+  bool converged = true;               ///< all residuals are allowed
+};
+
+/// Measures the residuals of the impulses of contacts in the velocities that the particles have
+/// with them. Sets Contact::allowed.
+ContactResiduals measure_residuals(std::span<Contact<2>> contacts,
+                                   std::span<const double> velocities,
+                                   const ContactConditions& conditions);
+
+/// Largest number of contacts for which the matrix W is computed, by one product with the mobility
+/// for each contact. Above it, products take place within conjugate gradients.
+inline constexpr std::size_t kMostDenseContacts = 24;
+
+/// Finds the impulses p of contacts with p >= gamma, D + h G v >= 0 where p = gamma, and
+/// D + h G v = 0 where p > gamma, with v = free velocities + mobility(G^T p/h). This is the dual
+/// problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
+///
+/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves.
+/// Many contacts: the solver of the projection, MPRGP, with products by the mobility.
+class ContactProblem {
+ public:
+  /// `mobility` and the velocities of `conditions` must outlive the object.
+  ContactProblem(const ContactConditions& conditions, const Mobility& mobility)
+      : conditions_(conditions),
+        mobility_(mobility),
+        velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
+
+  /// Adds a contact, whose `impulse` is a first guess. Contacts of which the mobility moves neither
+  /// particle must not be added.
+  void add(const Contact<2>& contact) { contacts_.push_back(contact); }
+
+  /// Finds the impulses and the `w` of all contacts. Further contacts may be added after it, and
+  /// their solution begins at the impulses found. A rough solution serves only to see which other
+  /// contacts take part, and saves products where there are many. Returns whether the residuals of
+  /// all contacts reached the tolerances (of a rough solution, the wide ones). May throw what the
+  /// mobility throws.
+  [[nodiscard]] bool solve(bool is_rough);
+
+  /// All contacts, in the order in which they were added, with the impulses of the last solve().
+  const std::vector<Contact<2>>& contacts() const { return contacts_; }
+  /// Velocities of the particles with the impulses found [L/T, 1/T].
+  const std::vector<double>& velocities() const { return velocities_; }
+  /// Sums of the contact forces p/h on each particle [M L/T^2].
+  std::vector<double> loads() const;
+  /// Number of products with the mobility and of steps without such a product.
+  int iterations() const { return iterations_; }
+  /// True if the last solution was rough.
+  bool is_rough() const { return is_rough_; }
+
+ private:
+  /// Both improve the impulses until the residuals are those allowed.
+  void solve_dense();
+  void solve_by_products();
+
+  ContactConditions conditions_;
+  const Mobility& mobility_;
+  std::vector<Contact<2>> contacts_;
+  std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
+  std::vector<double> velocities_;
+  int iterations_ = 0;
+  bool is_rough_ = false;
+};
+
+/// The contacts of a step, solved.
+struct StepContacts {
+  std::vector<Pair> pairs,  ///< of particles in reach of each other in this step, with their memory
+      walls;                ///< the same of particles and obstacles
+  /// Of all `pairs`, then of all `walls`. Contacts that take no part have the impulse 0 and w = 0.
+  std::vector<Contact<2>> contacts;
+  std::vector<double> loads;       ///< sums of contact forces on each particle [M L/T^2]
+  std::vector<double> velocities;  ///< with the contact forces [L/T, 1/T]
+  int iterations = 0;     ///< products with the mobility, and iterations of a dense problem
+  bool is_solved = true;  ///< ContactProblem::solve() reached the tolerances
+};
+
+/// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
+/// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions
+/// at the end of the step. Pairs for which `is_left_out` is true are no contacts, because no contact
+/// force changes their distance. Throws what `mobility` throws.
+StepContacts solve_contacts(const State& state, double threshold,
+                            std::span<const PlanePosition> obstacles,
+                            const std::function<bool(const Pair&)>& is_left_out,
+                            const Mobility& mobility, const ContactConditions& conditions,
+                            ThreadPool& pool);
 
 }  // namespace viscontact::particles

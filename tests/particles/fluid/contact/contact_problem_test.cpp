@@ -1,10 +1,10 @@
 // The contact problem of a step in a fluid says whether it is solved.
-#include "viscontact/particles/fluid/contact/contact_problem.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <vector>
+
+#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {
@@ -21,12 +21,12 @@ struct Row {
     const Mobility mobility = [](std::span<const double> forces) {
       return std::vector<double>(forces.begin(), forces.end());
     };
-    ContactProblem problem(free, 0.1, mobility, {2}, settings, 1, 0);
+    ContactProblem problem({free, 0.1, {2}, settings, 1, 0}, mobility);
     for (std::size_t k = 0; k + 1 < free.size() / 2; ++k) {
-      FluidContact contact;
+      Contact<2> contact;
       contact.first = static_cast<std::int32_t>(k);
       contact.second = contact.first + 1;
-      contact.normal = {1, 0, 0};
+      contact.normal = {1, 0};
       problem.add(contact);
     }
     return problem.solve(false);
