@@ -42,10 +42,13 @@ inline constexpr std::array kMemoryFields = {
 /// The numbers of one pair; all are 0 where nothing is remembered.
 class PairMemory {
  public:
+  /// The number in one place, in the unit that Remembered says.
   double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
+  /// The same.
   double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
   /// All numbers, in the order of kMemoryFields.
   std::array<double, kMemoryFields.size()>& values() { return values_; }
+  /// The same.
   const std::array<double, kMemoryFields.size()>& values() const { return values_; }
 
   /// Impulse of friction [M L/T].

@@ -47,7 +47,7 @@ struct FilmLaw {
   std::optional<double> viscosity;  ///< mu [M/(L T)], > 0
   /// Height s of the roughness of each particle and plane [L], > 0.
   std::optional<double> roughness;
-  FilmShape shape = FilmShape::kSpheres;
+  FilmShape shape = FilmShape::kSpheres;  ///< of the resistance; kDiscs in the plane of a fluid
   /// The gap at which the film begins [L], > 0, the one reference length of gamma and gamma_min.
   /// Without a value it is r_eff. In a fluid it is the gap D_c down to which the flow is computed.
   std::optional<double> begins_at{};
