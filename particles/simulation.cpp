@@ -327,11 +327,4 @@ StepReport Simulation::step(double end) {
   return report;
 }
 
-double largest_resolved_distance(double tolerance, double mean_radius) {
-  // Squares of distances must be finite, and the rounding errors of positions must be smaller than
-  // the tolerated gaps.
-  constexpr double kFinite = 1e120;
-  return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
-}
-
 }  // namespace viscontact::particles

@@ -157,9 +157,4 @@ class Simulation {
   std::optional<State> before_division_;
 };
 
-/// Largest distance from the origin, and largest displacement in a step, that a particle may have
-/// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
-/// times `mean_radius` [L].
-double largest_resolved_distance(double tolerance, double mean_radius);
-
 }  // namespace viscontact::particles

@@ -1,6 +1,9 @@
 // When the projection of a time step has converged.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 namespace viscontact::particles {
 
 /// Tolerances have no dimension; docs/particles.md says how each is measured.
@@ -13,5 +16,15 @@ struct SolverSettings {
   /// factorisation.
   int max_iterations = 10000;
 };
+
+/// Largest distance from the origin, and largest displacement in a step, that a particle may have
+/// [L]. Beyond this distance the rounding errors of positions exceed `tolerance` (SolverSettings)
+/// times `mean_radius` [L].
+inline double largest_resolved_distance(double tolerance, double mean_radius) {
+  // Squares of distances must be finite, and the rounding errors of positions must be smaller than
+  // the tolerated gaps.
+  constexpr double kFinite = 1e120;
+  return std::min(kFinite, tolerance * mean_radius / std::numeric_limits<double>::epsilon());
+}
 
 }  // namespace viscontact::particles

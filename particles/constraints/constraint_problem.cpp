@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viscontact/particles/contact/contact.hpp"
+
 namespace viscontact::particles {
 
 template <int D>

@@ -8,8 +8,9 @@
 
 #include "viscontact/common/system/thread_pool.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_report.hpp"
 
 namespace viscontact::particles {
 

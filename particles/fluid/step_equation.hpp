@@ -9,7 +9,7 @@
 
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {

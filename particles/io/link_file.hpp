@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
 

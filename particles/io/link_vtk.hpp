@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "viscontact/particles/simulation.hpp"
+#include "viscontact/particles/setting.hpp"
 
 namespace viscontact::particles {
 

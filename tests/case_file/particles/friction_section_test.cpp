@@ -80,6 +80,21 @@ TEST_F(FrictionSection, WrongValuesAreRefusedWithTheirLines) {
               HasSubstr("particle[1].angle must be left out, because the orientation of a sphere"));
 }
 
+TEST_F(FrictionSection, RestitutionIsAShareAndNeedsSolidContact) {
+  EXPECT_EQ(read("gamma_min = 0", "", "").setting.laws.restitution.coefficient, 0);
+  EXPECT_EQ(read("gamma_min = 0\nrestitution = 0.97", "", "").setting.laws.restitution.coefficient,
+            0.97);
+  EXPECT_FALSE(read("restitution = 0.0", "", "").setting.laws.restitution.is_on());
+  EXPECT_THAT(refused("gamma_min = 0\nrestitution = 1.01", "", ""),
+              HasSubstr("viscous_contact.restitution is 1.01; it must be a number from 0 to 1"));
+  EXPECT_THAT(refused("restitution = 0.5", "", ""),
+              HasSubstr("viscous_contact.restitution has no effect, because smooth particles"));
+  EXPECT_THAT(
+      refused("gamma_min = 0\nrestitution = 0.5", "[[arm]]\nparticles = [0, 1]\nlength = 3.0", ""),
+      HasSubstr("viscous_contact.restitution must be left out, because the case has hinges "
+                "or arms"));
+}
+
 TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {
   EXPECT_EQ(read("", "", "").setting.scheme, particles::Scheme::kEuler);
   EXPECT_EQ(read("scheme = \"leapfrog\"", "", "").setting.scheme, particles::Scheme::kLeapfrog);

@@ -118,6 +118,23 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
   EXPECT_EQ(record["from_time"], 0);
 }
 
+TEST_F(InterruptedParticles, ListEachReboundOnce) {
+  std::string text = kLongCase;
+  const std::string key = "[viscous_contact]\n";
+  text.insert(text.find(key) + key.size(), "restitution = 0.9\n");
+  put_case(text);
+  expect_done(run("whole"));
+  for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"KILL", 8}})
+    (void)run("parts", {signal, frame});
+  expect_done(run("parts"));
+  expect_same(path("whole"), path("parts"));
+  const auto rebounds = read_file(path("whole/rebounds.csv"));
+  EXPECT_THAT(rebounds,
+              HasSubstr("\ntime,first,second,approach_velocity,solid_impulse,velocity\n"));
+  // The disc 12 falls on the floor.
+  EXPECT_THAT(rebounds, HasSubstr(",12,-1,"));
+}
+
 TEST_F(InterruptedParticles, ThatAreFinishedAreUpToDate) {
   put_case(replaced(kLongCase, "2.5e-5", "1e-2"));
   expect_done(run("out"));
