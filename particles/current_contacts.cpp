@@ -84,9 +84,11 @@ std::vector<CurrentContact> contacts_of(const Setting& setting, const State& sta
   const double touching = setting.solver.tolerance * mean_radius(p);
   for (const auto* pairs : {&state.pairs, &state.walls})
     for (const auto& pair : *pairs)
-      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching)
+      if (const double gap = gap_of(p, pair, places); pair.gamma < 0 || gap <= touching) {
+        const auto& memory = state.memories.of(pair.memory);
         contacts.push_back({pair.first, pair.second, gap, pair.gamma, pair.gamma_error, pair.image,
-                            friction_of(setting, state.memories.of(pair.memory))});
+                            friction_of(setting, memory), memory.shown()});
+      }
   return contacts;
 }
 

@@ -28,6 +28,8 @@ struct CurrentContact {
   double gamma_error = 0;  ///< Pair::gamma_error, in the unit of gamma
   std::int32_t image = 0;  ///< Pair::image
   ContactFriction friction = ContactFriction::kNone;  ///< in the last step
+  /// What laws remember of the pair and files show. It takes no room if there is nothing to show.
+  [[no_unique_address]] ShownMemory shown{};
 };
 
 /// Names of both bodies of a contact in files: the ids of two particles, or the id of a particle

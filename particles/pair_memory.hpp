@@ -1,6 +1,6 @@
 // What contact laws remember of a pair besides gamma, declared once: the restart file, contacts.csv,
-// the frames and the page learn it from kMemoryFields. To add a memory, add a row there and its place
-// in Remembered. Units are those of the case.
+// final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add a row there and
+// its place in Remembered. Units are those of the case.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ enum class Remembered : std::uint8_t {
 struct MemoryField {
   std::string_view name;  ///< in restart files and as a column
   bool is_impulse;        ///< of the last step: a step that is divided sums it over its parts
-  bool is_shown;          ///< whether contacts.csv, the frames and the page have it
+  bool is_shown;          ///< whether tables of contacts and the frames have it
 };
 
 /// All numbers that laws remember. Restart files store them by name.
@@ -38,6 +38,10 @@ inline constexpr std::array kMemoryFields = {
     MemoryField{"friction_z", true, false},
     MemoryField{"carried", true, false},
 };
+
+/// The shown numbers of one pair, in the order of kMemoryFields.
+using ShownMemory = std::array<double, static_cast<std::size_t>(std::ranges::count_if(
+                                           kMemoryFields, &MemoryField::is_shown))>;
 
 /// The numbers of one pair; all are 0 where nothing is remembered.
 class PairMemory {
@@ -50,6 +54,15 @@ class PairMemory {
   std::array<double, kMemoryFields.size()>& values() { return values_; }
   /// The same.
   const std::array<double, kMemoryFields.size()>& values() const { return values_; }
+
+  /// The numbers that files show.
+  ShownMemory shown() const {
+    ShownMemory numbers{};
+    auto number = numbers.begin();
+    for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
+      if (kMemoryFields[f].is_shown) *number++ = values_[f];
+    return numbers;
+  }
 
   /// Impulse of friction [M L/T].
   Vector friction() const { return {values_[0], values_[1], values_[2]}; }

@@ -24,7 +24,7 @@ class AppendedData {
   /// Appends `values` and returns the element `DataArray` that refers to them. `type` is their type
   /// in VTK, such as Float64, and `components` the number of values at a point or cell.
   template <class Number>
-  std::string array(const char* type, const char* name, int components,
+  std::string array(const char* type, std::string_view name, int components,
                     const std::vector<Number>& values) {
     auto element = fmt::format(
         R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"

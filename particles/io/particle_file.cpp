@@ -118,6 +118,21 @@ void check_header(const std::filesystem::path& path, int dimension, bool in_flui
         "them or none");
 }
 
+/// The names of the shown memories, each after a comma.
+std::string shown_columns() {
+  std::string text;
+  for (const auto& field : kMemoryFields)
+    if (field.is_shown) (text += ',') += field.name;
+  return text;
+}
+
+/// The shown numbers of a contact, each after a comma.
+std::string shown_numbers(const CurrentContact& contact) {
+  std::string text;
+  for (const double number : contact.shown) (text += ',') += format_number(number);
+  return text;
+}
+
 /// The ids of the rows. Empty if the file has no column `id`, if all its fields are empty, or if
 /// the ids are 0, 1, ..., as they are without the column.
 std::vector<std::int32_t> read_ids(const std::vector<Row>& rows, const std::string& file) {
@@ -258,13 +273,16 @@ std::string motion_rows(double time, const Particles& particles) {
   return text;
 }
 
+std::string contacts_header() { return "time,i,j,gap,gamma" + shown_columns() + "\n"; }
+
 std::string contact_rows(double time, const Particles& particles,
                          std::span<const CurrentContact> contacts) {
   std::string text;
   for (const auto& contact : contacts) {
     const auto [i, j] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", format_number(time), i, j,
-                   format_number(contact.gap), format_number(contact.gamma));
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}{}\n", format_number(time), i, j,
+                   format_number(contact.gap), format_number(contact.gamma),
+                   shown_numbers(contact));
   }
   return text;
 }
@@ -284,11 +302,13 @@ std::string rebound_rows(const Particles& particles, std::span<const Rebound> re
 }
 
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts) {
-  std::string text = fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error\n", contacts.size());
+  std::string text =
+      fmt::format("# rows: {}\ni,j,gap,gamma,gamma_error{}\n", contacts.size(), shown_columns());
   for (const auto& contact : contacts) {
     const auto [i, j] = ids_of(particles, contact);
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", i, j, format_number(contact.gap),
-                   format_number(contact.gamma), format_number(contact.gamma_error));
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}{}\n", i, j, format_number(contact.gap),
+                   format_number(contact.gamma), format_number(contact.gamma_error),
+                   shown_numbers(contact));
   }
   return text;
 }

@@ -62,8 +62,9 @@ std::string motion_header(int dimension);
 /// The rows of motion.csv of all particles at `time` [T].
 std::string motion_rows(double time, const Particles& particles);
 
-/// The line with the names of the columns of contacts.csv.
-inline constexpr const char* kContactsHeader = "time,i,j,gap,gamma\n";
+/// The line with the names of the columns of contacts.csv: time,i,j,gap,gamma and those of
+/// kMemoryFields that are shown.
+std::string contacts_header();
 /// The rows of contacts.csv at `time` [T]. i and j are as in write_contacts().
 std::string contact_rows(double time, const Particles& particles,
                          std::span<const CurrentContact> contacts);
@@ -74,8 +75,8 @@ inline constexpr const char* kReboundsHeader =
 /// The rows of rebounds.csv. first and second are as i and j in write_contacts().
 std::string rebound_rows(const Particles& particles, std::span<const Rebound> rebounds);
 
-/// CSV text with the columns i,j,gap,gamma,gamma_error. i and j are the ids of two particles; j is
-/// -1, -2, ... for the first, second obstacle.
+/// CSV text with the columns i,j,gap,gamma,gamma_error and those of kMemoryFields that are shown. i
+/// and j are the ids of two particles; j is -1, -2, ... for the first, second obstacle.
 std::string write_contacts(const Particles& particles, std::span<const CurrentContact> contacts);
 
 }  // namespace viscontact::particles

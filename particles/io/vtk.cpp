@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "viscontact/common/text/number.hpp"
@@ -26,6 +27,7 @@ void append(std::vector<double>& values, const Vector& x, int dimension) {
 struct ContactCells {
   std::vector<double> gaps, gammas;
   std::vector<std::int32_t> firsts, seconds, images, frictions;
+  std::vector<ShownMemory> shown;
   PolyCells cells;
 
   ContactCells(const Particles& particles, std::span<const CurrentContact> contacts) {
@@ -33,6 +35,13 @@ struct ContactCells {
     for (const bool wall : {true, false})
       for (const auto& contact : contacts)
         if ((contact.first < 0) == wall) add(particles, contact);
+  }
+
+  /// The shown memory with this place in ShownMemory, of all cells.
+  std::vector<double> memory(std::size_t place) const {
+    std::vector<double> values;
+    for (const auto& numbers : shown) values.push_back(std::span(numbers)[place]);
+    return values;
   }
 
  private:
@@ -48,6 +57,7 @@ struct ContactCells {
     seconds.push_back(second);
     images.push_back(contact.image);
     frictions.push_back(static_cast<std::int32_t>(contact.friction));
+    shown.push_back(contact.shown);
   }
 };
 
@@ -95,6 +105,9 @@ std::string write_vtp(const Particles& particles, std::span<const CurrentContact
   text += data.array("Int32", "j", 1, listed.seconds);
   if (particles.cell.is_periodic()) text += data.array("Int32", "image", 1, listed.images);
   if (has_friction) text += data.array("Int32", "friction", 1, listed.frictions);
+  std::size_t place = 0;
+  for (const auto& field : kMemoryFields)
+    if (field.is_shown) text += data.array("Float64", field.name, 1, listed.memory(place++));
   text += "</CellData>\n" + listed.cells.closing(data, points);
   return text + data.closing();
 }

@@ -2,6 +2,7 @@
 // of vtk.hpp. It understands only that layout, not VTK's formats in general.
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
@@ -24,12 +25,32 @@ std::vector<std::int32_t> numbers_or_zeros(const AppendedReader& reader, const c
   return numbers;
 }
 
+/// The shown memories of the contacts. Those that the frame does not have are zeros.
+std::vector<ShownMemory> read_memories(const AppendedReader& reader, std::size_t count) {
+  std::vector<ShownMemory> memories(count);
+  std::size_t place = 0;
+  for (const auto& field : kMemoryFields) {
+    if (!field.is_shown) continue;
+    if (reader.has_array("CellData", field.name)) {
+      const auto values = reader.array<double>("CellData", field.name);
+      if (values.size() != count) reader.refuse();
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::span numbers(memories[i]);
+        numbers[place] = values[i];
+      }
+    }
+    ++place;
+  }
+  return memories;
+}
+
 std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int64_t particles) {
   const auto gaps = reader.array<double>("CellData", "gap");
   const auto gammas = reader.array<double>("CellData", "gamma");
   const auto partners = reader.array<std::int32_t>("CellData", "j");
   const auto images = numbers_or_zeros(reader, "image", gaps.size());
   const auto frictions = numbers_or_zeros(reader, "friction", gaps.size());
+  const auto memories = read_memories(reader, gaps.size());
   // These are numbers of particles, which differ from their ids: one vertex for each contact with a
   // plane, then one line for each contact of two particles.
   const auto vertices = reader.array<std::int64_t>("Verts", "connectivity");
@@ -55,11 +76,11 @@ std::vector<CurrentContact> read_contacts(const AppendedReader& reader, std::int
   for (std::size_t i = 0; i < pairs; ++i)
     contacts.push_back({particle(lines[2 * i]), particle(lines[2 * i + 1]), gaps[walls + i],
                         gammas[walls + i], 0, image(images[walls + i]),
-                        friction(frictions[walls + i])});
+                        friction(frictions[walls + i]), memories[walls + i]});
   for (std::size_t i = 0; i < walls; ++i) {
     if (partners[i] >= 0) reader.refuse();
-    contacts.push_back(
-        {partners[i], particle(vertices[i]), gaps[i], gammas[i], 0, 0, friction(frictions[i])});
+    contacts.push_back({partners[i], particle(vertices[i]), gaps[i], gammas[i], 0, 0,
+                        friction(frictions[i]), memories[i]});
   }
   return contacts;
 }

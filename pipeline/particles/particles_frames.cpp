@@ -128,7 +128,7 @@ void ParticleFrames::show_flow(const FrameFile& flow) {
 
 void ParticleFrames::add_contact_rows(double time,
                                       const std::vector<particles::CurrentContact>& contacts) {
-  if (contacts_.empty()) contacts_ = particles::kContactsHeader;
+  if (contacts_.empty()) contacts_ = particles::contacts_header();
   particles::Particles named;  // only the ids are needed
   named.ids = playback_.ids;
   contacts_ += particles::contact_rows(time, named, contacts);

@@ -10,7 +10,8 @@ A block is applied if the paragraph before it says where it goes:
     In `PATH`, in place of the line with `TEXT`:
 
 TEXT must be in exactly one line of the file, so that a reader finds it too. The file
-`changed_files` in OUTPUT_FOLDER lists the files that were written.
+`changed_files` in OUTPUT_FOLDER lists the copies; a copy that is as it should be is not written
+again.
 """
 import pathlib
 import re
@@ -56,7 +57,10 @@ def main(document, source, output):
     for path, lines in files.items():
         target = output / path
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text("\n".join(lines) + "\n")
+        text = "\n".join(lines) + "\n"
+        # A change of the page's prose alone compiles nothing again.
+        if not target.exists() or target.read_text() != text:
+            target.write_text(text)
     (output / "changed_files").write_text("".join(f"{path}\n" for path in sorted(files)))
 
 

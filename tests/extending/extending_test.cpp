@@ -109,10 +109,11 @@ TEST(ExtendedGeometry, HasTheMotionsThatItDeclaresAndNoOthers) {
   }
 }
 
-// The page's own commands: a table of slip length 1e-4, its fit, and what 1/q^2 says of it.
+// The page's own commands, among them a table of slip length 1e-4, its fit, and what 1/q^2 says of
+// it.
 TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   const ReadersFolder folder(VISCONTACT_EXTENDED);
-  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/extending.md"), 3);
+  EXPECT_EQ(folder.run_page(VISCONTACT_SOURCE_FOLDER "/docs/extending.md"), 4);
   const std::string text = read_file(folder.path() / "out/slip.json");
   const auto coefficient = [&](const std::string& term) {
     const auto name = text.find("\"name\": \"" + term + "\"");
@@ -123,13 +124,18 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   EXPECT_NEAR(-coefficient("1/q^2") / coefficient("1/q"), 1e-4, 3e-6);
 }
 
-// A geometry, a term with a basis, and a model with a parameter: each is its own files and one row.
+// A geometry, a term with a basis, a model with a parameter, and a contact law with a memory: each is
+// its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
+            "case_file/particles/particles_case.cpp\n"
             "freefem_axi/geometry.cpp\n"
             "freefem_axi/scripts/axisymmetric_stokes.idp\n"
             "freefem_axi/scripts/slip_plane.edp\n"
             "lubrication/terms.cpp\n"
+            "particles/contact/ageing_law.hpp\n"
+            "particles/contact/contact_laws.hpp\n"
+            "particles/pair_memory.hpp\n"
             "reduced_model/CMakeLists.txt\n"
             "reduced_model/models/models.cpp\n"
             "reduced_model/models/reference_log.cpp\n"

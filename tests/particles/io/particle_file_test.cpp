@@ -144,7 +144,7 @@ TEST_F(FluidParticleFile, OfTheContactsNamesIdsAndWalls) {
   auto p = discs_in_fluid();
   p.ids = {7, 3};
   const std::vector<CurrentContact> contacts = {{0, 1, 0.5, -2}, {-2, 1, 0.25, 0}};
-  EXPECT_EQ(kContactsHeader + contact_rows(0.1, p, contacts),
+  EXPECT_EQ(contacts_header() + contact_rows(0.1, p, contacts),
             "time,i,j,gap,gamma\n0.1,7,3,0.5,-2\n0.1,3,-2,0.25,0\n");
 }
 
