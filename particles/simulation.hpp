@@ -43,7 +43,7 @@ class Simulation {
   /// `threads` >= 1 is the number of threads.
   Simulation(Setting setting, State state, int threads);
   ~Simulation();
-  Simulation(Simulation&&) noexcept;
+  Simulation(Simulation&&) noexcept;  ///< the other simulation must not be used afterwards
 
   /// Computes one step of length h. If `end` is earlier than the end of this step by more than a
   /// millionth of h, the step ends at `end`. If less than a millionth of h is left until `end`, no

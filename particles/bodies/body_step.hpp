@@ -17,12 +17,13 @@ struct BodyLoad {
 /// The motion of a body in a step of length h: first the one without constraints, then that of the
 /// solution.
 struct BodyStep {
-  Vector displacement{};            ///< h u of the centre [L]
-  Vector turn{};                    ///< h w [rad]; of discs value[2]
-  Vector angular_momentum{};        ///< at the end [M L^2/T]
-  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], and in the
-  /// plane the angular momentum beyond I turn/h [M L^2/T], because they came late in it.
-  Vector late_velocity{}, late_momentum{};
+  Vector displacement{};      ///< h u of the centre [L]
+  Vector turn{};              ///< h w [rad]; of discs value[2]
+  Vector angular_momentum{};  ///< at the end [M L^2/T]
+  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], because they
+  /// came late in it.
+  Vector late_velocity{};
+  Vector late_momentum{};           ///< the same of the angular momentum, in the plane [M L^2/T]
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
   Matrix3 inverse_turn_mobility{};  ///< I/h

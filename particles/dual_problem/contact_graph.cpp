@@ -9,7 +9,8 @@ namespace viscontact::particles {
 template <int D>
 ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
                               std::span<const double> displacements,
-                              std::span<const double> mobilities, ThreadPool& pool)
+                              std::span<const double> mobilities, ThreadPool& pool,
+                              std::span<const std::int32_t> body_of)
     : z(contacts.size()),
       bound(contacts.size()),
       linear_term(contacts.size()),
@@ -27,12 +28,13 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
     const bool particles = contact.first >= 0;
-    const auto i = index_of(particles ? contact.first : wall), j = index_of(contact.second);
+    const auto body = [&](std::int32_t k) { return body_of.empty() ? k : body_of[index_of(k)]; };
+    const auto second = body(contact.second);
+    const auto i = index_of(particles ? body(contact.first) : wall), j = index_of(second);
     const double of_first = particles ? mobilities[i] : 0;
     const double root = std::sqrt(contact.w);
-    rows_[c] = {
-        static_cast<std::int32_t>(i), contact.second, contact.normal, 1 / root, of_first / root,
-        mobilities[j] / root};
+    rows_[c] = {static_cast<std::int32_t>(i), second, contact.normal, 1 / root, of_first / root,
+                mobilities[j] / root};
     scale[c] = root;
     per_allowed[c] = root / contact.allowed;
     z[c] = std::max(contact.impulse, contact.lowest) * root;

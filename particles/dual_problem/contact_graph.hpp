@@ -39,9 +39,11 @@ class ContactGraph {
   using Vec = std::array<double, D>;
 
   /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
-  /// All planes together are one additional body, which does not move.
+  /// All planes together are one additional body, which does not move. `body_of` is the body of each
+  /// particle; without it the numbers in the contacts are those of bodies.
   ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
-               std::span<const double> mobilities, ThreadPool& pool);
+               std::span<const double> mobilities, ThreadPool& pool,
+               std::span<const std::int32_t> body_of = {});
 
   /// Number of contacts.
   std::size_t count() const { return rows_.size(); }

@@ -58,12 +58,7 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
 
 template <int D>
 SolverResult ContactSystem<D>::solve(bool is_rough, int max_iterations, ThreadPool& pool) {
-  auto numbered = contacts;
-  for (auto& contact : numbered) {
-    if (contact.first >= 0) contact.first = body_of(contact.first);
-    contact.second = body_of(contact.second);
-  }
-  ContactGraph<D> graph(numbered, free_, body_mobilities_, pool);
+  ContactGraph<D> graph(contacts, free_, body_mobilities_, pool, body_of_);
   graph.largest_island = largest_island_;
   graph.is_rough = is_rough;
   const auto solved = solve_dual_problem(graph, max_iterations, factor_);

@@ -31,6 +31,11 @@ std::optional<double> time_of_meeting(const Vector& c, const Vector& a, const Ve
   double t = 0;
   if (b == Vector{}) {
     const double square = dot(a, a), along = dot(c, a);
+    if (sum == 0) {  // at an obstacle the root below is 0 but for rounding errors
+      if (!(along < 0)) return std::nullopt;
+      t = -along / square;
+      return t <= until ? std::optional(t) : std::nullopt;
+    }
     const double root = along * along - square * gap * (distance + sum);
     if (!(along < 0) || root < 0) return std::nullopt;
     t = gap * (distance + sum) / (-along + std::sqrt(root));
@@ -172,11 +177,15 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double ended =
       std::max(kShortestFlight * load / (2 * step_.laws.restitution.coefficient), 0.0);
   // A pair that bore a load, or hardly approached, before the step rests. Blows alone can hit it, if they
-  // are more than half of the velocity that forces give its particles in the step: what is less shakes a
-  // packing without end.
-  constexpr double kUnseen = 1e-3;  // of the tolerance: slower approaches are not seen in a step
-  const double unseen = kUnseen * step_.touching / step_.h;
-  const double pulled = step_.h / 2 *
+  // are more than five times the velocity that forces give its particles in the step: what is less would
+  // shake a packing without end.
+  // Slower approaches are not seen in a step, or are rounding errors of the velocities.
+  constexpr double kUnseen = 1e-3, kRounding = 1e-12;
+  const double speeds = norm(free_velocity(pair(k).first)) + norm(free_velocity(pair(k).second)) +
+                        norm(flight_or_none(pair(k).first).change) +
+                        norm(flight_or_none(pair(k).second).change);
+  const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
+  const double pulled = 5 * step_.h *
                         std::max(std::abs(dot(normal, acceleration(pair(k).second))),
                                  std::abs(dot(normal, acceleration(pair(k).first))));
   const bool bore_load = pair(k).impulse != 0 || pair(k).gamma < 0;
@@ -194,9 +203,9 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair between which blows go to and fro is left to the projection after this many.
-    constexpr int kMostHits = 30;
-    if (hits_of_[k] >= kMostHits) return;
+    // Blows that go to and fro without end between pairs under load are left to the projection.
+    constexpr int kMostHits = 1000, kMostUnderLoad = 30;
+    if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }
   const auto approach = approach_of(k);
   const Vector x = approach.c + from * approach.a + (from * from) * approach.b;
@@ -287,8 +296,11 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       unit_of.push_back(k);
       if (body < 0) {
         const std::array<double, 3> still{};
-        // Spheres that do not turn take part without moments, so that any mobility of turns is right.
-        const double turns = step_.turns.empty() ? 1 : step_.turn_mobilities[index_of(k)];
+        // Particles that do not turn have no moments but rounding errors, which this mobility leaves
+        // small in every unit.
+        const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
+        const double turns =
+            step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
         problem.units.push_back(
             unit_of_particle<D>(step_.mobilities[index_of(k)], turns, still.data(), still.data()));
       } else {

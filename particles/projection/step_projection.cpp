@@ -76,7 +76,12 @@ Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
     end[d] += relative[d];
     square += end[d] * end[d];
   }
-  if (!(square > 0)) return contact;
+  // Particles that pass each other in the step have no common direction; for them the one at its
+  // beginning counts, as in a step without blows.
+  constexpr double kLeastCosine = 0.5;
+  double cosine = 0;
+  for (std::size_t d = 0; d < D; ++d) cosine += contact.normal[d] * end[d];
+  if (!(cosine > kLeastCosine * std::sqrt(square))) return contact;
   for (std::size_t d = 0; d < D; ++d) {
     contact.normal[d] = end[d] / std::sqrt(square);
     along += contact.normal[d] * start[d];

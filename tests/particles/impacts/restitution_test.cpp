@@ -118,6 +118,64 @@ TEST_P(Restitution, OfADryBallThatFallsEndsWhenTheSumOfItsFlightsDoes) {
     }
 }
 
+TEST_P(Restitution, OfABallWithoutForcesIsExactWhereverTheStepsLie) {
+  // Numbers without a pattern: the gap, the speed, the step, the units and the direction of the plane.
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const double length = random.decades(-5, 5), mass = random.decades(-5, 5);
+    const double gap = length * random.decades(-2, 1), speed = length * random.decades(-3, 3);
+    const Vector normal = random.direction(GetParam());
+    Scene scene{no_particles(GetParam()), {}};
+    add_particle(scene.state, (length + gap) * normal, length, mass, -speed * normal);
+    scene.setting.planes = {plane_at_rest({}, normal)};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 0.7;
+    scene.setting.time_step = random.decades(-2, 0.5) * gap / speed;
+    Simulation simulation(scene.setting, scene.state, 1);
+    const double end = 2.3 * gap / speed;
+    run(simulation, end);
+    const auto& p = simulation.state().particles;
+    EXPECT_NEAR(dot(p.velocity(0), normal) / speed, 0.7, 1e-10) << i;
+    EXPECT_NEAR((dot(p.position(0), normal) - length) / gap, 0.7 * 1.3, 1e-9 * (1 + length / gap))
+        << i;
+  }
+}
+
+TEST_P(Restitution, DoesNotDependOnTheUnits) {
+  // Three unequal particles that do not turn, in units of 1 and far away from it.
+  std::vector<double> ends;
+  for (const double length : {1.0, 1e-20, 1e20})
+    for (const double mass : {1.0, 1e-30, 1e30}) {
+      Scene scene{no_particles(GetParam()), {}};
+      add_particle(scene.state, {0, 0, 0}, length, mass, {length, 0, 0});
+      add_particle(scene.state, {3 * length, 0.5 * length, 0}, length, 3 * mass);
+      add_particle(scene.state, {8 * length, length, 0}, length, mass);
+      scene.setting.laws.film.gamma_min = 0;
+      scene.setting.laws.restitution.coefficient = 0.9;
+      scene.setting.time_step = 0.3;
+      Simulation simulation(scene.setting, scene.state, 1);
+      std::size_t rebounds = 0;
+      run(simulation, 9, [&](const StepReport&) { rebounds += simulation.rebounds().size(); });
+      EXPECT_EQ(rebounds, 2U) << length << " " << mass;
+      ends.push_back(simulation.state().particles.velocity(2)[0] / length);
+      EXPECT_NEAR(ends.back(), ends.front(), 1e-10);
+    }
+}
+
+TEST_P(Restitution, LetsNoParticlePassThroughAFilm) {
+  // The centres would pass each other in the first step; the film keeps both together.
+  Scene scene{no_particles(GetParam()), {}};
+  add_particle(scene.state, {0, 0, 0}, 1, 1, {3.9, 0, 0});
+  add_particle(scene.state, {2.5, 0, 0}, 1, 1);
+  scene.setting.laws.film.gamma_min = -100;
+  scene.setting.laws.restitution.coefficient = 1;
+  scene.setting.time_step = 1;
+  Simulation simulation(scene.setting, scene.state, 1);
+  run(simulation, 4);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(simulation.state().particles.velocity(k)[0], 1.95, 1e-9);
+}
+
 TEST_P(Restitution, PassesABlowOnThroughTouchingParticles) {
   // Of five equal particles that touch, as many leave as arrive (Newton's cradle).
   for (const int arrive : {1, 2, 3})
@@ -240,6 +298,24 @@ TEST_P(Restitution, OfThePileAtRestIsNoChatter) {
   EXPECT_EQ(rebounds, 0U);
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(simulation.state().particles.position(k)[1], 1.0 + 2.0 * double(k), 1e-6);
+}
+
+TEST(RestitutionOfDiscs, OfAHeavyOneAndALightOneAtAWallCountsTo314) {
+  // Galperin's count of the blows between masses 10000 : 1 and a wall.
+  for (const double step : {0.01, 0.05, 0.3}) {
+    Scene scene{no_particles(2), {}};
+    add_particle(scene.state, {10, 0, 0}, 1, 10000, {-1, 0, 0});
+    add_particle(scene.state, {4, 0, 0}, 1, 1);
+    scene.setting.planes = {plane_at_rest({}, {1, 0, 0})};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 1;
+    scene.setting.time_step = step;
+    Simulation simulation(scene.setting, scene.state, 1);
+    std::size_t blows = 0;
+    run(simulation, 40, [&](const StepReport&) { blows += simulation.rebounds().size(); });
+    EXPECT_EQ(blows, 314U) << step;
+    EXPECT_NEAR(energy(simulation.state().particles), 5000, 1e-6);
+  }
 }
 
 TEST(RestitutionOfDiscs, TakesTheImpulseOfTheWholeBlowForFriction) {
