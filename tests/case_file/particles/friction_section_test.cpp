@@ -89,10 +89,6 @@ TEST_F(FrictionSection, RestitutionIsAShareAndNeedsSolidContact) {
               HasSubstr("viscous_contact.restitution is 1.01; it must be a number from 0 to 1"));
   EXPECT_THAT(refused("restitution = 0.5", "", ""),
               HasSubstr("viscous_contact.restitution has no effect, because smooth particles"));
-  EXPECT_THAT(
-      refused("gamma_min = 0\nrestitution = 0.5", "[[arm]]\nparticles = [0, 1]\nlength = 3.0", ""),
-      HasSubstr("viscous_contact.restitution must be left out, because the case has hinges "
-                "or arms"));
 }
 
 TEST_F(FrictionSection, TheSchemeIsEulerUnlessGiven) {

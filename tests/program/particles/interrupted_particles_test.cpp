@@ -120,8 +120,8 @@ TEST_F(InterruptedParticles, GoOnByTheSameCommandToTheSameFilesAsWithoutAnInterr
 
 TEST_F(InterruptedParticles, ListEachReboundOnce) {
   std::string text = kLongCase;
-  const std::string key = "[viscous_contact]\n";
-  text.insert(text.find(key) + key.size(), "restitution = 0.9\n");
+  const std::string film = "gamma_min = -2.0\n";
+  text.replace(text.find(film), film.size(), "gamma_min = 0.0\nrestitution = 0.9\n");
   put_case(text);
   expect_done(run("whole"));
   for (const auto& [signal, frame] : {Interrupt{"INT", 3}, {"KILL", 8}})
