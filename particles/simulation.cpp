@@ -17,6 +17,7 @@
 #include "viscontact/particles/neighbours/neighbour_list.hpp"
 #include "viscontact/particles/projection/step_projection.hpp"
 #include "viscontact/particles/rotation.hpp"
+#include "viscontact/particles/step_residuals.hpp"
 #include "viscontact/particles/step_times.hpp"
 
 namespace viscontact::particles {
@@ -78,7 +79,8 @@ std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
     auto& pair = *projected.pairs[f];
-    setting_.laws.remember(pair, state_.memories, radii_of(pair), projected.impulse_errors[f], h);
+    setting_.laws.remember(pair, state_.memories, radii_of(pair),
+                           projected.residuals.impulse_errors[f], h);
     if (pair.gamma < 0) ++glued;
   }
   return glued;
@@ -235,26 +237,53 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   report.contacts = projected.pairs.size();
   report.unresolved += projected.unresolved;
   report.iterations += projected.iterations;
-  report.residual = std::max(report.residual, projected.residual / mean_radius_);
-  report.impulse_residual = std::max(report.impulse_residual, projected.impulse_residual);
-  report.converged = report.converged && projected.converged;
-  report.largest_overlap =
-      std::max(report.largest_overlap, (0 - projected.smallest_gap) / mean_radius_);
+  report_residuals(projected.residuals, mean_radius_, report);
+}
+
+/// Throws Error(kNotConverged) if a part of a step that ends at `next` cannot be accepted.
+void Simulation::examine(const ProjectionResult& projected, double next) const {
+  const auto& residuals = projected.residuals;
+  refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
+    // The obstacles that move in this step and push on a particle.
+    std::vector<char> presses(obstacles_.size(), 0);
+    for (const auto* wall : projected.pairs)
+      if (wall->first < 0 && wall->impulse > 0) presses[wall->plane()] = 1;
+    const auto before = positions_of(obstacles_, state_.time);
+    const auto after = positions_of(obstacles_, next);
+    std::string moving;
+    for (std::size_t w = 0; w < before.size(); ++w)
+      if (presses[w] != 0 && before[w] != after[w])
+        moving += fmt::format("{}{}", moving.empty() ? "" : ", ", w + 1);
+    return moving.empty() ? "is the time step too long for the forces?"
+                          : fmt::format(
+                                "the planes that move are {}: do they leave the "
+                                "particles too little room?",
+                                moving);
+  });
+  // A link that is not solved by a solver that may do thousands of iterations contradicts others.
+  // The bound lets pass what is only slow to converge, and is seen on pages.
+  constexpr double kBroken = 1e-3;
+  if (residuals.converged || projected.unsolved_links.empty() ||
+      std::max(projected.link_residual, -residuals.smallest_gap) <= kBroken * mean_radius_)
+    return;
+  std::string names;
+  for (const auto& name : projected.unsolved_links)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  if (residuals.smallest_gap < 0)
+    names += " without an overlap of " +
+             name_of_pair(residuals.deepest_overlap, state_.particles, setting_);
+  throw Error(ErrorKind::kNotConverged,
+              fmt::format("the constraints of the step to time {} contradict each other: no motion "
+                          "satisfies {}; change their lengths or places, or leave one out",
+                          next, names));
 }
 
 template <int D>
 void Simulation::advance(double h, double next, int halvings, StepReport& report) {
   move_freely<D>(h, next);
   const auto projected = project<D>(h, next);
-  if (!projected.converged && -projected.smallest_gap > mean_radius_)
-    throw_step_without_solution(projected, next);
-  // A link that is not solved by a solver that may do thousands of iterations contradicts others.
-  // The bound lets pass what is only slow to converge, and is seen on pages.
-  constexpr double kBroken = 1e-3;
-  if (!projected.converged && !projected.unsolved_links.empty() &&
-      !(std::max(projected.link_residual, -projected.smallest_gap) <= kBroken * mean_radius_))
-    throw_contradiction(projected, next);
-  if (projected.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
+  examine(projected, next);
+  if (projected.residuals.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
     undo_impacts();
     if (halvings == 0) before_division_ = state_;
     const double middle = state_.time + h / 2;

@@ -97,9 +97,7 @@ class Simulation {
     for (auto* pairs : {&state_.pairs, &state_.walls})
       for (auto& pair : *pairs) visit(pair);
   }
-  [[noreturn]] void throw_step_without_solution(const ProjectionResult& projected,
-                                                double next) const;
-  [[noreturn]] void throw_contradiction(const ProjectionResult& projected, double next) const;
+  void examine(const ProjectionResult& projected, double next) const;
   // Sets the displacements h u* of the free motion in a part of length h that ends at time `next`.
   template <int D>
   void move_freely(double h, double next);

@@ -1,4 +1,4 @@
-// Places the steps, those of the leapfrog scheme around jumps of forces (step_times.hpp).
+// Places the steps around or at the times of jumps (step_times.hpp).
 #include "viscontact/particles/step_times.hpp"
 
 #include <algorithm>
@@ -15,14 +15,19 @@ constexpr double kTiny = 1e-6;
 
 std::vector<double> jump_times(const Setting& setting) {
   std::vector<double> times;
-  for (const auto* map : {&setting.forces, &setting.torques})
-    for (const auto& [particle, function] : *map) {
-      const auto& pieces = function.pieces;
-      for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const Vector after = k + 1 < pieces.size() ? pieces[k + 1].value : Vector{};
-        if (pieces[k].until > 0 && pieces[k].value != after) times.push_back(pieces[k].until);
-      }
+  const auto add = [&](const PiecewiseConstant& function) {
+    const auto& pieces = function.pieces;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const Vector after = k + 1 < pieces.size() ? pieces[k + 1].value : Vector{};
+      if (pieces[k].until > 0 && pieces[k].value != after) times.push_back(pieces[k].until);
     }
+  };
+  if (setting.scheme == Scheme::kLeapfrog) {
+    for (const auto* map : {&setting.forces, &setting.torques})
+      for (const auto& [particle, function] : *map) add(function);
+  } else if (setting.laws.restitution.is_on()) {
+    for (const auto& plane : setting.planes) add(plane.velocity);
+  }
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -47,7 +52,12 @@ std::optional<StepInterval> StepGrid::next(const State& state, double end) const
   const double on_grid =
       state.grid_time + static_cast<double>(state.steps + 1 - state.grid_step) * time_step_;
   StepInterval step{time_step_, on_grid};
-  if (leapfrog_) step.end = leapfrog_step_end(state.time, on_grid, time_step_, jumps_);
+  if (leapfrog_) {
+    step.end = leapfrog_step_end(state.time, on_grid, time_step_, jumps_);
+  } else if (const auto jump = std::ranges::upper_bound(jumps_, state.time + tiny);
+             jump != jumps_.end() && *jump < on_grid - tiny) {
+    step.end = *jump;
+  }
   const bool is_cut = step.end > end + tiny;
   if (is_cut) {
     step.end = end;

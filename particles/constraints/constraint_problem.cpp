@@ -9,11 +9,46 @@
 namespace viscontact::particles {
 
 template <int D>
+RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
+                              const double* turn) {
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  RigidUnit<D> unit;
+  unit.mobility = mobility;
+  unit.inverse_mobility = 1 / mobility;
+  for (std::size_t i = 0; i < d; ++i) unit.free[i] = displacement[i];
+  for (std::size_t i = 0; i < r; ++i) {
+    unit.free[d + i] = turn[i];
+    unit.turn_mobility[i * r + i] = turn_mobility;
+    unit.inverse_turn_mobility[i * r + i] = 1 / turn_mobility;
+  }
+  return unit;
+}
+
+template <int D>
+RigidUnit<D> unit_of_body(const BodyStep& free) {
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  RigidUnit<D> unit;
+  unit.mobility = free.mobility;
+  unit.inverse_mobility = 1 / free.mobility;
+  for (std::size_t i = 0; i < d; ++i) unit.free[i] = free.displacement[i];
+  // A disc turns about z, the last axis.
+  for (std::size_t i = 0; i < r; ++i) {
+    unit.free[d + i] = free.turn[3 - r + i];
+    for (std::size_t k = 0; k < r; ++k) {
+      const std::size_t at = 3 * (3 - r + i) + 3 - r + k;
+      unit.turn_mobility[i * r + k] = free.turn_mobility[at];
+      unit.inverse_turn_mobility[i * r + k] = free.inverse_turn_mobility[at];
+    }
+  }
+  return unit;
+}
+
+template <int D>
 std::vector<Motion<D>> motions(const ConstraintProblem<D>& problem,
                                std::span<const double> impulses) {
   std::vector<Motion<D>> sums(problem.units.size(), Motion<D>{});
   for (std::size_t r = 0; r < problem.rows.size(); ++r)
-    if (impulses[r] != 0) add_impulse<D>(problem.rows[r], impulses[r], sums);
+    if (impulses[r] != 0) problem.add_impulse(r, impulses[r], sums);
   for (std::size_t b = 0; b < sums.size(); ++b) {
     const auto& unit = problem.units[b];
     sums[b] = unit.moved_by(sums[b]);
@@ -26,24 +61,16 @@ template <int D>
 std::vector<double> row_mobilities(const ConstraintProblem<D>& problem) {
   std::vector<double> w;
   w.reserve(problem.rows.size());
-  for (const auto& row : problem.rows) {
-    const auto share = [&](std::int32_t unit, const Motion<D>& of) {
-      if (unit < 0) return 0.0;
-      const auto moved = problem.units[static_cast<std::size_t>(unit)].moved_by(of);
-      double sum = 0;
-      for (std::size_t k = 0; k < of.size(); ++k) sum += of[k] * moved[k];
-      return sum;
-    };
-    w.push_back(share(row.first, row.of_first) + share(row.second, row.of_second));
+  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+    w.push_back(0);
+    for (const auto& [unit, coefficients] : problem.parts_of(r)) {
+      const auto moved = problem.units[static_cast<std::size_t>(unit)].moved_by(coefficients);
+      double share = 0;
+      for (std::size_t k = 0; k < moved.size(); ++k) share += coefficients[k] * moved[k];
+      w.back() += share;
+    }
   }
   return w;
-}
-
-FrictionCone FrictionCone::nearest(double mu_s, double p_s, double length, double w_n, double w_t) {
-  if (length <= mu_s * p_s) return {Part::kInside, p_s, 1};
-  const double load = (w_n * p_s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);
-  if (!(load > 0)) return {Part::kApex, 0, 0};
-  return {Part::kSurface, load, mu_s * load / length};
 }
 
 BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, const double* v,
@@ -81,6 +108,10 @@ BlockResidual residual_of(const ConstraintBlock& block, bool lifts_sliding, cons
   return residual;
 }
 
+template RigidUnit<2> unit_of_particle<2>(double, double, const double*, const double*);
+template RigidUnit<3> unit_of_particle<3>(double, double, const double*, const double*);
+template RigidUnit<2> unit_of_body<2>(const BodyStep&);
+template RigidUnit<3> unit_of_body<3>(const BodyStep&);
 template std::vector<Motion<2>> motions<2>(const ConstraintProblem<2>&, std::span<const double>);
 template std::vector<Motion<3>> motions<3>(const ConstraintProblem<3>&, std::span<const double>);
 template std::vector<double> row_mobilities<2>(const ConstraintProblem<2>&);

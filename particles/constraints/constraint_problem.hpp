@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/particles/bodies/body_step.hpp"
+#include "viscontact/particles/contact/friction_law.hpp"
+
 namespace viscontact::particles {
 
 /// Number of components of a rotation: the angle in the plane, or a vector in space.
@@ -56,21 +59,36 @@ struct RigidUnit {
   }
 };
 
-/// One scalar of a constraint after the motions y of the units: offset + of_first.y_first +
-/// of_second.y_second [L].
+/// The unit of a particle without a body: its mobility h/m [T/M] and turn mobility h/I [T/(M L^2)],
+/// and its motion without constraints, D numbers `displacement` [L] and kTurns numbers `turn` [rad].
 template <int D>
+RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
+                              const double* turn);
+
+/// The unit of a rigid body with this motion without constraints.
+template <int D>
+RigidUnit<D> unit_of_body(const BodyStep& free);
+
+/// What the motion y of one unit adds to a row: the product of both.
+template <int D>
+struct RowPart {
+  std::int32_t unit = 0;     ///< number of a unit
+  Motion<D> coefficients{};  ///< [1] for displacements, [L] for rotations
+};
+
+/// One scalar of a constraint after the motions of the units: `offset` and the products of its parts
+/// [L]. A contact has the parts of its two units, or of one at an obstacle; a constraint may have any
+/// number. What is at rest, like an obstacle, has no part.
 struct ConstraintRow {
-  std::int32_t first = -1;  ///< number of a unit; -1: an obstacle, or a fixed point
-  std::int32_t second = 0;  ///< number of a unit
-  /// Coefficients of the motions of both units: [1] for displacements, [L] for rotations.
-  Motion<D> of_first{},  ///< those of the motion of `first`
-      of_second{};       ///< those of the motion of `second`
-  double offset = 0;     ///< value of the row if no unit moves [L]
+  double offset = 0;           ///< value of the row if no unit moves [L]
+  std::size_t first_part = 0;  ///< number of the first part in ConstraintProblem::parts
+  std::size_t parts = 0;       ///< number of parts, which follow each other
 };
 
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
 /// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
-/// kMostRows rows, which must be 0, or proportional to their impulses.
+/// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have parts
+/// of the same units in the same order.
 struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
   std::size_t rows = 1;    ///< number of its rows
@@ -89,8 +107,7 @@ struct ConstraintBlock {
   /// Bound mu_s p_s of the tangential impulse [M L/T], where p_s is the part of the normal impulse
   /// that the solids carry, docs/physics.md (5.7).
   double bound(double normal_impulse) const {
-    const double carried = normal_impulse - capacity;
-    return carried > 0 ? friction * carried : 0;
+    return friction * FrictionLaw::carried(normal_impulse, capacity);
   }
 };
 
@@ -103,12 +120,40 @@ inline constexpr std::size_t kMostRows = 3;
 template <int D>
 struct ConstraintProblem {
   std::vector<RigidUnit<D>> units;      ///< all particles and bodies that take part
-  std::vector<ConstraintRow<D>> rows;   ///< those of each block follow each other
+  std::vector<RowPart<D>> parts;        ///< of the rows
+  std::vector<ConstraintRow> rows;      ///< those of each block follow each other
   std::vector<ConstraintBlock> blocks;  ///< in the order of their rows
   std::vector<double> impulses;         ///< of the rows [M L/T]: a guess, then the solution
   /// Whether contacts obey the convex relaxation (5.9): a contact whose solids carry load has its
   /// impulses in the FrictionCone, and a sliding contact opens by h mu_s |v_t|.
   bool lifts_sliding = false;
+
+  /// Adds a row with these parts and a guess of its impulse [M L/T].
+  void add_row(double offset, const std::vector<RowPart<D>>& of_row, double impulse) {
+    rows.push_back({offset, parts.size(), of_row.size()});
+    parts.insert(parts.end(), of_row.begin(), of_row.end());
+    impulses.push_back(impulse);
+  }
+  /// The parts of row `r`.
+  std::span<const RowPart<D>> parts_of(std::size_t r) const {
+    return {&parts[rows[r].first_part], rows[r].parts};
+  }
+  /// Value of row `r` for the motions `y`, without its offset [L].
+  double product(std::size_t r, std::span<const Motion<D>> y) const {
+    double sum = 0;
+    for (const auto& [unit, coefficients] : parts_of(r)) {
+      const auto& motion = y[static_cast<std::size_t>(unit)];
+      for (std::size_t k = 0; k < motion.size(); ++k) sum += coefficients[k] * motion[k];
+    }
+    return sum;
+  }
+  /// Adds J^T p of row `r` with the impulse `p` to the impulses of the units.
+  void add_impulse(std::size_t r, double p, std::span<Motion<D>> to) const {
+    for (const auto& [unit, coefficients] : parts_of(r)) {
+      auto& impulse = to[static_cast<std::size_t>(unit)];
+      for (std::size_t k = 0; k < impulse.size(); ++k) impulse[k] += coefficients[k] * p;
+    }
+  }
 };
 
 /// Whether (5.9) holds for a contact with the normal impulse `p_n`, because its solids carry load
@@ -116,45 +161,6 @@ struct ConstraintProblem {
 inline bool is_in_cone(const ConstraintBlock& block, bool lifts_sliding, double p_n) {
   return lifts_sliding && block.is_contact && block.rows > 1 &&
          (p_n > block.capacity || block.capacity <= block.lowest);
-}
-
-/// A point of the cone |p_t| <= mu_s p_s, the set of allowed impulses in (5.9), where p_s = p_n -
-/// capacity is the load of the solids.
-struct FrictionCone {
-  /// Where the point is.
-  enum class Part { kApex, kInside, kSurface };
-  Part part = Part::kApex;  ///< where the point is
-  double load = 0;          ///< p_s >= 0 [M L/T]
-  double tangential = 1;    ///< factor by which p_t was shortened
-
-  /// Point of the cone nearest to impulses with the load `p_s` and |p_t| = `length` in the norm
-  /// w_n p_s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
-  /// mobilities of the rows.
-  static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t);
-};
-
-/// Value of a row without its offset.
-template <int D>
-inline double product(const ConstraintRow<D>& row, std::span<const Motion<D>> y) {
-  double sum = 0;
-  const auto& second = y[static_cast<std::size_t>(row.second)];
-  for (std::size_t k = 0; k < second.size(); ++k) sum += row.of_second[k] * second[k];
-  if (row.first >= 0) {
-    const auto& first = y[static_cast<std::size_t>(row.first)];
-    for (std::size_t k = 0; k < first.size(); ++k) sum += row.of_first[k] * first[k];
-  }
-  return sum;
-}
-
-/// Adds J^T p of one row with impulse `p` to the impulses of the units.
-template <int D>
-inline void add_impulse(const ConstraintRow<D>& row, double p, std::span<Motion<D>> impulses) {
-  auto& second = impulses[static_cast<std::size_t>(row.second)];
-  for (std::size_t k = 0; k < second.size(); ++k) second[k] += row.of_second[k] * p;
-  if (row.first >= 0) {
-    auto& first = impulses[static_cast<std::size_t>(row.first)];
-    for (std::size_t k = 0; k < first.size(); ++k) first[k] += row.of_first[k] * p;
-  }
 }
 
 /// Motions y* + h M^-1 J^T p of all units.

@@ -3,16 +3,139 @@
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "viscontact/particles/constraints/contact_sweeps.hpp"
 #include "viscontact/particles/constraints/proximal_step.hpp"
 
 namespace viscontact::particles {
 namespace {
+
+/// The method of nonsmooth contact dynamics (Jean 1999, "The non-smooth contact dynamics method"):
+/// each block in turn gets the impulses that solve it while all others keep theirs, with Coulomb's
+/// law or in the cone of the convex relaxation (5.9). Every other sweep goes backwards. Sweeps
+/// converge in practice always, but slowly in large packings; a few of them give the solver a good
+/// start.
+template <int D>
+class ContactSweeps {
+ public:
+  /// `problem` must outlive this object.
+  explicit ContactSweeps(ConstraintProblem<D>& problem);
+
+  /// Improves problem.impulses by `count` sweeps. `w` are row_mobilities() of the problem.
+  void sweep(int count, const std::vector<double>& w);
+
+ private:
+  void solve_block(const ConstraintBlock& block, const double* w);
+  void solve_in_cone(const ConstraintBlock& block, const double* w);
+  double wanted(std::size_t row, double w) const;
+  void change(std::size_t row, double impulse);
+
+  ConstraintProblem<D>& problem_;
+  std::vector<Motion<D>> pushes_;  // of each part: what a unit impulse of its row changes there
+  std::vector<Motion<D>> y_;
+};
+
+template <int D>
+ContactSweeps<D>::ContactSweeps(ConstraintProblem<D>& problem) : problem_(problem) {
+  pushes_.reserve(problem.parts.size());
+  for (const auto& [unit, coefficients] : problem.parts)
+    pushes_.push_back(problem.units[static_cast<std::size_t>(unit)].moved_by(coefficients));
+}
+
+/// The impulse of a row that would make its value 0.
+template <int D>
+double ContactSweeps<D>::wanted(std::size_t row, double w) const {
+  return problem_.impulses[row] - (problem_.rows[row].offset + problem_.product(row, y_)) / w;
+}
+
+template <int D>
+void ContactSweeps<D>::change(std::size_t row, double impulse) {
+  const double by = impulse - problem_.impulses[row];
+  problem_.impulses[row] = impulse;
+  if (by == 0) return;
+  const auto first = problem_.rows[row].first_part;
+  for (std::size_t part = first; part < first + problem_.rows[row].parts; ++part) {
+    auto& motion = y_[static_cast<std::size_t>(problem_.parts[part].unit)];
+    for (std::size_t k = 0; k < motion.size(); ++k) motion[k] += pushes_[part][k] * by;
+  }
+}
+
+template <int D>
+void ContactSweeps<D>::solve_block(const ConstraintBlock& block, const double* w) {
+  if (!block.is_contact) {
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      // v + w dp + compliance (p + dp) = 0
+      const double p = problem_.impulses[block.row + k];
+      const double rigid = wanted(block.row + k, w[k]) - p;
+      change(block.row + k, p + (w[k] * rigid - block.compliance * p) / (w[k] + block.compliance));
+    }
+    return;
+  }
+  if (is_in_cone(block, problem_.lifts_sliding, problem_.impulses[block.row])) {
+    solve_in_cone(block, w);
+    return;
+  }
+  // Normal and tangential rows of discs and spheres do not act on each other.
+  change(block.row, std::max(block.lowest, wanted(block.row, w[0])));
+  if (block.rows == 1) return;
+  // In the convex relaxation the solids carry load from the next sweep on.
+  const double bound = problem_.lifts_sliding ? 0 : block.bound(problem_.impulses[block.row]);
+  std::array<double, 2> to{};
+  double square = 0;
+  for (std::size_t k = 1; k < block.rows; ++k) {
+    to[k - 1] = bound > 0 ? wanted(block.row + k, w[k]) : 0;
+    square += to[k - 1] * to[k - 1];
+  }
+  const double factor = square > bound * bound ? bound / std::sqrt(square) : 1;
+  for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, factor * to[k - 1]);
+}
+
+/// Improves the impulses of a contact in the cone of (5.9). The result is exact unless the rows of
+/// the contact act on each other, which they do in rigid bodies.
+template <int D>
+void ContactSweeps<D>::solve_in_cone(const ConstraintBlock& block, const double* w) {
+  // The sums of the rows of (what the rows do to each other)/w bound the eigenvalues. With steps
+  // that are shorter by the largest sum the energy of the block falls.
+  double largest = 1;
+  for (std::size_t k = 0; k < block.rows; ++k) {
+    double sum = 0;
+    for (std::size_t l = 0; l < block.rows; ++l) {
+      const auto parts = problem_.parts_of(block.row + k);
+      const Motion<D>* pushes = &pushes_[problem_.rows[block.row + l].first_part];
+      double by = 0;
+      for (std::size_t part = 0; part < parts.size(); ++part)
+        for (std::size_t i = 0; i < pushes[part].size(); ++i)
+          by += parts[part].coefficients[i] * pushes[part][i];
+      sum += std::abs(by);
+    }
+    largest = std::max(largest, sum / w[k]);
+  }
+  std::array<double, kMostRows> to{};
+  double square = 0;
+  for (std::size_t k = 0; k < block.rows; ++k) {
+    to[k] = wanted(block.row + k, largest * w[k]);
+    if (k > 0) square += to[k] * to[k];
+  }
+  const auto cone =
+      FrictionCone::nearest(block.friction, to[0] - block.capacity, std::sqrt(square), w[0], w[1]);
+  change(block.row, block.capacity + cone.load);
+  for (std::size_t k = 1; k < block.rows; ++k) change(block.row + k, cone.tangential * to[k]);
+}
+
+template <int D>
+void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
+  y_ = motions<D>(problem_, problem_.impulses);
+  const auto& blocks = problem_.blocks;
+  for (int n = 0; n < count; ++n)
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const auto& block = blocks[n % 2 == 0 ? i : blocks.size() - 1 - i];
+      solve_block(block, &w[block.row]);
+    }
+}
 
 /// The mobilities of the rows, equal for the tangential rows of a contact, on which the projection
 /// acts together.
@@ -129,8 +252,8 @@ class Iteration {
       const auto& block = problem_.blocks[b];
       std::array<double, kMostRows> v{};
       for (std::size_t k = 0; k < block.rows; ++k) {
-        const auto& row = problem_.rows[block.row + k];
-        v[k] = row.offset + product<D>(row, motions_);
+        const std::size_t r = block.row + k;
+        v[k] = problem_.rows[r].offset + problem_.product(r, motions_);
       }
       const double* p = &problem_.impulses[block.row];
       residuals_[b] = residual_of(block, problem_.lifts_sliding, v.data(), p, &w_[block.row]);

@@ -20,7 +20,7 @@ struct ConstraintSolution {
 /// Improves problem.impulses until the residual of each block is allowed, or until about
 /// `max_iterations` sweeps, factorisations and solutions with factors are done.
 ///
-/// Sweeps (contact_sweeps.hpp) begin and go on as long as they gain. Steps of the proximal method
+/// Sweeps begin and go on as long as they gain. Steps of the proximal method
 /// (proximal_step.hpp) follow, whose epsilon falls after a step that Newton's method solved easily
 /// and grows after one that it did not solve. The solution returned is the best that was found.
 template <int D>

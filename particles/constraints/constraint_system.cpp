@@ -7,14 +7,12 @@
 #include <limits>
 #include <utility>
 
-#include "viscontact/particles/constraints/rigid_units.hpp"
-
 namespace viscontact::particles {
 namespace {
 
-/// The row of one part of a link's equation.
+/// The coefficients of one part of a link's equation.
 template <int D>
-Motion<D> row_of(const RowPart& part) {
+Motion<D> row_of(const LinkPart& part) {
   if (!part.is_turn) return displacement_row<D>(part.direction, part.arm);
   Motion<D> row{};
   row.back() = 1;  // the turn about z
@@ -47,7 +45,8 @@ ConstraintSystem<D>::ConstraintSystem(const ConstraintStep& step, const Particle
 template <int D>
 void ConstraintSystem<D>::join_linked(ContactSystem<D>& system) const {
   for (const auto& link : links_)
-    system.connect(link.rows.front().first.particle, link.rows.front().second.particle);
+    for (const auto& part : link.parts())
+      system.connect(link.parts().front().particle, part.particle);
 }
 
 template <int D>
@@ -107,9 +106,8 @@ void ConstraintSystem<D>::add_contact(const Contact<D>& contact, std::size_t c,
   problem_.blocks.push_back(block);
   const auto first = side_of(contact.first), second = side_of(contact.second);
   for (std::size_t k = 0; k < block.rows; ++k) {
-    problem_.rows.push_back(contact_row(contact, tangents, first, second, k));
-    problem_.impulses.push_back(k == 0 ? contact.impulse
-                                       : dot(tangents.directions[k - 1], frictions_[c]));
+    const double guess = k == 0 ? contact.impulse : dot(tangents.directions[k - 1], frictions_[c]);
+    add_contact_row(contact, tangents, first, second, k, guess, problem_);
   }
 }
 
@@ -126,16 +124,10 @@ void ConstraintSystem<D>::add_link(std::size_t l, double mean_radius) {
   problem_.blocks.push_back(block);
   for (std::size_t k = 0; k < link.rows.size(); ++k) {
     const auto& equation = link.rows[k];
-    ConstraintRow<D> row;
-    row.second = unit_of_particle_[index_of(equation.second.particle)];
-    row.of_second = row_of<D>(equation.second);
-    if (equation.first.particle >= 0) {
-      row.first = unit_of_particle_[index_of(equation.first.particle)];
-      row.of_first = row_of<D>(equation.first);
-    }
-    row.offset = equation.value;
-    problem_.rows.push_back(row);
-    problem_.impulses.push_back(times_.kick * link_forces_[link.first_force + k]);
+    std::vector<RowPart<D>> parts;
+    for (const auto& part : equation.parts)
+      parts.push_back({unit_of_particle_[index_of(part.particle)], row_of<D>(part)});
+    problem_.add_row(equation.value, parts, times_.kick * link_forces_[link.first_force + k]);
   }
 }
 
@@ -176,9 +168,9 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
   double largest = 0;
   shifts_.assign(problem_.blocks.size(), 0.0);
   const auto shift = [&](std::size_t b, std::size_t k, double value) {
-    auto& row = problem_.rows[problem_.blocks[b].row + k];
-    const double by = value - (row.offset + product<D>(row, motions));
-    row.offset += by;
+    const std::size_t r = problem_.blocks[b].row + k;
+    const double by = value - (problem_.rows[r].offset + problem_.product(r, motions));
+    problem_.rows[r].offset += by;
     shifts_[b] = std::max(shifts_[b], std::abs(by));
     largest = std::max(largest, std::abs(by) / problem_.blocks[b].allowed);
   };
@@ -192,9 +184,10 @@ double ConstraintSystem<D>::correct(ContactSystem<D>& system,
     const auto kind = links_[l].kind;
     if (kind != LinkEquations::Kind::kArm && kind != LinkEquations::Kind::kHinge) continue;
     const std::size_t b = system.contacts.size() + l;
-    const auto& row = problem_.rows[problem_.blocks[b].row];
-    const auto values = values_after(links_[l], *step_.links, particles_, times_,
-                                     motion_of(row.first, motions), motion_of(row.second, motions));
+    std::vector<UnitMotion> of_units;
+    for (const auto& part : problem_.parts_of(problem_.blocks[b].row))
+      of_units.push_back(motion_of(part.unit, motions));
+    const auto values = values_after(links_[l], *step_.links, particles_, times_, of_units);
     for (std::size_t k = 0; k < values.size(); ++k) shift(b, k, values[k]);
   }
   return largest;
@@ -209,7 +202,8 @@ void ConstraintSystem<D>::take_over(ContactSystem<D>& system,
     const auto& block = problem_.blocks[c];
     system.contacts[c].impulse = problem_.impulses[block.row];
     frictions_[c] = {};
-    carried_[c] = block.rows > 1 ? std::max(0.0, system.contacts[c].impulse - block.capacity) : 0;
+    carried_[c] =
+        block.rows > 1 ? FrictionLaw::carried(system.contacts[c].impulse, block.capacity) : 0;
     for (std::size_t k = 1; k < block.rows; ++k)
       frictions_[c] =
           frictions_[c] + problem_.impulses[block.row + k] * tangents_[c].directions[k - 1];

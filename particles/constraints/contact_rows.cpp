@@ -58,28 +58,30 @@ ContactTangents<D> tangents_of(const Contact<D>& contact, const Particles& parti
 }
 
 template <int D>
-ConstraintRow<D> contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
-                             const ContactSide& first, const ContactSide& second, std::size_t k) {
+void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
+                     const ContactSide& first, const ContactSide& second, std::size_t k,
+                     double impulse, ConstraintProblem<D>& problem) {
   const Vector normal = normal_of(contact);
   const Vector direction = k == 0 ? normal : tangents.directions[k - 1];
-  ConstraintRow<D> row;
-  row.second = second.unit;
-  row.of_second = displacement_row<D>(direction, second.offset - tangents.second_arm * normal);
-  if (first.unit >= 0) {
-    row.first = first.unit;
-    row.of_first = displacement_row<D>(-1 * direction, first.offset + tangents.first_arm * normal);
+  const double offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);
+  const RowPart<D> of_second{
+      second.unit, displacement_row<D>(direction, second.offset - tangents.second_arm * normal)};
+  if (first.unit < 0) {
+    problem.add_row(offset, {of_second}, impulse);
+    return;
   }
-  row.offset = k == 0 ? contact.gap : 0 - dot(direction, tangents.surface);
-  return row;
+  const RowPart<D> of_first{
+      first.unit, displacement_row<D>(-1 * direction, first.offset + tangents.first_arm * normal)};
+  problem.add_row(offset, {of_second, of_first}, impulse);
 }
 
 template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&,
                                            std::span<const Plane>, double, double);
 template ContactTangents<3> tangents_of<3>(const Contact<3>&, const Particles&,
                                            std::span<const Plane>, double, double);
-template ConstraintRow<2> contact_row<2>(const Contact<2>&, const ContactTangents<2>&,
-                                         const ContactSide&, const ContactSide&, std::size_t);
-template ConstraintRow<3> contact_row<3>(const Contact<3>&, const ContactTangents<3>&,
-                                         const ContactSide&, const ContactSide&, std::size_t);
+template void add_contact_row<2>(const Contact<2>&, const ContactTangents<2>&, const ContactSide&,
+                                 const ContactSide&, std::size_t, double, ConstraintProblem<2>&);
+template void add_contact_row<3>(const Contact<3>&, const ContactTangents<3>&, const ContactSide&,
+                                 const ContactSide&, std::size_t, double, ConstraintProblem<3>&);
 
 }  // namespace viscontact::particles

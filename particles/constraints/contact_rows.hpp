@@ -49,10 +49,12 @@ struct ContactSide {
   Vector offset{};         ///< from the centre of the unit to that of the particle [L]
 };
 
-/// Row number `k` of a contact: its gap (0), or the tangential displacement of the surface of the
-/// second particle relative to that of the first along direction `k` - 1.
+/// Adds row number `k` of a contact, with a guess of its impulse [M L/T]: its gap (0), or the
+/// tangential displacement of the surface of the second particle relative to that of the first along
+/// direction `k` - 1.
 template <int D>
-ConstraintRow<D> contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
-                             const ContactSide& first, const ContactSide& second, std::size_t k);
+void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
+                     const ContactSide& first, const ContactSide& second, std::size_t k,
+                     double impulse, ConstraintProblem<D>& problem);
 
 }  // namespace viscontact::particles

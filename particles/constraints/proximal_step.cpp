@@ -20,9 +20,11 @@ ProximalStep<D>::ProximalStep(const ConstraintProblem<D>& problem, const std::ve
       error_(problem.units.size()) {
   std::vector<typename BlockFactor<kMotion>::Edge> edges;
   for (const auto& block : problem.blocks) {
-    const auto& row = problem.rows[block.row];
-    edge_of_.push_back(row.first < 0 ? std::numeric_limits<std::size_t>::max() : edges.size());
-    if (row.first >= 0) edges.push_back({row.first, row.second});
+    first_edge_.push_back(edges.size());
+    const auto parts = problem.parts_of(block.row);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (std::size_t j = i + 1; j < parts.size(); ++j)
+        edges.push_back({parts[i].unit, parts[j].unit});
   }
   factor_.analyse(problem.units.size(), edges);
 }
@@ -118,7 +120,7 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
       std::copy_n(p.data(), block.rows, &projected_[block.row]);
     }
     for (std::size_t k = 0; k < block.rows; ++k)
-      if (p[k] != 0) add_impulse<D>(problem_.rows[block.row + k], p[k], error_);
+      if (p[k] != 0) problem_.add_impulse(block.row + k, p[k], error_);
   }
   double sum = 0;
   for (std::size_t u = 0; u < error_.size(); ++u) {
@@ -128,40 +130,45 @@ double ProximalStep<D>::error_at(double t, bool is_kept) {
   return std::sqrt(sum);
 }
 
-/// Adds weight * row^T other to the matrix.
+/// Adds weight * row^T other to the matrix, for two rows of block `b`.
 template <int D>
-void ProximalStep<D>::add_product(std::size_t b, const ConstraintRow<D>& row,
-                                  const ConstraintRow<D>& other, double weight) {
+void ProximalStep<D>::add_product(std::size_t b, std::size_t row, std::size_t other,
+                                  double weight) {
   constexpr auto k = static_cast<std::size_t>(kMotion);
   const auto add = [&](auto& into, const Motion<D>& left, const Motion<D>& right) {
     for (std::size_t i = 0; i < k; ++i)
       for (std::size_t j = 0; j < k; ++j) into[i * k + j] += weight * left[i] * right[j];
   };
-  add(factor_.diagonal(static_cast<std::size_t>(row.second)), row.of_second, other.of_second);
-  if (row.first < 0) return;
-  add(factor_.diagonal(static_cast<std::size_t>(row.first)), row.of_first, other.of_first);
-  add(factor_.off_diagonal(edge_of_[b], 0), row.of_first, other.of_second);
-  add(factor_.off_diagonal(edge_of_[b], 1), row.of_second, other.of_first);
+  const auto left = problem_.parts_of(row), right = problem_.parts_of(other);
+  auto edge = first_edge_[b];
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    add(factor_.diagonal(static_cast<std::size_t>(left[i].unit)), left[i].coefficients,
+        right[i].coefficients);
+    for (std::size_t j = i + 1; j < left.size(); ++j, ++edge) {
+      add(factor_.off_diagonal(edge, 0), left[i].coefficients, right[j].coefficients);
+      add(factor_.off_diagonal(edge, 1), left[j].coefficients, right[i].coefficients);
+    }
+  }
 }
 
 /// Adds J^T (-dP/dy) of a block to the matrix.
 template <int D>
 void ProximalStep<D>::add_block(std::size_t b) {
   const auto& block = problem_.blocks[b];
-  const auto* rows = &problem_.rows[block.row];
   const auto* rho = &rho_[block.row];
   const auto branch = branches_[b];
   if (!block.is_contact) {
     for (std::size_t k = 0; k < block.rows; ++k)
-      add_product(b, rows[k], rows[k], rho[k] / (1 + rho[k] * block.compliance));
+      add_product(b, block.row + k, block.row + k, rho[k] / (1 + rho[k] * block.compliance));
     return;
   }
   const bool is_on_cone = problem_.lifts_sliding && (branch.friction == Friction::kSlips ||
                                                      branch.friction == Friction::kSlipsBack);
-  if (branch.is_closed && !is_on_cone) add_product(b, rows[0], rows[0], rho[0]);
+  if (branch.is_closed && !is_on_cone) add_product(b, block.row, block.row, rho[0]);
   if (branch.friction == Friction::kNone) return;
   if (branch.friction == Friction::kSticks) {
-    for (std::size_t k = 1; k < block.rows; ++k) add_product(b, rows[k], rows[k], rho[k]);
+    for (std::size_t k = 1; k < block.rows; ++k)
+      add_product(b, block.row + k, block.row + k, rho[k]);
     return;
   }
   // p_t = mu_s (p_n - capacity) q_t/|q_t|.
@@ -177,16 +184,17 @@ void ProximalStep<D>::add_block(std::size_t b) {
     const double weight = 1 / (1 / rho[0] + block.friction * block.friction / rho[1]);
     for (std::size_t k = 0; k < block.rows; ++k)
       for (std::size_t l = 0; l < block.rows; ++l)
-        add_product(b, rows[k], rows[l], weight * generator[k] * generator[l]);
+        add_product(b, block.row + k, block.row + l, weight * generator[k] * generator[l]);
   } else if (branch.is_closed) {
     for (std::size_t k = 1; k < block.rows; ++k)
-      add_product(b, rows[k], rows[0], rho[0] * block.friction * q[k] / length);
+      add_product(b, block.row + k, block.row, rho[0] * block.friction * q[k] / length);
   }
   if (block.rows < 3) return;
   const double factor = rho[1] * block.bound(projected_[block.row]) / length;
   for (std::size_t k = 1; k < 3; ++k)
     for (std::size_t l = 1; l < 3; ++l)
-      add_product(b, rows[k], rows[l], factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
+      add_product(b, block.row + k, block.row + l,
+                  factor * ((k == l ? 1 : 0) - q[k] * q[l] / square));
 }
 
 template <int D>
@@ -218,7 +226,7 @@ void ProximalStep<D>::find_direction() {
   for (std::size_t u = 0; u < error_.size(); ++u)
     for (std::size_t i = 0; i < k; ++i) direction_[u][i] = values[u * k + i];
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
-    changes_[r] = product<D>(problem_.rows[r], direction_);
+    changes_[r] = problem_.product(r, direction_);
 }
 
 /// Length of a step that makes the error fall.
@@ -283,7 +291,7 @@ int ProximalStep<D>::solve(const std::vector<double>& center, const std::vector<
   center_ = center;
   y_ = start;
   for (std::size_t r = 0; r < problem_.rows.size(); ++r)
-    values_[r] = problem_.rows[r].offset + product<D>(problem_.rows[r], y_);
+    values_[r] = problem_.rows[r].offset + problem_.product(r, y_);
   failed_ = false;
   int iterations = 0;
   const double first = error_at(0, true);

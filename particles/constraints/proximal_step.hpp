@@ -25,7 +25,7 @@ namespace viscontact::particles {
 /// harm.
 ///
 /// Newton's method has a block of its matrix for each unit and two for each pair of units in
-/// contact (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
+/// one block of constraints (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
 /// Newton like solution methods"). As long as no contact opens, closes, sticks or slips, the
 /// factors of the iteration before serve again.
 template <int D>
@@ -64,8 +64,7 @@ class ProximalStep {
   double error_at(double t, bool is_kept);
   bool factorise();
   void add_block(std::size_t b);
-  void add_product(std::size_t b, const ConstraintRow<D>& row, const ConstraintRow<D>& other,
-                   double weight);
+  void add_product(std::size_t b, std::size_t row, std::size_t other, double weight);
   void find_direction();
   double length_to_minimum();
   double rounding_error() const;
@@ -79,7 +78,9 @@ class ProximalStep {
   std::vector<Branch> branches_, factored_;
   std::vector<Motion<D>> y_, direction_, error_;
   BlockFactor<kMotion> factor_;
-  std::vector<std::size_t> edge_of_;  // of each block; the largest number if it has one unit
+  // Number of the first edge of each block: one for each pair of its units, of which the first is
+  // that of the earlier part.
+  std::vector<std::size_t> first_edge_;
   bool has_factor_ = false, failed_ = false;
 };
 

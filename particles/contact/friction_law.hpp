@@ -1,5 +1,8 @@
-// Coulomb's friction of solid contact, docs/physics.md (5.7).
+// Coulomb's friction of solids that touch through a film, docs/physics.md (5.7) and (5.9). Lengths,
+// masses and times are in any one consistent system of units.
 #pragma once
+
+#include <algorithm>
 
 namespace viscontact::particles {
 
@@ -10,10 +13,37 @@ enum class FrictionMethod {
   kConvex,
 };
 
-/// Coulomb's friction of all contacts.
+/// Coulomb's friction of all contacts. Only the part p_s of the normal impulse p_n rubs that the solids
+/// carry, because a film leaves no friction:
+///
+///     p_s = max(p_n - (gamma^n - gamma_min), 0),   |p_t| <= mu_s p_s,
+///     p_t = -mu_s p_s v_t/|v_t| if the surfaces slip with the velocity v_t.
 struct FrictionLaw {
   double coefficient = 0;                               ///< mu_s, >= 0
   FrictionMethod method = FrictionMethod::kFixedPoint;  ///< how a step is solved
+
+  /// p_s >= 0 [M L/T] of the normal impulse `p_n` on a film that can take up `capacity` = gamma^n -
+  /// gamma_min >= 0 [M L/T].
+  static double carried(double p_n, double capacity) { return std::max(p_n - capacity, 0.0); }
+};
+
+/// A point of the cone |p_t| <= mu_s p_s, the set of allowed impulses in (5.9).
+struct FrictionCone {
+  /// Where the point is.
+  enum class Part { kApex, kInside, kSurface };
+  Part part = Part::kApex;  ///< where the point is
+  double load = 0;          ///< p_s >= 0 [M L/T]
+  double tangential = 1;    ///< factor by which p_t was shortened
+
+  /// Point of the cone nearest to impulses with the load `p_s` and |p_t| = `length` in the norm
+  /// w_n p_s^2 + w_t |p_t|^2. Here w_n and w_t are positive numbers whose ratio matters, such as
+  /// mobilities of the rows.
+  static FrictionCone nearest(double mu_s, double p_s, double length, double w_n, double w_t) {
+    if (length <= mu_s * p_s) return {Part::kInside, p_s, 1};
+    const double load = (w_n * p_s + w_t * mu_s * length) / (w_n + w_t * mu_s * mu_s);
+    if (!(load > 0)) return {Part::kApex, 0, 0};
+    return {Part::kSurface, load, mu_s * load / length};
+  }
 };
 
 }  // namespace viscontact::particles

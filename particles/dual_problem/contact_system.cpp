@@ -58,14 +58,13 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
 
 template <int D>
 SolverResult ContactSystem<D>::solve(bool is_rough, int max_iterations, ThreadPool& pool) {
-  ContactGraph<D> graph(contacts, free_, body_mobilities_, pool, body_of_);
-  graph.largest_island = largest_island_;
-  graph.is_rough = is_rough;
-  const auto solved = solve_dual_problem(graph, max_iterations, factor_);
-  std::vector<double> moved(graph.bodies() * D), impulses(contacts.size());
-  graph.to_bodies(graph.z, moved);
-  graph.impulses(impulses);
-  for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c].impulse = impulses[c];
+  MassMobility<D> problem(contacts, free_, body_mobilities_, pool, body_of_);
+  problem.largest_island = largest_island_;
+  problem.is_rough = is_rough;
+  const auto solved = solve_dual_problem(problem, max_iterations, factor_);
+  std::vector<double> moved(problem.displacement_count());
+  problem.to_bodies(problem.z, moved);
+  for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c].impulse = problem.impulse(c);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     for (std::size_t d = 0; d < D; ++d)
       displacements_[index_of(bodies_[b]) * D + d] = free_[b * D + d] + moved[b * D + d];

@@ -5,35 +5,122 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "viscontact/particles/dual_problem/active_set_newton.hpp"
+#include "viscontact/particles/dual_problem/mass_mobility.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
-#include "viscontact/particles/dual_problem/preconditioner.hpp"
 
 namespace viscontact::particles {
+namespace {
+
+/// A factor of W between the free contacts, if there is one, and otherwise a sweep of symmetric
+/// Gauss-Seidel over them: (I + L^T)^-1 (I + L)^-1, L the strictly lower triangle of W between the
+/// free contacts of a block. Each block of the thread pool is swept by itself, so that the blocks
+/// can be swept at once. The number of blocks does not depend on the number of threads.
+template <int D>
+class Preconditioner {
+ public:
+  /// Tells Mprgp that sweeps() may be true.
+  static constexpr bool kMaySweep = true;
+
+  /// Both arguments must outlive the object.
+  Preconditioner(const MassMobility<D>& problem, FreeSetFactor<D>& factor)
+      : problem_(problem), factor_(factor), half_swept_(problem.count()) {}
+
+  /// True if there is no factor.
+  bool sweeps() const { return !factor_.exists(); }
+
+  /// Makes a factor of W between the contacts that are free now. Returns false if the factor would
+  /// have too many entries or cannot be computed.
+  bool factorise() {
+    std::vector<char> free(problem_.count());
+    for (std::size_t c = 0; c < problem_.count(); ++c) free[c] = problem_.is_free(c) ? 1 : 0;
+    return factor_.factorise(problem_, free);
+  }
+
+  /// The forward half of the sweep, half_swept = (I + L)^-1 gradient, which must precede apply().
+  void sweep_forward(std::span<const double> gradient) {
+    problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
+      auto y = problem_.block_bodies(begin);
+      for (std::size_t c = begin; c < end; ++c)
+        sweep_forward(c, gradient[c], problem_.is_free(c), y.data());
+    });
+  }
+
+  /// The same for one contact; `y` are the displacements of the block's bodies up to this contact.
+  void sweep_forward(std::size_t c, double gradient, bool is_free, double* y) {
+    const double t = is_free ? gradient - problem_.to_contact_in_block(c, y) : 0.0;
+    half_swept_[c] = t;
+    problem_.add_in_block(c, t, y);
+  }
+
+  /// Sets swept to the preconditioner times the gradient, and y = B swept. Returns swept.gradient.
+  double apply(std::span<const double> gradient, std::vector<double>& swept,
+               std::vector<double>& y) const {
+    const double product =
+        sweeps() ? sweep_back(gradient, swept, y) : factor_.precondition(problem_, gradient, swept);
+    if (!sweeps() || problem_.count() > ThreadPool::kBlock) problem_.to_bodies(swept, y);
+    return product;
+  }
+
+ private:
+  /// The backward half of the sweep: swept = (I + L^T)^-1 half_swept. Returns swept.gradient.
+  double sweep_back(std::span<const double> gradient, std::vector<double>& swept,
+                    std::vector<double>& y) const {
+    return problem_.pool().template sum_of_blocks<double>(
+        problem_.count(), [&](std::size_t begin, std::size_t end) {
+          double product = 0;
+          auto sums = problem_.block_bodies(begin);
+          for (std::size_t c = end; c-- > begin;) {
+            const double s = problem_.is_free(c)
+                                 ? half_swept_[c] - problem_.to_contact_in_block(c, sums.data())
+                                 : 0.0;
+            swept[c] = s;
+            product += s * gradient[c];
+            problem_.add_in_block(c, s, sums.data());
+          }
+          // With a single block, B swept is known already.
+          if (problem_.count() <= ThreadPool::kBlock) std::swap(y, sums);
+          return product;
+        });
+  }
+
+  const MassMobility<D>& problem_;
+  FreeSetFactor<D>& factor_;
+  std::vector<double> half_swept_;
+};
+
+}  // namespace
 
 template <int D>
-SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
+SolverResult solve_dual_problem(MassMobility<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
-  Mprgp mprgp(graph, Preconditioner<D>(graph, factor));
+  Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
   SolverResult solved;
   // Numbers of iterations with the same free contacts after which a (new) factor is worth its cost.
   // If a factor exists, a few iterations without convergence show that the free contacts have
   // changed. The rough solution of a step changes them often and seldom needs a factor. For the
   // accurate solution, 10 instead of 30 saves 7 % of the time on bench/box2d.cpp.
   constexpr int kPatienceWithFactor = 10;
-  const int patience_without = graph.is_rough ? 40 : 10;
+  const int patience_without = problem.is_rough ? 40 : 10;
   // Newton's method comes first where contacts form almost no cycles (chains, columns), unless the
   // guess is already exact, because in a long chain even small residuals mean large errors of the
   // impulses. In packings it may cycle, so that it is tried only after many iterations.
   constexpr int kLongPatience = 300, kNewtonIterations = 10;
   constexpr std::size_t kLongChain = 6;  // shorter chains take fewer sweeps than a factor costs
-  const bool has_chains =
-      graph.largest_island > kLongChain && graph.count() < graph.bodies() + graph.bodies() / 8;
+  const bool has_chains = problem.largest_island > kLongChain &&
+                          problem.count() < problem.bodies() + problem.bodies() / 8;
   // A guess with a residual of at most this fraction of the allowed residual counts as exact.
   constexpr double kNearlySolved = 1e-4;
+  const auto newton = [&] {
+    FreeSetFactor<D> of_newton(0);
+    return active_set_newton(problem, of_newton, kNewtonIterations);
+  };
   if (has_chains && mprgp.residual() > kNearlySolved) {
-    solved = active_set_newton(graph, kNewtonIterations);
+    solved = newton();
     if (solved.residual <= 1) return solved;
     mprgp.refresh();
   }
@@ -46,7 +133,7 @@ SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
       mprgp.refresh();  // the updated gradient has accumulated rounding errors
       fresh = true;
     } else if (solved.iterations >= next_newton) {
-      solved.iterations += active_set_newton(graph, kNewtonIterations).iterations;
+      solved.iterations += newton().iterations;
       mprgp.drop_regularisation();
       next_newton = std::max(kLongPatience, 2 * solved.iterations);
       fresh = true;
@@ -59,7 +146,7 @@ SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
   }
 }
 
-template SolverResult solve_dual_problem<2>(ContactGraph<2>&, int, FreeSetFactor<2>&);
-template SolverResult solve_dual_problem<3>(ContactGraph<3>&, int, FreeSetFactor<3>&);
+template SolverResult solve_dual_problem<2>(MassMobility<2>&, int, FreeSetFactor<2>&);
+template SolverResult solve_dual_problem<3>(MassMobility<3>&, int, FreeSetFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -1,30 +1,23 @@
 // Solves the dual problem (5.4) of docs/physics.md for a time step. Impulses and residuals are
-// scaled as contact_graph.hpp says.
+// scaled as dual_problem.hpp says.
 #pragma once
 
-#include "viscontact/particles/dual_problem/contact_graph.hpp"
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"
+#include "viscontact/particles/dual_problem/mass_mobility.hpp"
 
 namespace viscontact::particles {
-
-/// How the solution of a dual problem ended.
-struct SolverResult {
-  int iterations = 0;  ///< number of iterations done, >= 0
-  /// Largest ContactGraph::residual. All contacts have converged if it is at most 1.
-  double residual = 0;
-};
 
 /// Solves the dual problem by projected conjugate gradients (mprgp.hpp), preconditioned by sweeps
 /// of symmetric Gauss-Seidel or, if these take long and it is cheap, by a sparse factor of W
 /// (free_set_factor.hpp). Newton's method (active_set_newton.hpp) solves chains of contacts, and is
 /// tried if the other methods take many iterations.
 ///
-/// Improves graph.z, which begins as a guess, until all residuals are at most 1 or `max_iterations`
+/// Improves problem.z, which begins as a guess, until all residuals are at most 1 or `max_iterations`
 /// are done. Redundant contacts have impulses of which the velocities determine only sums; their
-/// values depend on the guess. `factor` belongs to earlier solves of the same step, whose graph may
+/// values depend on the guess. `factor` belongs to earlier solves of the same step, whose problem may
 /// have had fewer contacts. This function uses the factor and may replace it.
 template <int D>
-SolverResult solve_dual_problem(ContactGraph<D>& graph, int max_iterations,
+SolverResult solve_dual_problem(MassMobility<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,5 @@
 // Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
-// contact_graph.hpp.
+// mass_mobility.hpp.
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -15,15 +15,15 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 /// Lower triangle of W + epsilon between the `free` contacts. The rows of all other contacts are
 /// those of the identity, so that the pattern does not depend on which contacts are free.
 template <int D>
-SparseMatrix lower_triangle(const ContactGraph<D>& graph, const std::vector<char>& free,
+SparseMatrix lower_triangle(const MassMobility<D>& problem, const std::vector<char>& free,
                             double epsilon) {
-  const auto count = static_cast<Eigen::Index>(graph.count());
+  const auto count = static_cast<Eigen::Index>(problem.count());
   SparseMatrix w(count, count);
   std::vector<std::pair<Eigen::Index, double>> column;
   for (Eigen::Index j = 0; j < count; ++j) {
     const auto c = static_cast<std::size_t>(j);
     column.clear();
-    graph.visit_neighbours(c, [&](std::size_t other, double entry) {
+    problem.visit_neighbours(c, [&](std::size_t other, double entry) {
       const bool both = free[c] != 0 && free[other] != 0;
       if (other > c) column.emplace_back(other, both ? entry : 0.0);
     });
@@ -71,9 +71,9 @@ bool FreeSetFactor<D>::exists() const {
 }
 
 template <int D>
-bool FreeSetFactor<D>::factorise(const ContactGraph<D>& graph, const std::vector<char>& free) {
-  const auto w = lower_triangle(graph, free, epsilon_);
-  if (factor_ == nullptr || factor_->free.size() != graph.count()) {
+bool FreeSetFactor<D>::factorise(const MassMobility<D>& problem, const std::vector<char>& free) {
+  const auto w = lower_triangle(problem, free, epsilon_);
+  if (factor_ == nullptr || factor_->free.size() != problem.count()) {
     factor_ = std::make_unique<Factor>();
     factor_->cholesky.analyzePattern(w);
     // Chains have 2 entries a contact, packings of discs about 20 (at 20 000 contacts). Packings of
@@ -100,16 +100,17 @@ void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double>
 }
 
 template <int D>
-double FreeSetFactor<D>::precondition(const ContactGraph<D>& graph,
+double FreeSetFactor<D>::precondition(const MassMobility<D>& problem,
                                       std::span<const double> gradient,
                                       std::span<double> solved) const {
   const std::size_t factored = factor_->free.size();
   Eigen::Map<Eigen::VectorXd> values(solved.data(), static_cast<Eigen::Index>(factored));
-  for (std::size_t c = 0; c < graph.count(); ++c) solved[c] = graph.is_free(c) ? gradient[c] : 0.0;
+  for (std::size_t c = 0; c < problem.count(); ++c)
+    solved[c] = problem.is_free(c) ? gradient[c] : 0.0;
   values = factor_->cholesky.solve(values);
   double product = 0;
-  for (std::size_t c = 0; c < graph.count(); ++c) {
-    if (!graph.is_free(c)) solved[c] = 0;
+  for (std::size_t c = 0; c < problem.count(); ++c) {
+    if (!problem.is_free(c)) solved[c] = 0;
     product += solved[c] * gradient[c];
   }
   return product;

@@ -1,8 +1,7 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// contact_graph.hpp, and for the same problem in a fluid (fluid/contact/contact_problem.cpp). Sums must be
-// taken in blocks of the thread pool, so that the results do not depend on the number of threads.
+// dual_problem.hpp. Sums must be taken in blocks of the thread pool, so that the results do not depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "viscontact/particles/dual_problem/dual_problem.hpp"
+
 namespace viscontact::particles {
 
 /// The state of the iteration: z, its gradient g and the direction in which z moves. Free contacts
@@ -22,39 +23,38 @@ namespace viscontact::particles {
 /// - otherwise a preconditioned conjugate gradient step;
 /// - expansion: if that step would leave the bounds, a projected step instead.
 ///
-/// `Graph` has the members of ContactGraph that this class calls; its vectors y may hold anything
-/// that is linear in z. `Preconditioner` is like the class Preconditioner. If its kMaySweep is
+/// `Preconditioner` is like the class Preconditioner. If its kMaySweep is
 /// false, it needs only apply(), and the preconditioner must not depend on sweep_forward().
-template <class Graph, class Preconditioner>
+template <Mobility Problem, class Preconditioner>
 class Mprgp {
  public:
-  /// Starts from graph.z, projected on its bounds. `graph` must outlive the object.
-  Mprgp(Graph& graph, Preconditioner preconditioner)
-      : graph_(graph),
+  /// Starts from problem.z, projected on its bounds. `problem` must outlive the object.
+  Mprgp(Problem& problem, Preconditioner preconditioner)
+      : problem_(problem),
         preconditioner_(std::move(preconditioner)),
-        y_(graph.displacement_count()),
-        y_direction_(graph.displacement_count()),
-        gradient_(graph.count()),
-        direction_(graph.count()),
-        swept_(graph.count()) {
+        y_(problem.displacement_count()),
+        y_direction_(problem.displacement_count()),
+        gradient_(problem.count()),
+        direction_(problem.count()),
+        swept_(problem.count()) {
     refresh();
   }
 
   /// Projects z on its bounds and computes the gradient from z itself, which removes the rounding
   /// errors of many updates.
   void refresh() {
-    graph_.pool().for_blocks(graph_.count(), [&](std::size_t begin, std::size_t end) {
+    problem_.pool().for_blocks(problem_.count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
-        graph_.z[c] = std::max(graph_.z[c], graph_.bound[c]);
+        problem_.z[c] = std::max(problem_.z[c], problem_.bound[c]);
     });
-    graph_.to_bodies(graph_.z, y_);
-    statistics_ = graph_.pool().template sum_of_blocks<PassStatistics>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
+    problem_.to_bodies(problem_.z, y_);
+    statistics_ = problem_.pool().template sum_of_blocks<PassStatistics>(
+        problem_.count(), [&](std::size_t begin, std::size_t end) {
           PassStatistics statistics;
           for (std::size_t c = begin; c < end; ++c) {
-            gradient_[c] = graph_.linear_term[c] + graph_.to_contact(c, y_.data()) +
-                           regularisation_ * graph_.z[c];
-            statistics.add(gradient_[c], graph_.z[c] - graph_.bound[c], graph_.per_allowed[c],
+            gradient_[c] = problem_.linear_term[c] + problem_.to_contact(c, y_.data()) +
+                           regularisation_ * problem_.z[c];
+            statistics.add(gradient_[c], problem_.z[c] - problem_.bound[c], problem_.per_allowed[c],
                            1 / step_);
           }
           return statistics;
@@ -84,7 +84,7 @@ class Mprgp {
   int step() {
     if (statistics_.chopped_square > statistics_.free_slope) return leave_bounds();
     if (restart_) start_directions();
-    before_ = graph_.z;
+    before_ = problem_.z;
     ++steps_between_same_;
     // Where contacts contradict each other, the objective falls almost without end.
     constexpr double kEndless = 1e12;
@@ -103,7 +103,7 @@ class Mprgp {
  private:
   /// Statistics of one pass over the contacts at z with gradient g.
   struct PassStatistics {
-    double residual = 0;  ///< largest ContactGraph::residual
+    double residual = 0;  ///< largest DualProblem::residual
     /// phi.g of the free gradient phi (g on the free contacts), in which phi is reduced so that a
     /// projected gradient step along it stays within the bounds.
     double free_slope = 0;
@@ -139,10 +139,10 @@ class Mprgp {
 
   /// Returns the objective z^T W z/2 + b^T z, W with the regularisation.
   double objective() {
-    return graph_.pool().template sum_of_blocks<double>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
-          return (part(graph_.z, begin, end) *
-                  (part(gradient_, begin, end) + part(graph_.linear_term, begin, end)))
+    return problem_.pool().template sum_of_blocks<double>(
+        problem_.count(), [&](std::size_t begin, std::size_t end) {
+          return (part(problem_.z, begin, end) *
+                  (part(gradient_, begin, end) + part(problem_.linear_term, begin, end)))
                      .sum() /
                  2;
         });
@@ -161,13 +161,13 @@ class Mprgp {
 
   /// Sets direction = swept + beta * direction, and computes its displacements and its curvature.
   void combine_directions(double beta) {
-    const auto square = graph_.pool().template sum_of_blocks<double>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
+    const auto square = problem_.pool().template sum_of_blocks<double>(
+        problem_.count(), [&](std::size_t begin, std::size_t end) {
           auto direction = part(direction_, begin, end);
           direction = part(swept_, begin, end) + beta * direction;
           return direction.square().sum();
         });
-    curvature_ = graph_.combine(y_, beta, y_direction_) + regularisation_ * square;
+    curvature_ = problem_.combine(y_, beta, y_direction_) + regularisation_ * square;
   }
 
   /// Subtracts length * direction from z and updates the gradient and the statistics. The forward
@@ -192,28 +192,28 @@ class Mprgp {
 
   template <bool kMeasure, bool kSweep>
   PassStatistics pass(double length) {
-    return graph_.pool().template sum_of_blocks<PassStatistics>(
-        graph_.count(), [&](std::size_t begin, std::size_t end) {
+    return problem_.pool().template sum_of_blocks<PassStatistics>(
+        problem_.count(), [&](std::size_t begin, std::size_t end) {
           // Local copies make the loop faster, because a compiler cannot know that the loop leaves
           // the pointers of the members unchanged.
           const double* direction = direction_.data();
           const double* y_direction = y_direction_.data();
-          const double* bound = graph_.bound.data();
-          double* zs = graph_.z.data();
+          const double* bound = problem_.bound.data();
+          double* zs = problem_.z.data();
           double* gradient = gradient_.data();
           const double per_step = 1 / step_;
           PassStatistics statistics;
           std::vector<double> sums;
-          if constexpr (kSweep) sums = graph_.block_bodies(begin);
+          if constexpr (kSweep) sums = problem_.block_bodies(begin);
           for (std::size_t c = begin; c < end; ++c) {
             const double z = zs[c] - length * direction[c];
-            const double g = gradient[c] - length * (graph_.to_contact(c, y_direction) +
+            const double g = gradient[c] - length * (problem_.to_contact(c, y_direction) +
                                                      regularisation_ * direction[c]);
             zs[c] = z;
             gradient[c] = g;
             const double distance = z - bound[c];
             if constexpr (kMeasure)
-              statistics.add(g, distance, graph_.per_allowed[c], per_step);
+              statistics.add(g, distance, problem_.per_allowed[c], per_step);
             else
               statistics.distance_to_bound = std::min(statistics.distance_to_bound, distance);
             if constexpr (kSweep) preconditioner_.sweep_forward(c, g, distance > 0, sums.data());
@@ -236,30 +236,30 @@ class Mprgp {
   /// bound, and makes a projected gradient step from there. The objective falls in both.
   int go_to_bound() {
     double feasible = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < graph_.count(); ++c)
+    for (std::size_t c = 0; c < problem_.count(); ++c)
       if (direction_[c] > 0)
-        feasible = std::min(feasible, (before_[c] - graph_.bound[c]) / direction_[c]);
-    for (std::size_t c = 0; c < graph_.count(); ++c)
-      graph_.z[c] = std::isfinite(feasible) ? before_[c] - feasible * direction_[c] : before_[c];
+        feasible = std::min(feasible, (before_[c] - problem_.bound[c]) / direction_[c]);
+    for (std::size_t c = 0; c < problem_.count(); ++c)
+      problem_.z[c] = std::isfinite(feasible) ? before_[c] - feasible * direction_[c] : before_[c];
     refresh();
     return 1 + project_gradient();
   }
 
   /// Makes a projected gradient step, so short that the objective does not rise.
   int project_gradient() {
-    const auto here = graph_.z;
+    const auto here = problem_.z;
     const double before = objective();
     for (int products = 1;; ++products) {
-      for (std::size_t c = 0; c < graph_.count(); ++c)
-        if (graph_.is_free(c))
-          graph_.z[c] = std::max(graph_.bound[c], graph_.z[c] - step_ * gradient_[c]);
+      for (std::size_t c = 0; c < problem_.count(); ++c)
+        if (problem_.is_free(c))
+          problem_.z[c] = std::max(problem_.bound[c], problem_.z[c] - step_ * gradient_[c]);
       refresh();
       // Below this step length the change of the objective is a rounding error.
       constexpr double kShortest = 1e-6;
       if (objective() <= before || step_ < kShortest) return products;
       // The largest eigenvalue of W belongs to a particle with many contacts and may exceed 4.
       step_ /= 2;
-      graph_.z = here;
+      problem_.z = here;
       refresh();
     }
   }
@@ -267,9 +267,9 @@ class Mprgp {
   /// Proportioning: makes the best step along the chopped gradient, which moves contacts away from
   /// their bounds.
   int leave_bounds() {
-    for (std::size_t c = 0; c < graph_.count(); ++c)
-      direction_[c] = !graph_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
-    const double curvature = graph_.to_bodies(direction_, y_direction_);
+    for (std::size_t c = 0; c < problem_.count(); ++c)
+      direction_[c] = !problem_.is_free(c) && gradient_[c] < 0 ? gradient_[c] : 0.0;
+    const double curvature = problem_.to_bodies(direction_, y_direction_);
     // Largest step length, where the length 1 is right for a single contact (W = 1). Contacts that
     // contradict each other would make the length infinite.
     constexpr double kLongest = 1e6;
@@ -278,7 +278,7 @@ class Mprgp {
     return 1;
   }
 
-  Graph& graph_;
+  Problem& problem_;
   Preconditioner preconditioner_;
   /// Length of a projected gradient step. W has the diagonal 1, and in packings of similar
   /// particles all its eigenvalues are at most 4.

@@ -21,16 +21,12 @@ void FluidSimulation::examine(Motion& motion, double h, StepReport& report) cons
                             longest, report.time));
   auto residuals =
       measure_residuals(motion.contact.contacts, motion.moved, contact_conditions(motion.free, h));
-  if (!residuals.converged && -residuals.smallest_gap > mean_radius_)
-    throw Error(ErrorKind::kNotConverged,
-                fmt::format("no solution of the step to time {} was found: particles would overlap "
-                            "by {:.3g} mean radii; is the time step too long for the forces, or do "
-                            "particles with given motions leave the others too little room?",
-                            report.time, -residuals.smallest_gap / mean_radius_));
-  report.converged = residuals.converged && motion.contact.is_solved && motion.links_hold;
-  report.residual = residuals.largest / mean_radius_;
-  report.impulse_residual = residuals.largest_relative;
-  report.largest_overlap = (0 - residuals.smallest_gap) / mean_radius_;
+  refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, report.time, [] {
+    return "is the time step too long for the forces, or do particles with given motions leave the "
+           "others too little room?";
+  });
+  report.converged = motion.contact.is_solved && motion.links_hold;
+  report_residuals(residuals, mean_radius_, report);
   motion.impulse_errors = std::move(residuals.impulse_errors);
 }
 

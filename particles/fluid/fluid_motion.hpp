@@ -23,7 +23,7 @@ struct FluidSimulation::Motion {
   std::vector<double> at_end;       ///< u^{n+1}
   std::vector<double> reported;  ///< u^{n+1} extrapolated from two meshes; empty without estimate
   StepContacts contact;          ///< the contacts of the step, solved
-  std::vector<double> impulse_errors;  ///< of contact.contacts, ContactResiduals::impulse_errors
+  std::vector<double> impulse_errors;  ///< of contact.contacts, StepResiduals::impulse_errors
   FluidStepReport fluid;               ///< what the step reports
   FlowQuantities quantities;           ///< dissipation, apparent viscosity and forces of the flow
   ForceErrors force_errors;  ///< estimates of the errors of the forces; empty if they were not made

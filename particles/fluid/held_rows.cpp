@@ -43,15 +43,16 @@ HeldMotion::HeldMotion(const Links& links, const Particles& particles, const Lin
   turn_rows();
 }
 
-/// StepEquation::link_times() of a particle or obstacle.
+/// StepEquation::link_times() of a particle.
 double HeldMotion::link_time(std::int32_t particle) const {
-  return particle < 0 || link_times_.empty() ? -1 : link_times_[index_of(particle)];
+  return link_times_.empty() ? -1 : link_times_[index_of(particle)];
 }
 
 /// The time of the rows of a link of which an end accelerates, else -1.
 double HeldMotion::link_time(const LinkEquations& link) const {
-  const auto& row = link.rows.front();
-  return std::max(link_time(row.first.particle), link_time(row.second.particle));
+  double latest = -1;
+  for (const auto& part : link.parts()) latest = std::max(latest, link_time(part.particle));
+  return latest;
 }
 
 /// Turns the rows of links to where their units are at the time of the link.
@@ -67,13 +68,9 @@ void HeldMotion::turn_rows() {
   for (std::size_t l = 0; l < equations_.size(); ++l) {
     const double share = link_time(equations_[l]) / times_.h;
     if (!(share > 0)) continue;
-    const auto part = [&](const RowPart& of) {
-      const auto motion = motion_of(of, velocities);
-      return UnitMotion{share * motion.displacement, share * motion.turn};
-    };
-    const auto& row = equations_[l].rows.front();
-    in_rows_[l] =
-        turned_equations(equations_[l], links_, particles_, part(row.first), part(row.second));
+    auto motions = motions_of(equations_[l], velocities);
+    for (auto& motion : motions) motion = {share * motion.displacement, share * motion.turn};
+    in_rows_[l] = turned_equations(equations_[l], links_, particles_, motions);
   }
 }
 
@@ -111,8 +108,7 @@ void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
   }
 }
 
-void HeldMotion::add_entries(const RowPart& part, HeldRow& row) const {
-  if (part.particle < 0) return;
+void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
   if (part.is_turn) {
     row.entries.emplace_back(layout_.at(part.particle, 2), 1);
     return;
@@ -138,8 +134,7 @@ std::vector<HeldRow> HeldMotion::rows_of(const std::vector<LinkEquations>& equat
       HeldRow row;
       row.accelerates = link_time(link) >= 0;
       row.name = name_of(link, links_, particles_);
-      add_entries(equation.first, row);
-      add_entries(equation.second, row);
+      for (const auto& part : equation.parts) add_entries(part, row);
       row.image_rate = image_rate(equation, particles_.cell);
       row.stiffness = equation.stiffness;
       row.extension = equation.extension;
@@ -164,10 +159,9 @@ UnitMotion HeldMotion::motion_of_body(std::size_t body, std::span<const double> 
 }
 
 /// Displacement and turn in the step of the image of a unit that a part of a row means.
-UnitMotion HeldMotion::motion_of(const RowPart& part, std::span<const double> velocities) const {
+UnitMotion HeldMotion::motion_of(const LinkPart& part, std::span<const double> velocities) const {
   UnitMotion motion;
   const auto particle = part.particle;
-  if (particle < 0) return motion;
   const auto of_unit = periods_in_unit(particles_, particle);
   if (const auto body = particles_.bodies.body_of(particle); body >= 0) {
     motion = motion_of_body(index_of(body), velocities);
@@ -182,6 +176,13 @@ UnitMotion HeldMotion::motion_of(const RowPart& part, std::span<const double> ve
   return {times_.h * motion.displacement, times_.h * motion.turn};
 }
 
+std::vector<UnitMotion> HeldMotion::motions_of(const LinkEquations& link,
+                                               std::span<const double> velocities) const {
+  std::vector<UnitMotion> motions;
+  for (const auto& part : link.parts()) motions.push_back(motion_of(part, velocities));
+  return motions;
+}
+
 std::vector<double> HeldMotion::missing(std::span<const double> velocities,
                                         std::span<const double> row_forces,
                                         std::span<const double> thetas) const {
@@ -189,14 +190,14 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
   for (std::size_t l = 0; l < equations_.size(); ++l) {
     const auto& link = equations_[l];
     const auto& row = link.rows.front();
-    const auto first = motion_of(row.first, velocities), second = motion_of(row.second, velocities);
+    const auto motions = motions_of(link, velocities);
     if (is_exact(link)) {
-      for (const double off : values_after(link, links_, particles_, times_, first, second))
+      for (const double off : values_after(link, links_, particles_, times_, motions))
         changes.push_back(-off / times_.h);
     } else if (link.kind == LinkEquations::Kind::kSpring && link_time(link) >= 0) {
       const auto r = changes.size();
       const double theta = thetas[r], h = times_.h;
-      const double grown = extension_after(link, links_, particles_, first, second) - row.extension;
+      const double grown = extension_after(link, links_, particles_, motions) - row.extension;
       changes.push_back(-(row.extension / theta + grown + row_forces[r] / (theta * row.stiffness)) /
                         h);
     } else {
@@ -208,12 +209,9 @@ std::vector<double> HeldMotion::missing(std::span<const double> velocities,
 
 /// The sum of a row for these velocities, with that of the images.
 double HeldMotion::sum_of(const LinkRow& row, std::span<const double> velocities) const {
-  const auto part = [&](const RowPart& of) {
-    const auto motion = motion_of(of, velocities);
-    return of.is_turn ? motion.turn[2]
-                      : dot(of.direction, motion.displacement + cross(motion.turn, of.arm));
-  };
-  return (part(row.first) + part(row.second)) / times_.h;
+  double sum = 0;
+  for (const auto& part : row.parts) sum += value_of(part, motion_of(part, velocities));
+  return sum / times_.h;
 }
 
 std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
@@ -226,15 +224,15 @@ std::vector<double> HeldMotion::hold_at_end(std::span<const double> velocities,
   std::vector<double> rates(body_rows_, 0.0);
   for (const auto& link : equations_) {
     const auto& row = link.rows.front();
-    const auto first = motion_of(row.first, velocities), second = motion_of(row.second, velocities);
-    turned.push_back(turned_equations(link, links_, particles_, first, second));
+    const auto motions = motions_of(link, velocities);
+    turned.push_back(turned_equations(link, links_, particles_, motions));
     double rate = 0;
     if (link.kind == LinkEquations::Kind::kArm)
       rate = rate_at(links_.arms[link.number].length, end);
     else if (link.kind == LinkEquations::Kind::kSpring)
-      rate = (extension_after(link, links_, particles_, first, second) - row.extension) / times_.h;
+      rate = (extension_after(link, links_, particles_, motions) - row.extension) / times_.h;
     else if (link.kind == LinkEquations::Kind::kTorsion)
-      rate = second.turn[2] / times_.h;
+      rate = motions.front().turn[2] / times_.h;
     rates.resize(rates.size() + link.rows.size(), rate);
   }
   const auto rows = rows_of(turned);
@@ -342,9 +340,7 @@ double HeldMotion::rate_of_arm(std::size_t k, std::span<const double> velocities
 double HeldMotion::rate_of_arm_at_end(std::size_t k, std::span<const double> moved,
                                       std::span<const double> velocities) const {
   const auto& link = equations_[arm(k)];
-  const auto& row = link.rows.front();
-  const auto turned = turned_equations(link, links_, particles_, motion_of(row.first, moved),
-                                       motion_of(row.second, moved));
+  const auto turned = turned_equations(link, links_, particles_, motions_of(link, moved));
   return sum_of(turned.rows.front(), velocities);
 }
 

@@ -79,7 +79,9 @@ class HeldMotion {
   std::vector<double> link_forces(std::span<const double> row_forces) const;
 
  private:
-  UnitMotion motion_of(const RowPart& part, std::span<const double> velocities) const;
+  UnitMotion motion_of(const LinkPart& part, std::span<const double> velocities) const;
+  std::vector<UnitMotion> motions_of(const LinkEquations& link,
+                                     std::span<const double> velocities) const;
   void turn_rows();
   double link_time(std::int32_t particle) const;
   double link_time(const LinkEquations& link) const;
@@ -87,7 +89,7 @@ class HeldMotion {
   double sum_of(const LinkRow& row, std::span<const double> velocities) const;
   std::vector<HeldRow> rows_of(const std::vector<LinkEquations>& equations) const;
   Vector offset_in_body(std::int32_t particle) const;
-  void add_entries(const RowPart& part, HeldRow& row) const;
+  void add_entries(const LinkPart& part, HeldRow& row) const;
   void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
 
   const Links& links_;

@@ -11,7 +11,6 @@
 
 #include "viscontact/particles/constraints/constraint_solver.hpp"
 #include "viscontact/particles/constraints/contact_rows.hpp"
-#include "viscontact/particles/constraints/rigid_units.hpp"
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/rotation.hpp"
 
@@ -328,7 +327,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
     block.row = problem.rows.size();
     block.rows = static_cast<std::size_t>(D);
     for (std::size_t k = 0; k < block.rows; ++k) {
-      auto row = contact_row(contact, tangents, first, second, k);
+      add_contact_row(contact, tangents, first, second, k, 0, problem);
+      auto& row = problem.rows.back();
       row.offset = step_.h * hit.approach;
       if (k > 0) {
         // The slip of the surfaces before the blow.
@@ -342,8 +342,6 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
         row.offset = step_.h * (slip_of(of.second, -tangents.second_arm * hit.normal) -
                                 slip_of(contact.first, tangents.first_arm * hit.normal));
       }
-      problem.rows.push_back(row);
-      problem.impulses.push_back(0);
     }
     problem.blocks.push_back(block);
   }
@@ -404,7 +402,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     block.allowed = kExact * step_.h * fastest;
   }
   const auto keep_normal_rows = [&](ConstraintProblem<D>& of) {
-    std::vector<ConstraintRow<D>> rows;
+    std::vector<ConstraintRow> rows;
     for (auto& block : of.blocks) {
       rows.push_back(of.rows[block.row]);
       block.row = rows.size() - 1;
@@ -460,7 +458,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;
     for (std::size_t r = 0; r < problem.rows.size(); ++r)
-      sum += impulses[r] * (problem.rows[r].offset + product<D>(problem.rows[r], y) / 2);
+      sum += impulses[r] * (problem.rows[r].offset + problem.product(r, y) / 2);
     return sum;
   };
   if (work(problem.impulses) > 0) {
@@ -495,8 +493,8 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
         8 * std::numeric_limits<double>::epsilon() * (std::abs(of.gamma) + std::abs(block.lowest));
     of.gamma = left >= -rounding ? 0 : std::max(left, of.gamma - phase.capacity);
     of.gamma_error = of.gamma == 0 ? 0 : of.gamma_error + rounding;
-    const auto& row = problem.rows[block.row];
-    const double after = (row.offset + product<D>(row, changes)) / step_.h;
+    const double after =
+        (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
     if (phase.solid > 0)
       rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
                            std::abs(after) <= kExact * fastest ? 0 : after});

@@ -75,8 +75,8 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
                     const NearestImage& nearest) {
   const Vector direction = direction_of(nearest.apart);
   LinkRow row;
-  row.first = {first, -1 * direction, arm_of_centre(p, first)};
-  row.second = {second, direction, arm_of_centre(p, second), false, nearest.periods};
+  row.parts = {{first, -1 * direction, arm_of_centre(p, first)},
+               {second, direction, arm_of_centre(p, second), false, nearest.periods}};
   return row;
 }
 
@@ -101,11 +101,9 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
   const Vector off = apart - shift_of(p.cell, beyond);
   const auto of_unit = periods_in_unit(p, particle);
   for (std::size_t d = 0; d < static_cast<std::size_t>(p.dimension); ++d) {
-    LinkRow row;
-    row.second = {particle, {}, arm, false, {of_unit[0] - beyond[0], of_unit[1] - beyond[1]}};
-    row.second.direction[d] = 1;
-    row.value = off[d];
-    equations.rows.push_back(row);
+    LinkPart part{particle, {}, arm, false, {of_unit[0] - beyond[0], of_unit[1] - beyond[1]}};
+    part.direction[d] = 1;
+    equations.rows.push_back({{part}, off[d]});
   }
   return equations;
 }
@@ -113,8 +111,7 @@ LinkEquations hinge_equations(const Hinge& hinge, const Particles& p) {
 LinkEquations torsion_equations(const Hinge& hinge, const Particles& p, const LinkTimes& times) {
   LinkEquations equations{LinkEquations::Kind::kTorsion};
   LinkRow row;
-  row.second.particle = hinge.point.particle;
-  row.second.is_turn = true;
+  row.parts = {{.particle = hinge.point.particle, .is_turn = true}};
   make_spring(row, unit_angle(p, hinge.point.particle) - hinge.rest_angle,
               unit_spin(p, hinge.point.particle), hinge.stiffness, times);
   equations.rows.push_back(row);
@@ -125,8 +122,8 @@ LinkEquations spring_equations(const Spring& spring, const Particles& p, const L
   LinkEquations equations{LinkEquations::Kind::kSpring};
   const auto nearest = between(p, spring.first, spring.second);
   auto row = row_between(p, spring.first, spring.second, nearest);
-  const double rate = dot(row.second.direction, p.velocity(index_of(spring.second)) -
-                                                    p.velocity(index_of(spring.first))) +
+  const double rate = dot(row.parts[1].direction, p.velocity(index_of(spring.second)) -
+                                                      p.velocity(index_of(spring.first))) +
                       image_rate(row, p.cell);
   make_spring(row, norm(nearest.apart) - spring.length, rate, spring.stiffness, times);
   equations.rows.push_back(row);
@@ -142,17 +139,20 @@ LinkEquations arm_equations(const Arm& arm, const Particles& p, const LinkTimes&
   return equations;
 }
 
-/// Vector between the ends of an arm or spring before the step [L].
-Vector apart_of(const LinkEquations& equations, const Links& links, const Particles& p) {
-  const auto k = equations.number;
-  return equations.kind == LinkEquations::Kind::kArm
-             ? between(p, links.arms[k].first, links.arms[k].second).apart
-             : between(p, links.springs[k].first, links.springs[k].second).apart;
+/// Displacement of the point of a part.
+Vector moved(const LinkPart& part, const UnitMotion& motion, int dimension) {
+  return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
 }
 
-/// Displacement of the point of a part.
-Vector moved(const RowPart& part, const UnitMotion& motion, int dimension) {
-  return displacement_at(motion.displacement, motion.turn, part.arm, dimension);
+/// Vector between the ends of an arm or spring after the motions of their units [L].
+Vector apart_after(const LinkEquations& equations, const Links& links, const Particles& p,
+                   std::span<const UnitMotion> motions) {
+  const auto k = equations.number;
+  const Vector apart = equations.kind == LinkEquations::Kind::kArm
+                           ? between(p, links.arms[k].first, links.arms[k].second).apart
+                           : between(p, links.springs[k].first, links.springs[k].second).apart;
+  const auto& ends = equations.parts();
+  return apart + moved(ends[1], motions[1], p.dimension) - moved(ends[0], motions[0], p.dimension);
 }
 
 }  // namespace
@@ -167,10 +167,14 @@ Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
 
 double image_rate(const LinkRow& row, const PeriodicCell& cell) {
   double rate = 0;
-  for (const auto* part : {&row.first, &row.second})
-    if (part->particle >= 0 && !part->is_turn)
-      rate += dot(part->direction, velocity_of_image(cell, part->image));
+  for (const auto& part : row.parts)
+    if (!part.is_turn) rate += dot(part.direction, velocity_of_image(cell, part.image));
   return rate;
+}
+
+double value_of(const LinkPart& part, const UnitMotion& motion) {
+  return part.is_turn ? motion.turn[2]
+                      : dot(part.direction, motion.displacement + cross(motion.turn, part.arm));
 }
 
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
@@ -198,71 +202,54 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
 }
 
 LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
-                               const Particles& particles, const UnitMotion& first,
-                               const UnitMotion& second) {
+                               const Particles& particles, std::span<const UnitMotion> motions) {
   auto turned = equations;
-  const int dimension = particles.dimension;
-  for (auto& row : turned.rows) {
-    // Arms turn with their units.
-    const auto turn_arm = [&](RowPart& part, const UnitMotion& motion) {
-      if (part.particle >= 0 && !part.is_turn)
-        part.arm = part.arm + displacement_at({}, motion.turn, part.arm, dimension);
-    };
-    if (equations.kind == LinkEquations::Kind::kArm ||
-        equations.kind == LinkEquations::Kind::kSpring) {
-      const Vector direction =
-          direction_of(apart_of(equations, links, particles) +
-                       moved(row.second, second, dimension) - moved(row.first, first, dimension));
-      row.first.direction = -1 * direction;
-      row.second.direction = direction;
+  const bool has_ends =
+      equations.kind == LinkEquations::Kind::kArm || equations.kind == LinkEquations::Kind::kSpring;
+  const Vector direction =
+      has_ends ? direction_of(apart_after(equations, links, particles, motions)) : Vector{};
+  for (auto& row : turned.rows)
+    for (std::size_t i = 0; i < row.parts.size(); ++i) {
+      auto& part = row.parts[i];
+      if (has_ends) part.direction = i == 0 ? -1 * direction : direction;
+      // Arms turn with their units.
+      if (!part.is_turn)
+        part.arm = part.arm + displacement_at({}, motions[i].turn, part.arm, particles.dimension);
     }
-    turn_arm(row.first, first);
-    turn_arm(row.second, second);
-  }
   return turned;
 }
 
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
-                                 const UnitMotion& first, const UnitMotion& second) {
-  const int dimension = particles.dimension;
+                                 std::span<const UnitMotion> motions) {
+  if (equations.kind == LinkEquations::Kind::kArm)
+    return {norm(apart_after(equations, links, particles, motions)) -
+            length_at(links.arms[equations.number].length, times.end)};
   std::vector<double> values;
   if (equations.kind == LinkEquations::Kind::kHinge) {
-    const Vector by = moved(equations.rows.front().second, second, dimension);
+    const Vector by = moved(equations.parts().front(), motions.front(), particles.dimension);
     for (std::size_t d = 0; d < equations.rows.size(); ++d)
       values.push_back(equations.rows[d].value + by[d]);
     return values;
   }
-  const auto& row = equations.rows.front();
-  if (equations.kind == LinkEquations::Kind::kArm) {
-    const Vector apart = apart_of(equations, links, particles) +
-                         moved(row.second, second, dimension) - moved(row.first, first, dimension);
-    return {norm(apart) - length_at(links.arms[equations.number].length, times.end)};
-  }
   // Springs are linear in the motion of the step.
-  const auto part = [](const RowPart& of, const UnitMotion& by) {
-    if (of.particle < 0) return 0.0;
-    return of.is_turn ? by.turn[2] : dot(of.direction, by.displacement + cross(by.turn, of.arm));
-  };
-  return {row.value + part(row.first, first) + part(row.second, second)};
+  for (const auto& row : equations.rows) {
+    values.push_back(row.value);
+    for (std::size_t i = 0; i < row.parts.size(); ++i)
+      values.back() += value_of(row.parts[i], motions[i]);
+  }
+  return values;
 }
 
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
-                       const UnitMotion& first, const UnitMotion& second) {
-  const auto& row = spring.rows.front();
-  const Vector apart = apart_of(spring, links, particles) +
-                       moved(row.second, second, particles.dimension) -
-                       moved(row.first, first, particles.dimension);
-  return norm(apart) - links.springs[spring.number].length;
+                       std::span<const UnitMotion> motions) {
+  return norm(apart_after(spring, links, particles, motions)) - links.springs[spring.number].length;
 }
 
 double rate_of_arm(const Arm& arm, const Particles& particles, const UnitMotion& first,
                    const UnitMotion& second) {
-  const auto row = arm_equations(arm, particles, {}).rows.front();
-  const auto rate = [](const RowPart& of, const UnitMotion& by) {
-    return dot(of.direction, by.displacement + cross(by.turn, of.arm));
-  };
-  return rate(row.first, first) + rate(row.second, second);
+  const auto equations = arm_equations(arm, particles, {});
+  return value_of(equations.parts()[0], first) + value_of(equations.parts()[1], second);
 }
 
 std::string name_of(const LinkEquations& equations, const Links& links,

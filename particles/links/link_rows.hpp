@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,29 +14,28 @@ namespace viscontact::particles {
 
 /// Part of an equation: `direction` . displacement of a point at `arm` from the centre of a unit (a
 /// particle without a body, or a rigid body), or the turn about z of the unit.
-struct RowPart {
-  std::int32_t particle = -1;  ///< of the unit; -1: no unit, a fixed place
-  Vector direction{};          ///< a unit vector; with `is_turn`, not used
-  Vector arm{};                ///< [L]
-  bool is_turn = false;        ///< true: the turn about z; false: the displacement
+struct LinkPart {
+  std::int32_t particle = 0;  ///< of the unit
+  Vector direction{};         ///< a unit vector; with `is_turn`, not used
+  Vector arm{};               ///< [L]
+  bool is_turn = false;       ///< true: the turn about z; false: the displacement
   /// Periods from the particle to its image that the equation means.
   Periods image{};
 };
 
-/// One equation of a link: value + first + second + compliance * impulse = 0 after the step.
-/// `first` and `second` are motions of images: in a sheared cell, those of the particles and
-/// image_rate().
+/// One equation of a link: value + sum of the parts + compliance * impulse = 0 after the step. The
+/// parts are motions of images: in a sheared cell, those of the particles and image_rate().
 struct LinkRow {
-  RowPart first,          ///< of the first unit, or of a fixed place
-      second;             ///< of the second unit
-  double value = 0;       ///< before the step, with the length at its end [L], or angle [rad]
-  double compliance = 0;  ///< [T/M]; 0: the equation holds whatever impulse it needs
+  std::vector<LinkPart> parts;  ///< of all units that the link holds; what is fixed has none
+  double value = 0;             ///< before the step, with the length at its end [L], or angle [rad]
+  double compliance = 0;        ///< [T/M]; 0: the equation holds whatever impulse it needs
   // Of springs: what value and compliance follow from.
   double extension = 0;  ///< [L], [rad]
   double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
 };
 
-/// The equations of one link, all of them between the same units, and what they are called.
+/// The equations of one link, and what they are called. All have parts of the same units in the same
+/// order.
 struct LinkEquations {
   /// The kind of link; kTorsion is the torsion spring of a hinge.
   enum class Kind { kHinge, kTorsion, kSpring, kArm };
@@ -44,6 +44,9 @@ struct LinkEquations {
   std::size_t first_force = 0;  ///< place of the force of the first row in State::link_forces
   /// The equations, at least one.
   std::vector<LinkRow> rows{};
+
+  /// The parts of the first row, one for each unit.
+  const std::vector<LinkPart>& parts() const { return rows.front().parts; }
 };
 
 /// The times of a step that links depend on.
@@ -65,7 +68,7 @@ std::vector<LinkEquations> link_equations(const Links& links, const Particles& p
 /// Periods from a particle to its image at the place in its body; 0 without a body.
 Periods periods_in_unit(const Particles& particles, std::int32_t particle);
 
-/// Rate of first + second of a row because their images move relative to the particles [L/T].
+/// Rate of the sum of the parts of a row because their images move relative to the particles [L/T].
 double image_rate(const LinkRow& row, const PeriodicCell& cell);
 
 /// Displacements and turns of the unit of a particle: 3 numbers each, of discs in the plane.
@@ -74,21 +77,25 @@ struct UnitMotion {
       turn{};             ///< [rad]; only the component z in the plane
 };
 
-/// The equations with the directions and arms that they have after these motions of their first and
-/// second unit, in which units turn by finite angles. Nothing else changes.
-LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
-                               const Particles& particles, const UnitMotion& first,
-                               const UnitMotion& second);
+// In the following, `motions` are those of the units of a link, in the order of its parts. The units
+// are the images that the rows mean, and turn by finite angles.
 
-/// Values of the rows of a link for the motions of its first and second unit, with their finite
-/// turns, without the part of the compliance. The units are the images that the rows mean.
+/// Value of a part after the linear motion of its unit [L], [rad].
+double value_of(const LinkPart& part, const UnitMotion& motion);
+
+/// The equations with the directions and arms that they have after these motions. Nothing else
+/// changes.
+LinkEquations turned_equations(const LinkEquations& equations, const Links& links,
+                               const Particles& particles, std::span<const UnitMotion> motions);
+
+/// Values of the rows of a link after these motions, without the part of the compliance.
 std::vector<double> values_after(const LinkEquations& equations, const Links& links,
                                  const Particles& particles, const LinkTimes& times,
-                                 const UnitMotion& first, const UnitMotion& second);
+                                 std::span<const UnitMotion> motions);
 
-/// Extension of a spring after these motions of the units of its ends, with their finite turns [L].
+/// Extension of a spring after these motions [L].
 double extension_after(const LinkEquations& spring, const Links& links, const Particles& particles,
-                       const UnitMotion& first, const UnitMotion& second);
+                       std::span<const UnitMotion> motions);
 
 /// Rate at which the length of an arm grows, to first order, in the direction of the beginning of a
 /// step [L/T]. `first` and `second` are velocities and angular velocities of the units of its ends.

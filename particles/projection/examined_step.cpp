@@ -8,34 +8,13 @@
 namespace viscontact::particles {
 namespace {
 
-/// Takes residuals into the result of a step.
-struct ResidualRecord {
-  const SolverSettings& settings;
-  double mean_radius;
-  ProjectionResult& result;
-
-  /// Returns true if the residual is larger than allowed.
-  bool residual(double residual, const ResidualScale& scale) {
-    result.residual = std::max(result.residual, residual);
-    const double allowed =
-        scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance);
-    const bool beyond = !(residual <= allowed);
-    if (beyond) result.converged = false;
-    result.excess = std::max(result.excess, residual / allowed);
-    if (residual > scale.rounding && scale.impulse > 0)
-      result.impulse_residual =
-          std::max(result.impulse_residual, residual / scale.w / scale.impulse);
-    return beyond;
-  }
-  /// A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in
-  /// packings, and no memory depends on it.
-  void slip(double residual) {
-    const double allowed = settings.tolerance * mean_radius / 2;
-    result.residual = std::max(result.residual, residual);
-    result.excess = std::max(result.excess, residual / allowed);
-    if (residual > allowed) result.converged = false;
-  }
-};
+/// Takes in a residual of a gap or link. Returns true if it is larger than allowed.
+bool take(double residual, const ResidualScale& scale, const SolverSettings& settings,
+          double mean_radius, ProjectionResult& result) {
+  if (residual > scale.rounding) result.residuals.take_impulse(residual / scale.w, scale.impulse);
+  return result.residuals.take(
+      residual, scale.allowed(settings.tolerance * mean_radius / 2, settings.impulse_tolerance));
+}
 
 }  // namespace
 
@@ -44,10 +23,10 @@ struct ResidualRecord {
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
-  const auto& row = link.rows.front();
+  const auto& parts = link.parts();
   Contact<D> contact{};
-  contact.first = row.first.particle;
-  contact.second = row.second.particle;
+  contact.first = parts.size() > 1 ? parts.front().particle : -1;
+  contact.second = parts.back().particle;
   contact.w = w(contact.first, contact.second);
   for (const auto particle : {contact.first, contact.second})
     if (particle >= 0) contact.gap += norm(state_.particles.position(index_of(particle)));
@@ -61,21 +40,19 @@ void StepProjection<D>::examine_links(const SolverSettings& settings, double mea
   auto scales = residual_scales();
   const auto& links = constraints_->links();
   std::vector<std::size_t> beyond;
-  ResidualRecord record{settings, mean_radius, result};
   for (std::size_t l = 0; l < links.size(); ++l) {
     const double residual = constraints_->link_residual(l);
     const auto scale = scale_of_link(links[l], scales);
     result.link_residual = std::max(result.link_residual, residual);
-    if (record.residual(residual, scale)) beyond.push_back(l);
+    if (take(residual, scale, settings, mean_radius, result)) beyond.push_back(l);
   }
   if (beyond.empty()) return;
   // Named are also the links that hold the same particles, because one of them may be the cause.
   std::vector<char> is_held(state_.particles.count(), 0);
   const auto for_particles = [&](const LinkEquations& link, const auto& visit) {
-    for (const auto* part : {&link.rows.front().first, &link.rows.front().second}) {
-      if (part->particle < 0) continue;
-      const auto body = state_.particles.bodies.body_of(part->particle);
-      if (body < 0) visit(index_of(part->particle));
+    for (const auto& part : link.parts()) {
+      const auto body = state_.particles.bodies.body_of(part.particle);
+      if (body < 0) visit(index_of(part.particle));
       if (body >= 0)
         for (const auto member : state_.particles.bodies.bodies[index_of(body)].members)
           visit(index_of(member));
@@ -100,18 +77,12 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
                                                     double mean_radius, bool is_final,
                                                     ProjectionResult& result) {
   auto scales = residual_scales();
-  result.converged = is_final;
-  result.residual = result.impulse_residual = result.smallest_gap = result.excess = 0;
+  result.residuals = {};
+  result.residuals.converged = is_final;
   result.unresolved = 0;
   result.link_residual = 0;
   result.unsolved_links.clear();
-  result.impulse_errors.resize(system_.contacts.size());
-  ResidualRecord record{settings, mean_radius, result};
-  const auto record_gap = [&](std::size_t k, double gap) {
-    if (gap >= result.smallest_gap) return;
-    result.smallest_gap = gap;
-    result.deepest_overlap = pair(k);
-  };
+  result.residuals.impulse_errors.resize(system_.contacts.size());
   for (std::size_t c = 0; is_final && c < chosen_.size(); ++c) {
     const auto& here = system_.contacts[c];
     const auto scale = scales.of(here);
@@ -119,10 +90,14 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
     const double residual = constraints_
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
-    record.residual(residual, scale);
-    if (constraints_) record.slip(constraints_->residual(c).tangential);
-    result.impulse_errors[c] = residual / scale.w;
-    record_gap(chosen_[c], gap - here.tolerated);
+    take(residual, scale, settings, mean_radius, result);
+    // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in packings,
+    // and no memory depends on it.
+    if (constraints_)
+      result.residuals.take(constraints_->residual(c).tangential,
+                            settings.tolerance * mean_radius / 2);
+    result.residuals.impulse_errors[c] = residual / scale.w;
+    result.residuals.take_gap(gap - here.tolerated, pair(chosen_[c]));
     if ((here.impulse != 0 || here.lowest < 0) &&
         turns_too_far(state_.particles, here, displacements_))
       ++result.unresolved;
@@ -135,8 +110,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
       continue;
     const auto here = contact(k);
     const double gap = gap_after(here, displacements_);
-    if (record.residual(-gap, scales.of(here))) closed.push_back(k);
-    record_gap(k, gap - here.tolerated);
+    if (take(-gap, scales.of(here), settings, mean_radius, result)) closed.push_back(k);
+    result.residuals.take_gap(gap - here.tolerated, pair(k));
   }
   return closed;
 }

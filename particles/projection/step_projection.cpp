@@ -197,12 +197,12 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
         solve_contacts(is_rough, length, settings.max_iterations - result.iterations).iterations;
     const bool is_last = result.iterations >= settings.max_iterations;
     auto more = examine(settings, mean_radius, !is_rough || is_last, result);
-    if (result.converged || is_last) break;
+    if (result.residuals.converged || is_last) break;
     // A solution that does not improve in several rounds has reached its rounding errors.
     constexpr int kPatience = 10;
-    waited = more.empty() && !is_rough && result.excess >= least_excess ? waited + 1 : 0;
+    waited = more.empty() && !is_rough && result.residuals.excess >= least_excess ? waited + 1 : 0;
     if (waited == kPatience) break;
-    if (!is_rough) least_excess = std::min(least_excess, result.excess);
+    if (!is_rough) least_excess = std::min(least_excess, result.residuals.excess);
     if (more.empty()) is_rough = false;
     choose(with_connected_pairs(more, ++rounds));
   }

@@ -19,19 +19,14 @@
 #include "viscontact/particles/projection/residual_scales.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_residuals.hpp"
 
 namespace viscontact::particles {
 
 /// Result of the projection of a step.
 struct ProjectionResult {
-  int iterations = 0;     ///< number of iterations of all solutions, >= 0
-  bool converged = true;  ///< false: some residuals are larger than allowed
-  double residual = 0;    ///< largest residual of all pairs [L]
-  /// Largest residual as an impulse, divided by the impulses at work in the contact.
-  double impulse_residual = 0;
-  double excess = 0;        ///< largest residual, divided by the allowed residual of its contact
-  double smallest_gap = 0;  ///< smallest linearised gap [L], at most 0
-  Pair deepest_overlap;     ///< the pair with the smallest gap
+  int iterations = 0;       ///< number of iterations of all solutions, >= 0
+  StepResiduals residuals;  ///< those of the last solution; impulse_errors as `pairs`
   /// Number of contacts that exert an impulse or are glued, and turn by more than kLargestTurn.
   std::size_t unresolved = 0;
   /// Largest residual of a link [L]. If some are not allowed: the names of the hinges and arms that
@@ -39,9 +34,8 @@ struct ProjectionResult {
   double link_residual = 0;
   /// Those names; empty if the residuals of all links are allowed.
   std::vector<std::string> unsolved_links;
-  std::vector<Pair*> pairs;            ///< pairs in the projection; their impulses are the solution
-  std::vector<double> impulse_errors;  ///< residual of each impulse [M L/T], as `pairs`
-  std::vector<std::int32_t> bodies;    ///< particles whose displacements the projection changed
+  std::vector<Pair*> pairs;          ///< pairs in the projection; their impulses are the solution
+  std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
 };
 
 /// Chooses the pairs that are glued (gamma < 0), had an impulse in the last step, or whose gap the

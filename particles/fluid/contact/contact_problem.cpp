@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "viscontact/particles/dual_problem/active_set_newton.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
 #include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
 
@@ -35,8 +36,8 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
 /// Estimates w of each contact by one product for each group of contacts without a common particle.
 /// Other contacts of the group change the gap as well, but much less. Returns the number of
 /// products.
-int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobility& mobility,
-               const MotionLayout& layout) {
+int estimate_w(std::span<Contact<2>> contacts, std::size_t motions,
+               const MobilityFunction& mobility, const MotionLayout& layout) {
   const auto group = disjoint_groups(contacts);
   const std::size_t groups = 1 + *std::ranges::max_element(group);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -59,110 +60,27 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobili
   return static_cast<int>(groups);
 }
 
-/// The contact problem in matrix form, for few contacts: gradient b + W p with p >= gamma. A contact
-/// may have a residual |min(b + W p, W_cc (p - gamma))| of at most `allowed` [L].
-struct DenseContactProblem {
-  Eigen::MatrixXd w;        ///< [T/M], symmetric, positive semidefinite, with a positive diagonal
-  Eigen::VectorXd b;        ///< [L]
-  Eigen::VectorXd gamma;    ///< [M L/T], <= 0
-  Eigen::VectorXd allowed;  ///< [L], > 0
-  Eigen::VectorXd p;        ///< a guess, then the solution [M L/T]
-  double error_of_w = 0;    ///< relative error of W, >= 0
-
-  /// Largest residual over the allowed one; the problem is solved if it is at most 1.
-  double excess() const {
-    const Eigen::VectorXd gradient = b + w * p;
-    double largest = 0;
-    for (Index c = 0; c < p.size(); ++c)
-      largest = std::max(largest,
-                         contact_residual(gradient[c], w(c, c) * (p[c] - gamma[c])) / allowed[c]);
-    return largest;
-  }
-
-  /// One step of Newton's method on the set of contacts with p > gamma.
-  void change_active_set() {
-    const Eigen::VectorXd gradient = b + w * p;
-    std::vector<Index> free;
-    for (Index c = 0; c < p.size(); ++c) {
-      if (w(c, c) * (p[c] - gamma[c]) - gradient[c] > 0)
-        free.push_back(c);
-      else
-        p[c] = gamma[c];
-    }
-    Eigen::MatrixXd part = w(free, free);
-    // Redundant contacts make W singular but for its errors. A term as large as these bounds the
-    // impulses that such contacts exert on each other. Refinement removes what it changes elsewhere.
-    part.diagonal() *= 1 + error_of_w;
-    const Eigen::LDLT<Eigen::MatrixXd> factor(part);
-    constexpr int kRefinements = 2;
-    for (int i = 0; i <= kRefinements; ++i) {
-      const Eigen::VectorXd rest = b + w * p;
-      p(free) -= factor.solve(rest(free));
-    }
-  }
-
-  /// One sweep of Gauss-Seidel with projection on the bounds.
-  void sweep() {
-    for (Index c = 0; c < p.size(); ++c) {
-      const double gradient = b[c] + w.row(c).dot(p);
-      p[c] = std::max(gamma[c], p[c] - gradient / w(c, c));
-    }
-  }
-
-  /// Improves p until all residuals are allowed, or for `most` steps. Returns the number of steps.
-  ///
-  /// The first method is Newton's on the set of contacts with p > gamma (Hintermueller, Ito &
-  /// Kunisch 2002, "The primal-dual active set strategy as a semismooth Newton method"). It takes a
-  /// few steps from a good guess, but may cycle. Sweeps, which converge if slowly, follow where it
-  /// fails.
-  int solve(int most) {
-    constexpr int kNewtonSteps = 50;
-    int steps = 0;
-    for (; steps < std::min(most, kNewtonSteps) && excess() > 1; ++steps) change_active_set();
-    if (excess() > 1) p = p.cwiseMax(gamma);
-    for (; steps < most && excess() > 1; ++steps) sweep();
-    p = p.cwiseMax(gamma);
-    return steps;
-  }
-};
-
-/// The dual problem of ContactProblem as the solver of the projection sees it, with one question to
-/// the fluid for each product with W, in scaled unknowns z = sqrt(w) p as ContactGraph scales it. A
-/// vector y = B z holds the displacements S G^T p that the impulses p cause, S the mobility, and
-/// after them the impulses G^T p on the particles. Their product is z^T W z.
-class MobilityGraph {
+/// The dual problem with one question to the fluid for each product with W. A vector y = B z holds the
+/// displacements S G^T p that the impulses p cause, and after them the impulses G^T p on the particles.
+/// The product of both is z^T W z.
+class FluidMobility : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
-  MobilityGraph(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                const Mobility& mobility)
-      : contacts_(contacts),
+  FluidMobility(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
+                const MobilityFunction& mobility)
+      : DualProblem(contacts.size()),
+        contacts_(contacts),
         motions_(conditions.free_velocities.size()),
         mobility_(mobility),
         layout_(conditions.layout) {
-    for (const auto& contact : contacts) {
-      const double root = std::sqrt(contact.w);
-      scale.push_back(root);
-      per_allowed.push_back(root / contact.allowed);
-      z.push_back(std::max(contact.impulse, contact.lowest) * root);
-      bound.push_back(contact.lowest * root);
-      linear_term.push_back(free_gap(contact, conditions) / root);
-    }
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      set(c, contacts[c], free_gap(contacts[c], conditions));
   }
 
-  /// Number of contacts.
-  std::size_t count() const { return contacts_.size(); }
-  /// Number of numbers in a vector y = B z: motions of the particles, and impulses on them.
   std::size_t displacement_count() const { return 2 * motions_; }
   /// One thread, because the solver of the fluid does most of the work.
   ThreadPool& pool() const { return pool_; }
 
-  std::vector<double> z,  ///< scaled impulses z = sqrt(w) p; see ContactGraph
-      bound,              ///< lower bounds of z
-      linear_term,        ///< the gradient at z = 0
-      scale,              ///< sqrt(w) of each contact
-      per_allowed;        ///< see ContactGraph
-
-  /// Computes y = B z by one product with the mobility. Returns z^T W z.
   double to_bodies(std::span<const double> values, std::span<double> y) {
     const auto impulses = y.subspan(motions_);
     std::ranges::fill(impulses, 0.0);
@@ -176,62 +94,151 @@ class MobilityGraph {
     for (std::size_t i = 0; i < motions_; ++i) form += displacements[i] * impulses[i];
     return form;
   }
-
-  /// Replaces `into` by y + factor * into. Returns z^T W z of the sum.
   double combine(std::span<const double> y, double factor, std::span<double> into) const {
     for (std::size_t i = 0; i < into.size(); ++i) into[i] = y[i] + factor * into[i];
     double form = 0;
     for (std::size_t i = 0; i < motions_; ++i) form += into[i] * into[motions_ + i];
     return form;
   }
-
-  /// (W z)_c for y = B z.
   double to_contact(std::size_t c, const double* y) const {
     return opening(contacts_[c], y, layout_) / scale[c];
   }
 
-  /// True if z_c is above its bound.
-  bool is_free(std::size_t c) const { return z[c] > bound[c]; }
-
-  /// h lambda of contact c [M L/T].
-  double impulse(std::size_t c) const {
-    return z[c] == bound[c] ? contacts_[c].lowest : z[c] / scale[c];
-  }
   int products() const { return products_; }  ///< number of calls of to_bodies()
 
  private:
   std::span<const Contact<2>> contacts_;
   std::size_t motions_;
-  const Mobility& mobility_;
+  const MobilityFunction& mobility_;
   MotionLayout layout_;
   int products_ = 0;
   mutable ThreadPool pool_{1};
 };
 
+/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then z.
+class DenseMobility : public DualProblem {
+ public:
+  /// `responses` are the velocities that a unit force of each contact causes [T/M].
+  DenseMobility(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
+                std::span<const std::vector<double>> responses)
+      : DualProblem(contacts.size()), w(contacts.size(), contacts.size()) {
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      set(c, contacts[c], free_gap(contacts[c], conditions));
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      for (std::size_t other = 0; other < contacts.size(); ++other)
+        w(static_cast<Index>(other), static_cast<Index>(c)) =
+            opening(contacts[other], responses[c].data(), conditions.layout) /
+            (scale[c] * scale[other]);
+    w = (w + w.transpose().eval()) / 2;
+  }
+
+  std::size_t displacement_count() const { return 2 * count(); }
+  ThreadPool& pool() const { return pool_; }
+
+  double to_bodies(std::span<const double> values, std::span<double> y) const {
+    const auto n = static_cast<Index>(count());
+    const Eigen::Map<const Eigen::VectorXd> z_of(values.data(), n);
+    Eigen::Map<Eigen::VectorXd> product(y.data(), n);
+    product = w * z_of;
+    std::ranges::copy(values, y.begin() + n);
+    return product.dot(z_of);
+  }
+  double combine(std::span<const double> y, double factor, std::span<double> into) const {
+    double form = 0;
+    for (std::size_t i = 0; i < into.size(); ++i) into[i] = y[i] + factor * into[i];
+    for (std::size_t c = 0; c < count(); ++c) form += into[c] * into[count() + c];
+    return form;
+  }
+  double to_contact(std::size_t c, const double* y) const { return y[c]; }
+
+  Eigen::MatrixXd w;  ///< [1], symmetric, positive semidefinite, with the diagonal 1
+
+ private:
+  mutable ThreadPool pool_{1};
+};
+
+/// A factor of a dense W between chosen contacts, for active_set_newton().
+class DenseFactor {
+ public:
+  /// `error_of_w` >= 0 is the relative error of W.
+  explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) {}
+
+  bool exists() const { return !free_.empty(); }
+  bool factorise(const DenseMobility& problem, const std::vector<char>& free) {
+    free_ = free;
+    chosen_.clear();
+    for (std::size_t c = 0; c < free.size(); ++c)
+      if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
+    w_ = problem.w(chosen_, chosen_);
+    // Redundant contacts make W singular but for its errors. A term as large as these bounds the
+    // impulses that such contacts exert on each other. Refinement removes what it changes elsewhere.
+    Eigen::MatrixXd regular = w_;
+    regular.diagonal() *= 1 + error_of_w_;
+    factor_.compute(regular);
+    return true;
+  }
+  void solve(std::span<const double> gradient, std::span<double> solved) const {
+    const Eigen::VectorXd right =
+        Eigen::Map<const Eigen::VectorXd>(gradient.data(), std::ssize(gradient))(chosen_);
+    Eigen::VectorXd values = factor_.solve(right);
+    constexpr int kRefinements = 2;
+    for (int i = 0; i < kRefinements; ++i) values += factor_.solve(right - w_ * values);
+    std::ranges::fill(solved, 0.0);
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      solved[static_cast<std::size_t>(chosen_[i])] = values[static_cast<Index>(i)];
+  }
+
+ private:
+  double error_of_w_;
+  std::vector<char> free_;
+  std::vector<Index> chosen_;
+  Eigen::MatrixXd w_;
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+};
+
 /// Conjugate gradients on the free contacts without a further preconditioner: W has about the
 /// diagonal 1 already.
+template <Mobility Problem>
 class IdentityPreconditioner {
  public:
   /// Tells Mprgp to use apply() alone.
   static constexpr bool kMaySweep = false;
-  /// `graph` must outlive the object.
-  explicit IdentityPreconditioner(MobilityGraph& graph) : graph_(&graph) {}
+  /// `problem` must outlive the object.
+  explicit IdentityPreconditioner(Problem& problem) : problem_(&problem) {}
 
   /// Sets swept to the gradient of the free contacts, and y = B swept. Returns swept.gradient.
   double apply(std::span<const double> gradient, std::vector<double>& swept,
                std::vector<double>& y) const {
     double product = 0;
     for (std::size_t c = 0; c < gradient.size(); ++c) {
-      swept[c] = graph_->is_free(c) ? gradient[c] : 0.0;
+      swept[c] = problem_->is_free(c) ? gradient[c] : 0.0;
       product += swept[c] * gradient[c];
     }
-    graph_->to_bodies(swept, y);
+    problem_->to_bodies(swept, y);
     return product;
   }
 
  private:
-  MobilityGraph* graph_;
+  Problem* problem_;
 };
+
+/// Improves problem.z by MPRGP until all residuals are allowed, or until products() is at least
+/// `most`.
+template <Mobility Problem, class Products>
+void solve_by_gradients(Problem& problem, int most, const Products& products) {
+  Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
+  bool is_fresh = true;
+  for (;;) {
+    if (mprgp.residual() <= 1 || products() >= most) {
+      if (is_fresh) break;
+      mprgp.refresh();  // the updated gradient has accumulated rounding errors
+      is_fresh = true;
+    } else {
+      mprgp.step();
+      is_fresh = false;
+    }
+  }
+}
 
 }  // namespace
 
@@ -291,52 +298,36 @@ bool ContactProblem::solve(bool is_rough) {
 }
 
 void ContactProblem::solve_dense() {
-  const auto n = static_cast<Index>(contacts_.size());
-  DenseContactProblem problem{Eigen::MatrixXd(n, n), Eigen::VectorXd(n),
-                              Eigen::VectorXd(n),    Eigen::VectorXd(n),
-                              Eigen::VectorXd(n),    conditions_.velocity_error};
-  for (Index c = 0; c < n; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    for (Index other = 0; other < n; ++other)
-      problem.w(other, c) = opening(contacts_[static_cast<std::size_t>(other)],
-                                    responses_[k].data(), conditions_.layout);
-    problem.b[c] = free_gap(contacts_[k], conditions_);
-    problem.gamma[c] = contacts_[k].lowest;
-    problem.allowed[c] = contacts_[k].allowed;
-    problem.p[c] = contacts_[k].impulse;
+  DenseMobility problem(contacts_, conditions_, responses_);
+  DenseFactor factor(conditions_.velocity_error);
+  const int most = conditions_.solver.max_iterations - iterations_;
+  constexpr int kNewtonSteps = 50;
+  auto solved = active_set_newton(problem, factor, std::min(most, kNewtonSteps));
+  // Newton's method may cycle. Conjugate gradients do not.
+  if (!(solved.residual <= 1)) {
+    int steps = 0;
+    solve_by_gradients(problem, most - solved.iterations, [&] { return steps++; });
+    solved.iterations += steps;
   }
-  problem.w = (problem.w + problem.w.transpose().eval()) / 2;
-  iterations_ += problem.solve(conditions_.solver.max_iterations - iterations_);
+  iterations_ += solved.iterations;
   std::ranges::copy(conditions_.free_velocities, velocities_.begin());
-  for (Index c = 0; c < n; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    contacts_[k].impulse = problem.p[c];
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    contacts_[c].impulse = problem.impulse(c);
     for (std::size_t i = 0; i < velocities_.size(); ++i)
-      velocities_[i] += responses_[k][i] * (problem.p[c] / conditions_.h);
+      velocities_[i] += responses_[c][i] * (contacts_[c].impulse / conditions_.h);
   }
 }
 
 void ContactProblem::solve_by_products() {
-  MobilityGraph graph(contacts_, conditions_, mobility_);
-  Mprgp mprgp(graph, IdentityPreconditioner(graph));
-  bool is_fresh = true;
-  for (;;) {
-    if (mprgp.residual() <= 1 ||
-        iterations_ + graph.products() >= conditions_.solver.max_iterations) {
-      if (is_fresh) break;
-      mprgp.refresh();  // the updated gradient has accumulated rounding errors
-      is_fresh = true;
-    } else {
-      mprgp.step();
-      is_fresh = false;
-    }
-  }
-  std::vector<double> y(graph.displacement_count());
-  graph.to_bodies(graph.z, y);
+  FluidMobility problem(contacts_, conditions_, mobility_);
+  solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_,
+                     [&] { return problem.products(); });
+  std::vector<double> y(problem.displacement_count());
+  problem.to_bodies(problem.z, y);
   for (std::size_t i = 0; i < velocities_.size(); ++i)
     velocities_[i] = conditions_.free_velocities[i] + y[i] / conditions_.h;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = graph.impulse(c);
-  iterations_ += graph.products();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
+  iterations_ += problem.products();
 }
 
 }  // namespace viscontact::particles

@@ -72,6 +72,7 @@ Contact<2> contact_in_fluid(const Particles& p, const Pair& pair,
     Contact<2> contact{on_axis.first, on_axis.second, {on_axis.normal[0], 0}};
     contact.gap = on_axis.gap;
     contact.lowest = on_axis.lowest;
+    contact.obstacle = on_axis.obstacle;
     contact.impulse = on_axis.impulse;
     return contact;
   }
@@ -104,7 +105,7 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
 }
 
 /// Solves for contacts in rounds, in which those join whose gaps the others close.
-void solve_listed(StepContacts& step, const Mobility& mobility,
+void solve_listed(StepContacts& step, const MobilityFunction& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
   std::vector<std::size_t> chosen;
@@ -138,7 +139,7 @@ void solve_listed(StepContacts& step, const Mobility& mobility,
 StepContacts solve_contacts(const State& state, double threshold,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
-                            const Mobility& mobility, const ContactConditions& conditions,
+                            const MobilityFunction& mobility, const ContactConditions& conditions,
                             ThreadPool& pool) {
   const auto& p = state.particles;
   const double h = conditions.h;
@@ -197,28 +198,25 @@ std::vector<double> set_allowed(std::span<Contact<2>> contacts,
   return at_work;
 }
 
-ContactResiduals measure_residuals(std::span<Contact<2>> contacts,
-                                   std::span<const double> velocities,
-                                   const ContactConditions& conditions) {
+StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
+                                const ContactConditions& conditions) {
   const auto at_work = set_allowed(contacts, conditions);
-  ContactResiduals residuals;
+  StepResiduals residuals;
   residuals.impulse_errors.resize(contacts.size());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& contact = contacts[c];
     const double after = gap_after(contact, velocities.data(), conditions.h, conditions.layout);
-    residuals.smallest_gap = std::min(residuals.smallest_gap, after);
+    residuals.take_gap(
+        after, {contact.first >= 0 ? contact.first : -1 - contact.obstacle, contact.second});
     // A contact that takes no part must not close.
     const bool takes_part = contact.w > 0;
     const double residual =
         takes_part ? contact_residual(after, contact.w * (contact.impulse - contact.lowest))
                    : std::max(0.0, -after);
-    residuals.largest = std::max(residuals.largest, residual);
-    residuals.converged = residuals.converged && residual <= contact.allowed;
+    residuals.take(residual, contact.allowed);
     if (!takes_part) continue;
     residuals.impulse_errors[c] = residual / contact.w;
-    if (at_work[c] > 0)
-      residuals.largest_relative =
-          std::max(residuals.largest_relative, residual / contact.w / at_work[c]);
+    residuals.take_impulse(residual / contact.w, at_work[c]);
   }
   return residuals;
 }

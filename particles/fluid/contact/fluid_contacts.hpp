@@ -15,6 +15,7 @@
 #include "viscontact/particles/fluid/fluid_solver.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_residuals.hpp"
 
 namespace viscontact::particles {
 
@@ -58,7 +59,7 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
 /// without contact; linear, symmetric and positive definite on the forces of contacts.
-using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
+using MobilityFunction = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.
 struct ContactConditions {
@@ -81,20 +82,10 @@ struct ContactConditions {
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions);
 
-/// The residuals of a step.
-struct ContactResiduals {
-  std::vector<double> impulse_errors;  ///< residual/w of each contact [M L/T]; 0 where w = 0
-  double largest = 0;                  ///< [L]
-  double largest_relative = 0;         ///< largest impulse error divided by the impulses at work
-  double smallest_gap = 0;             ///< smallest D - D_c + h G v [L], at most 0
-  bool converged = true;               ///< all residuals are allowed
-};
-
 /// Measures the residuals of the impulses of contacts in the velocities that the particles have
-/// with them. Sets Contact::allowed.
-ContactResiduals measure_residuals(std::span<Contact<2>> contacts,
-                                   std::span<const double> velocities,
-                                   const ContactConditions& conditions);
+/// with them; gaps are D - D_c + h G v. Sets Contact::allowed.
+StepResiduals measure_residuals(std::span<Contact<2>> contacts, std::span<const double> velocities,
+                                const ContactConditions& conditions);
 
 /// Largest number of contacts for which the matrix W is computed, by one product with the mobility
 /// for each contact. Above it, products take place within conjugate gradients.
@@ -104,12 +95,12 @@ inline constexpr std::size_t kMostDenseContacts = 24;
 /// D + h G v = 0 where p > gamma, with v = free velocities + mobility(G^T p/h). This is the dual
 /// problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
 ///
-/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves.
-/// Many contacts: the solver of the projection, MPRGP, with products by the mobility.
+/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves, or
+/// MPRGP where Newton's method cycles. Many contacts: MPRGP with products by the mobility.
 class ContactProblem {
  public:
   /// `mobility` and the velocities of `conditions` must outlive the object.
-  ContactProblem(const ContactConditions& conditions, const Mobility& mobility)
+  ContactProblem(const ContactConditions& conditions, const MobilityFunction& mobility)
       : conditions_(conditions),
         mobility_(mobility),
         velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
@@ -142,7 +133,7 @@ class ContactProblem {
   void solve_by_products();
 
   ContactConditions conditions_;
-  const Mobility& mobility_;
+  const MobilityFunction& mobility_;
   std::vector<Contact<2>> contacts_;
   std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
   std::vector<double> velocities_;
@@ -169,7 +160,7 @@ struct StepContacts {
 StepContacts solve_contacts(const State& state, double threshold,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
-                            const Mobility& mobility, const ContactConditions& conditions,
+                            const MobilityFunction& mobility, const ContactConditions& conditions,
                             ThreadPool& pool);
 
 }  // namespace viscontact::particles

@@ -22,20 +22,20 @@ TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
     SCOPED_TRACE(i);
     const auto problem = random_problem<2>(random);
     const auto dense = problem.dense();
-    ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
+    MassMobility<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
     const auto choose_free = [&] {
-      for (std::size_t c = 0; c < graph.count(); ++c)
-        graph.z[c] = graph.bound[c] + (random.chance(0.7) ? 1 : 0);
+      for (std::size_t c = 0; c < dual.count(); ++c)
+        dual.z[c] = dual.bound[c] + (random.chance(0.7) ? 1 : 0);
     };
     choose_free();
     std::vector<Eigen::Index> made_of;
-    for (std::size_t c = 0; c < graph.count(); ++c)
-      if (graph.is_free(c)) made_of.push_back(static_cast<Eigen::Index>(c));
+    for (std::size_t c = 0; c < dual.count(); ++c)
+      if (dual.is_free(c)) made_of.push_back(static_cast<Eigen::Index>(c));
     FreeSetFactor<2> factor;
     EXPECT_FALSE(factor.exists());
-    std::vector<char> active(graph.count());
-    for (std::size_t c = 0; c < graph.count(); ++c) active[c] = graph.is_free(c) ? 1 : 0;
-    ASSERT_TRUE(factor.factorise(graph, active));
+    std::vector<char> active(dual.count());
+    for (std::size_t c = 0; c < dual.count(); ++c) active[c] = dual.is_free(c) ? 1 : 0;
+    ASSERT_TRUE(factor.factorise(dual, active));
     ASSERT_TRUE(factor.exists());
     choose_free();
 
@@ -44,13 +44,13 @@ TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
     Eigen::MatrixXd w = (half * half.transpose())(made_of, made_of);
     constexpr double kEpsilon = 1e-10;  // of the factor
     w.diagonal().array() += kEpsilon;
-    std::vector<double> gradient(graph.count()), solved(graph.count());
+    std::vector<double> gradient(dual.count()), solved(dual.count());
     for (auto& g : gradient) g = random.uniform(-1, 1);
-    const double product = factor.precondition(graph, gradient, solved);
+    const double product = factor.precondition(dual, gradient, solved);
     Eigen::VectorXd right(static_cast<Eigen::Index>(made_of.size()));
     for (Eigen::Index k = 0; k < right.size(); ++k) {
       const auto c = static_cast<std::size_t>(made_of[static_cast<std::size_t>(k)]);
-      right[k] = graph.is_free(c) ? gradient[c] : 0;
+      right[k] = dual.is_free(c) ? gradient[c] : 0;
     }
     const Eigen::VectorXd inverse = w.ldlt().solve(right);
     double expected_product = 0;
@@ -60,12 +60,12 @@ TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
     // Rounding, times the condition of at most 10/epsilon.
     const double rounding =
         1e-15 * 10 / kEpsilon * std::max(1.0, inverse.lpNorm<Eigen::Infinity>());
-    for (std::size_t c = 0; c < graph.count(); ++c) {
-      if (!graph.is_free(c)) expected[c] = 0;
+    for (std::size_t c = 0; c < dual.count(); ++c) {
+      if (!dual.is_free(c)) expected[c] = 0;
       EXPECT_NEAR(solved[c], expected[c], rounding) << c;
       expected_product += expected[c] * gradient[c];
     }
-    EXPECT_NEAR(product, expected_product, static_cast<double>(graph.count()) * rounding);
+    EXPECT_NEAR(product, expected_product, static_cast<double>(dual.count()) * rounding);
   }
 }
 

@@ -26,12 +26,12 @@ Answer answer_of(const Problem<D>& problem, double tolerance, int threads = 1) {
   ThreadPool pool(threads);
   auto contacts = problem.contacts;
   for (auto& contact : contacts) contact.allowed = tolerance;
-  ContactGraph<D> graph(contacts, problem.displacements, problem.mobilities, pool);
+  MassMobility<D> dual(contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<D> factor;
   Answer answer;
-  answer.solved = solve_dual_problem(graph, 1'000'000, factor);
+  answer.solved = solve_dual_problem(dual, 1'000'000, factor);
   std::vector<double> impulses(problem.contacts.size());
-  graph.impulses(impulses);
+  for (std::size_t c = 0; c < impulses.size(); ++c) impulses[c] = dual.impulse(c);
   answer.impulses =
       Eigen::Map<Eigen::VectorXd>(impulses.data(), static_cast<Eigen::Index>(impulses.size()));
   answer.displacements = problem.dense().displacements(answer.impulses);
@@ -209,14 +209,14 @@ TEST(Projection, ThatCannotBeSaysSo) {
   }
   problem.set_w();
   ThreadPool pool(1);
-  ContactGraph<2> graph(problem.contacts, problem.displacements, problem.mobilities, pool);
+  MassMobility<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<2> factor;
-  const auto solved = solve_dual_problem(graph, 1000, factor);
+  const auto solved = solve_dual_problem(dual, 1000, factor);
   // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about
   // 1e4 or more, of which the regularisation (1e-14) makes a gap.
   EXPECT_GE(solved.residual * 1e-6, 0.1 * (1 - 1e-6));
   EXPECT_LE(solved.iterations, 1003);
-  for (const double z : graph.z) EXPECT_TRUE(std::isfinite(z));
+  for (const double z : dual.z) EXPECT_TRUE(std::isfinite(z));
 }
 
 }  // namespace

@@ -349,6 +349,22 @@ TEST(RestitutionOfDiscs, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
   EXPECT_NEAR(simulation.state().particles.velocity(0)[1], 0.25 + 0.6 * 1.25, 1e-10);
 }
 
+TEST(RestitutionOfDiscs, FromAPlaneThatStartsIsExactWhereverTheStepsLie) {
+  // A disc at rest on a plane that starts to move at t = 1/3 is hit with the whole velocity, not with
+  // its mean over the step in which the plane starts.
+  for (const double step : {0.1, 0.013, 0.5}) {
+    auto scene = flying(2, 3, 0, 0.6, step);
+    scene.state.particles.velocities = {0, 0};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.planes[0].velocity = {{{1.0 / 3, {}}, {1e300, {0, 0.25, 0}}}};
+    Simulation simulation(scene.setting, scene.state, 1);
+    run(simulation, 2);
+    EXPECT_NEAR(simulation.state().particles.velocity(0)[1], 1.6 * 0.25, 1e-10) << step;
+    EXPECT_NEAR(simulation.state().particles.position(0)[1], 1 + 0.4 * (2 - 1.0 / 3), 1e-10);
+    EXPECT_NEAR(simulation.state().time, 2, 1e-12);
+  }
+}
+
 TEST(RestitutionOfDiscs, OfARigidBodyHasItsMassAndInertia) {
   // A dumbbell along x falls on its left disc: the contact sees the mass 1/(1/m + r^2/I).
   Scene scene{no_particles(2), {}};

@@ -18,7 +18,7 @@ struct Row {
   bool solve(int max_iterations) {
     SolverSettings settings;
     settings.max_iterations = max_iterations;
-    const Mobility mobility = [](std::span<const double> forces) {
+    const MobilityFunction mobility = [](std::span<const double> forces) {
       return std::vector<double>(forces.begin(), forces.end());
     };
     ContactProblem problem({free, 0.1, {2}, settings, 1, 0}, mobility);

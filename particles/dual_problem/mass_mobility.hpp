@@ -1,39 +1,26 @@
-// The dual problem (5.4) of docs/physics.md for one time step, in flat arrays of contacts and
-// bodies, and the two products with W that all methods use. Lengths, masses and times are in the
-// units of the case. A change must keep the order of all sums, because the results must not depend
-// on the threads.
+// The dual problem of particles that only their masses resist: the two products with W that all
+// methods use, in flat arrays of contacts and bodies. Lengths, masses and times are in the units of the
+// case. A change must keep the order of all sums, because the results must not depend on the threads.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "viscontact/common/system/thread_pool.hpp"
-#include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/dual_problem/dual_problem.hpp"
 
 namespace viscontact::particles {
 
-/// The dual problem (5.4) of docs/physics.md, in impulses p = h lambda. With u* = u^n + h f^n, the
-/// displacements are h v = h u* + h M^-1 G^T p, and the problem is
-///
-///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
-///     W = h G M^-1 G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.
-///
-/// If gamma_ij^n = 0, the solution has p_ij >= 0 and D_ij + h G_ij v >= 0, and one of them is 0. If
-/// gamma_ij^n < 0, a pull of at most -gamma_ij^n keeps D_ij + h G_ij v = 0. If more would be
-/// needed, the pair separates within the step. All contacts are decided together.
-///
-/// The code scales the problem so that W has the diagonal 1. With w = W_cc = h/m_i + h/m_j of
-/// contact c, the unknowns are z = sqrt(w) p. B z denotes the displacements y = h M^-1 G^T p that
-/// the scaled impulses z cause. The gradient of contact c and the quadratic form are then
+/// The dual problem with the mobility S = h M^-1, so that w = W_cc = h/m_i + h/m_j of contact c. B z
+/// denotes the displacements y = h M^-1 G^T p that the scaled impulses z cause. The gradient of contact
+/// c and the quadratic form are then
 ///
 ///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
-class ContactGraph {
+class MassMobility : public DualProblem {
  public:
   /// D components of a vector in space.
   using Vec = std::array<double, D>;
@@ -41,24 +28,17 @@ class ContactGraph {
   /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
   /// All planes together are one additional body, which does not move. `body_of` is the body of each
   /// particle; without it the numbers in the contacts are those of bodies.
-  ContactGraph(std::span<const Contact<D>> contacts, std::span<const double> displacements,
+  MassMobility(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                std::span<const double> mobilities, ThreadPool& pool,
                std::span<const std::int32_t> body_of = {});
 
-  /// Number of contacts.
-  std::size_t count() const { return rows_.size(); }
   /// Number of bodies, of which the last one stands for all planes.
   std::size_t bodies() const { return offsets_.size() - 1; }
   std::size_t displacement_count() const { return bodies() * D; }  ///< numbers in a vector y = B z
   /// The threads that work on the blocks of contacts.
   ThreadPool& pool() const { return *pool_; }
 
-  std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
-  std::vector<double> bound;        ///< lower bound of z: sqrt(w) gamma^n
-  std::vector<double> linear_term;  ///< b/sqrt(w): the gradient at z = 0
-  std::vector<double> scale;        ///< sqrt(w)
-  std::vector<double> per_allowed;  ///< `scale` divided by the allowed residual of the contact
-  std::size_t largest_island = 0;   ///< number of bodies of the largest island
+  std::size_t largest_island = 0;  ///< number of bodies of the largest island
   bool is_rough = false;  ///< the solution serves only to find which other contacts take part
 
   /// Computes y = B z, D numbers for each body [L]. Returns z^T W z.
@@ -110,9 +90,6 @@ class ContactGraph {
     add(rows_[c], change, y + index_of(in_block_[c][0]) * D, y + index_of(in_block_[c][1]) * D);
   }
 
-  /// True if z_c is above its bound.
-  bool is_free(std::size_t c) const { return z[c] > bound[c]; }
-
   /// Calls visit(c', W_cc') for each contact c' != c that shares a particle with contact c. W_cc is
   /// 1. If two contacts share both particles, `visit` is called twice.
   template <class Visit>
@@ -131,21 +108,6 @@ class ContactGraph {
     };
     visit_at(row.first, -row.of_first);
     visit_at(row.second, row.of_second);
-  }
-
-  /// Residual |min(D + h G v, w (p - gamma^n))| of contact c, divided by the residual that is
-  /// allowed for it, for impulse z_c and gradient g_c. The contact has converged if this is at most
-  /// 1.
-  double residual(std::size_t c, double z_c, double gradient) const {
-    return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
-  }
-
-  /// Sets `impulses` to h lambda of the contacts [M L/T], in the order in which they were given.
-  void impulses(std::span<double> impulses) const {
-    // A contact at its bound returns exactly gamma, so that no rounding error of z/scale remains in
-    // the new gamma.
-    for (std::size_t c = 0; c < count(); ++c)
-      impulses[c] = z[c] == bound[c] ? lowest_[c] : z[c] / scale[c];
   }
 
  private:
@@ -185,7 +147,6 @@ class ContactGraph {
   void number_bodies_of_blocks();
 
   std::vector<Row> rows_;
-  std::vector<double> lowest_;  // Contact::lowest, as given
   // Numbers of first and second among the bodies of the contact's block.
   std::vector<std::array<std::int32_t, 2>> in_block_;
   std::vector<std::size_t> block_bodies_;  // number of bodies of each block

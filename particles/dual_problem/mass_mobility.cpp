@@ -1,23 +1,20 @@
-// Builds the arrays of a ContactGraph and combines displacements. Equations and units are those of
-// contact_graph.hpp.
-#include "viscontact/particles/dual_problem/contact_graph.hpp"
+// Builds the arrays of a MassMobility and combines displacements. Equations and units are those of
+// mass_mobility.hpp.
+#include "viscontact/particles/dual_problem/mass_mobility.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 
 namespace viscontact::particles {
 
 template <int D>
-ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
+MassMobility<D>::MassMobility(std::span<const Contact<D>> contacts,
                               std::span<const double> displacements,
                               std::span<const double> mobilities, ThreadPool& pool,
                               std::span<const std::int32_t> body_of)
-    : z(contacts.size()),
-      bound(contacts.size()),
-      linear_term(contacts.size()),
-      scale(contacts.size()),
-      per_allowed(contacts.size()),
+    : DualProblem(contacts.size()),
       rows_(contacts.size()),
-      lowest_(contacts.size()),
       in_block_(contacts.size()),
       offsets_(mobilities.size() + 2, 0),
       inverse_mobilities_((mobilities.size() + 1) * D, 0.0),
@@ -35,16 +32,11 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
     const double root = std::sqrt(contact.w);
     rows_[c] = {static_cast<std::int32_t>(i), second, contact.normal, 1 / root, of_first / root,
                 mobilities[j] / root};
-    scale[c] = root;
-    per_allowed[c] = root / contact.allowed;
-    z[c] = std::max(contact.impulse, contact.lowest) * root;
-    bound[c] = contact.lowest * root;
-    lowest_[c] = contact.lowest;
     double gradient = contact.gap;
     for (std::size_t d = 0; d < D; ++d)
       gradient += contact.normal[d] *
                   (displacements[j * D + d] - (particles ? displacements[i * D + d] : 0));
-    linear_term[c] = gradient / root;
+    this->set(c, contact, gradient);
     if (particles) ++offsets_[i + 1];
     ++offsets_[j + 1];
   }
@@ -55,7 +47,7 @@ ContactGraph<D>::ContactGraph(std::span<const Contact<D>> contacts,
 /// Lists the shares of each body. Before the call, offsets_[b + 1] is the number of contacts of
 /// body b; after it, offsets_[b] is where the shares of body b begin.
 template <int D>
-void ContactGraph<D>::list_shares() {
+void MassMobility<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
   for (std::size_t b = 0; b + 1 < offsets_.size(); ++b) offsets_[b + 1] += offsets_[b];
   shares_.resize(static_cast<std::size_t>(offsets_.back()));
@@ -73,7 +65,7 @@ void ContactGraph<D>::list_shares() {
 
 /// Numbers the bodies of each block in the order in which its contacts name them.
 template <int D>
-void ContactGraph<D>::number_bodies_of_blocks() {
+void MassMobility<D>::number_bodies_of_blocks() {
   const bool is_single = rows_.size() <= ThreadPool::kBlock;  // the only block has all bodies
   std::vector<std::int32_t> number(bodies());
   std::vector<std::size_t> numbered_in(bodies(), 0);
@@ -96,7 +88,7 @@ void ContactGraph<D>::number_bodies_of_blocks() {
 }
 
 template <int D>
-double ContactGraph<D>::combine(std::span<const double> y, double factor,
+double MassMobility<D>::combine(std::span<const double> y, double factor,
                                 std::span<double> into) const {
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
@@ -112,7 +104,7 @@ double ContactGraph<D>::combine(std::span<const double> y, double factor,
   });
 }
 
-template class ContactGraph<2>;
-template class ContactGraph<3>;
+template class MassMobility<2>;
+template class MassMobility<3>;
 
 }  // namespace viscontact::particles

@@ -1,0 +1,153 @@
+// Each contact law by itself, against its equations.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "viscontact/particles/contact/contact_laws.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+using std::numbers::pi;
+
+/// Integral of `f` from `a` to `b`, both > 0, by Simpson's rule in the logarithm.
+template <class F>
+double integral(const F& f, double a, double b) {
+  constexpr int kParts = 20000;
+  const double from = std::log(a), width = (std::log(b) - from) / kParts;
+  double sum = 0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double x = std::exp(from + i * width);
+    sum += (i == 0 || i == kParts ? 1 : i % 2 == 1 ? 4 : 2) * f(x) * x;
+  }
+  return sum * width / 3;
+}
+
+TEST(FilmLaw, GivesWayAfterTheIntegralOfTheResistance) {
+  // Two particles, one at a plane, one inside a circle; the film begins at q0 or at r_eff.
+  const double mu = 0.7, r = 1.3;
+  for (const double other : {0.4, std::numeric_limits<double>::infinity(), -5.0})
+    for (const auto shape : {FilmShape::kSpheres, FilmShape::kDiscs})
+      for (const double q0 : {0.0, 0.1 * r, 10 * r}) {
+        FilmLaw law;
+        law.viscosity = mu;
+        law.roughness = 1e-3;
+        law.shape = shape;
+        if (q0 > 0) law.begins_at = q0;
+        const double r_eff = 1 / (1 / r + 1 / other);
+        const auto resistance = [&](double q) {
+          return shape == FilmShape::kSpheres
+                     ? 6 * pi * mu * r_eff * r_eff / q
+                     : 3 * std::numbers::sqrt2 * pi * mu * std::pow(r_eff / q, 1.5);
+        };
+        const double expected = -integral(resistance, 2e-3, q0 > 0 ? q0 : r_eff);
+        EXPECT_NEAR(law.lowest_gamma(r, other), expected, 1e-8 * std::abs(expected));
+      }
+  // A film thinner than the roughness does not exist.
+  FilmLaw thin, given;
+  thin.viscosity = mu;
+  thin.roughness = 1e-3;
+  given.gamma_min = -2.5;
+  thin.begins_at = 1e-3;
+  EXPECT_EQ(thin.lowest_gamma(r, r), 0);
+  EXPECT_EQ(given.lowest_gamma(r, r), -2.5);
+  EXPECT_EQ(FilmLaw{}.lowest_gamma(r, r), -std::numeric_limits<double>::infinity());
+}
+
+TEST(FilmLaw, TakesUpImpulsesWithinItsBounds) {
+  Pair pair{0, 1};
+  const auto press = [&](double impulse, double lowest) {
+    pair.impulse = impulse;
+    FilmLaw::absorb(pair, 0, lowest);
+    return pair.gamma;
+  };
+  EXPECT_EQ(press(1, -10), -1);
+  EXPECT_EQ(press(0.5, -10), -1.5);
+  EXPECT_EQ(press(-0.25, -10), -1.25);  // it pulls, and gives back
+  EXPECT_EQ(press(20, -10), -10);       // the solids carry the rest
+  EXPECT_EQ(pair.gamma_error, 0);       // which is exact
+  EXPECT_EQ(press(-10, -10), 0);        // nothing is left
+  // What a rounding error leaves is nothing, too: 0.3 - 0.1 - 0.2 > 0.
+  press(0.3, -10);
+  press(-0.1, -10);
+  EXPECT_EQ(press(-0.2, -10), 0);
+  // A film without strength.
+  EXPECT_EQ(press(3, 0), 0);
+}
+
+TEST(FilmLaw, KeepsTheErrorOfItsImpulses) {
+  Pair pair{0, 1};
+  pair.impulse = 1;
+  for (int i = 0; i < 3; ++i) FilmLaw::absorb(pair, 1e-3, -10);
+  EXPECT_NEAR(pair.gamma_error, 3e-3, 1e-14);
+}
+
+TEST(FrictionLaw, RubsWithTheImpulseThatSolidsCarry) {
+  EXPECT_EQ(FrictionLaw::carried(3, 2), 1);
+  EXPECT_EQ(FrictionLaw::carried(2, 3), 0);
+  EXPECT_EQ(FrictionLaw::carried(-1, 0), 0);
+  EXPECT_EQ(FrictionLaw::carried(5, std::numeric_limits<double>::infinity()), 0);
+}
+
+TEST(FrictionCone, HasTheNearestPoint) {
+  // Compared with a search over the cone, in the norm w_n p_s^2 + w_t |p_t|^2.
+  const double mu = 0.6;
+  for (const auto& [w_n, w_t] : {std::pair(1.0, 1.0), std::pair(2.0, 0.3), std::pair(0.1, 4.0)})
+    for (const double p_s : {-2.0, -0.5, 0.0, 1.0, 3.0})
+      for (const double p_t : {0.0, 0.2, 1.0, 4.0}) {
+        const auto cone = FrictionCone::nearest(mu, p_s, p_t, w_n, w_t);
+        const auto distance = [&](double load, double tangential) {
+          return w_n * (load - p_s) * (load - p_s) + w_t * (tangential - p_t) * (tangential - p_t);
+        };
+        const double found = distance(cone.load, cone.tangential * p_t);
+        EXPECT_LE(cone.tangential * p_t, mu * cone.load * (1 + 1e-15));
+        for (int i = 0; i <= 500; ++i)
+          for (int k = 0; k <= 20; ++k) {
+            const double load = 0.01 * i;
+            EXPECT_LE(found, distance(load, mu * load * k / 20) * (1 + 1e-12) + 1e-12);
+          }
+      }
+}
+
+TEST(RestitutionLaw, GivesBackItsShareOfTheSolids) {
+  const RestitutionLaw law{0.8};
+  // The film takes 2 of 5, the solids 3; after the compression gamma is -2.
+  const double solid = RestitutionLaw::solid_impulse(5, 2);
+  EXPECT_EQ(solid, 3);
+  EXPECT_EQ(RestitutionLaw::solid_impulse(1, 2), 0);
+  EXPECT_NEAR(law.lowest_in_restitution(-2, solid), -2 + 0.8 * 3, 1e-15);
+  EXPECT_TRUE(law.is_on());
+  EXPECT_FALSE(RestitutionLaw{}.is_on());
+}
+
+TEST(ContactLaws, UseTheRadiiOfBothSurfaces) {
+  Particles particles;
+  particles.dimension = 2;
+  particles.radii = {1, 2};
+  Plane plane, circle;
+  circle.start.radius = 7;
+  const std::array obstacles{plane, circle};
+  EXPECT_EQ(radii_of({0, 1}, particles, obstacles).first, 1);
+  EXPECT_EQ(radii_of({0, 1}, particles, obstacles).second, 2);
+  EXPECT_EQ(radii_of({-1, 1}, particles, obstacles).first, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(radii_of({-2, 0}, particles, obstacles).first, -7);
+  ContactLaws laws;
+  laws.film.viscosity = 1;
+  laws.film.roughness = 0.01;
+  const auto gamma_min = [&](std::int32_t first, std::int32_t second) {
+    return laws.lowest_gamma({}, {}, radii_of({first, second}, particles, obstacles));
+  };
+  const auto expected = [](double r_eff) {
+    return -6 * pi * r_eff * r_eff * std::log(r_eff / 0.02);
+  };
+  EXPECT_NEAR(gamma_min(0, 1), expected(2.0 / 3), 1e-12);
+  EXPECT_NEAR(gamma_min(-1, 1), expected(2), 1e-12);
+  EXPECT_NEAR(gamma_min(-2, 0), expected(7.0 / 6), 1e-12);
+}
+
+}  // namespace
+}  // namespace viscontact::particles
