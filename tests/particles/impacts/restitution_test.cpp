@@ -162,6 +162,19 @@ TEST_P(Restitution, DoesNotDependOnTheUnits) {
     }
 }
 
+TEST_P(Restitution, LeavesAParticleInItsFilmThatIsAtRestAndConverges) {
+  // What rounding leaves of its velocity falls in each step until its square is no number any more.
+  for (int i = 0; i < 30; ++i) {
+    auto scene = flying(GetParam(), 5 * std::pow(1.03, i), 1, 0.97, 0.1);
+    scene.setting.laws.film.gamma_min = -1e6;
+    Simulation simulation(scene.setting, scene.state, 1);
+    run(simulation, 4, [&](const StepReport& report) {
+      EXPECT_TRUE(report.converged) << i << " " << report.time << " " << report.impulse_residual;
+      EXPECT_LE(report.iterations, 100) << i << " " << report.time;
+    });
+  }
+}
+
 TEST_P(Restitution, LetsNoParticlePassThroughAFilm) {
   // The centres would pass each other in the first step; the film keeps both together.
   Scene scene{no_particles(GetParam()), {}};
