@@ -1,6 +1,7 @@
 // What contact laws remember of a pair besides gamma, declared once: the restart file, contacts.csv,
 // final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add a row there and
-// its place in Remembered. Units are those of the case.
+// its place in Remembered. A memory is dropped when gamma is 0 and the pair leaves the lists of close
+// pairs; a law must not rely on it longer. Units are those of the case.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +23,7 @@ enum class Remembered : std::uint8_t {
   kFrictionZ,
   kCarried,  ///< part of the impulse of the last step that the solids carried [M L/T], >= 0: p_s of
              ///< docs/physics.md (5.7), which bounds the friction
+  kCount,    ///< number of places
 };
 
 /// How files know a number that a law remembers.
@@ -38,6 +40,9 @@ inline constexpr std::array kMemoryFields = {
     MemoryField{"friction_z", true, false},
     MemoryField{"carried", true, false},
 };
+
+static_assert(kMemoryFields.size() == static_cast<std::size_t>(Remembered::kCount),
+              "each place of Remembered needs its row, in the same order");
 
 /// The shown numbers of one pair, in the order of kMemoryFields.
 using ShownMemory = std::array<double, static_cast<std::size_t>(std::ranges::count_if(
@@ -65,9 +70,14 @@ class PairMemory {
   }
 
   /// Impulse of friction [M L/T].
-  Vector friction() const { return {values_[0], values_[1], values_[2]}; }
+  Vector friction() const {
+    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(Remembered::kFrictionX);
+    return {first[0], first[1], first[2]};
+  }
   /// Sets the impulse of friction [M L/T].
-  void set_friction(const Vector& p) { std::copy_n(p.begin(), 3, values_.begin()); }
+  void set_friction(const Vector& p) {
+    std::ranges::copy(p, values_.begin() + static_cast<std::ptrdiff_t>(Remembered::kFrictionX));
+  }
   /// True if all members are equal.
   bool operator==(const PairMemory&) const = default;
 

@@ -2,6 +2,7 @@
 #include "viscontact/particles/piecewise_constant.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace viscontact::particles {
 
@@ -27,6 +28,16 @@ Vector PiecewiseConstant::mean(double from, double to) const {
     begin = piece.until;
   }
   return (1 / (to - from)) * sum;
+}
+
+Vector PiecewiseConstant::value(double t) const {
+  const auto piece = std::ranges::upper_bound(pieces, t, {}, &Piece::until);
+  return piece == pieces.end() ? Vector{} : piece->value;
+}
+
+double PiecewiseConstant::next_end(double t) const {
+  const auto piece = std::ranges::upper_bound(pieces, t, {}, &Piece::until);
+  return piece == pieces.end() ? std::numeric_limits<double>::infinity() : piece->until;
 }
 
 }  // namespace viscontact::particles

@@ -74,6 +74,15 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
+/// Gives the pairs the impulses of a projection, and what they remember of friction.
+void Simulation::take_impulses(const ProjectionResult& projected) {
+  for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
+    auto& pair = *projected.pairs[f];
+    pair.impulse = projected.impulses[f];
+    if (!projected.memories.empty()) state_.memories.set(pair.memory, projected.memories[f]);
+  }
+}
+
 /// Updates what the laws remember of each pair in the projection. Returns the number of glued pairs.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
@@ -217,6 +226,7 @@ void Simulation::undo_impacts() {
 template <int D>
 void Simulation::accept(const ProjectionResult& projected, double h, double next,
                         StepReport& report) {
+  take_impulses(projected);
   report.glued = remember(projected, h);
   const double kick = kick_length(h);
   for (std::size_t k = 0; k < link_forces_.size(); ++k) link_impulses_[k] += kick * link_forces_[k];
@@ -227,6 +237,8 @@ void Simulation::accept(const ProjectionResult& projected, double h, double next
   if (impacts<D>()) {
     impacts<D>()->add_late_changes(state_.particles);
     if (!body_steps_.empty()) place_members(state_.particles);
+    report.iterations += impacts<D>()->iterations();
+    report.converged = report.converged && impacts<D>()->converged();
     const auto& rebounds = impacts<D>()->rebounds();
     rebounds_.insert(rebounds_.end(), rebounds.begin(), rebounds.end());
     impacts<D>().reset();
@@ -246,8 +258,9 @@ void Simulation::examine(const ProjectionResult& projected, double next) const {
   refuse_deep_overlap(residuals, state_.particles, setting_, mean_radius_, next, [&] {
     // The obstacles that move in this step and push on a particle.
     std::vector<char> presses(obstacles_.size(), 0);
-    for (const auto* wall : projected.pairs)
-      if (wall->first < 0 && wall->impulse > 0) presses[wall->plane()] = 1;
+    for (std::size_t f = 0; f < projected.pairs.size(); ++f)
+      if (projected.pairs[f]->first < 0 && projected.impulses[f] > 0)
+        presses[projected.pairs[f]->plane()] = 1;
     const auto before = positions_of(obstacles_, state_.time);
     const auto after = positions_of(obstacles_, next);
     std::string moving;
@@ -286,6 +299,7 @@ void Simulation::advance(double h, double next, int halvings, StepReport& report
   if (projected.residuals.converged && projected.unresolved > 0 && halvings < kMostHalvings) {
     undo_impacts();
     if (halvings == 0) before_division_ = state_;
+    take_impulses(projected);
     const double middle = state_.time + h / 2;
     report.iterations += projected.iterations;
     scale_impulses(0.5);
@@ -315,6 +329,7 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     advance<D>(h, next, 0, report);
   } catch (...) {
     impulses_of_parts_.clear();
+    rebounds_.clear();
     undo_impacts();
     if (before_division_) state_ = std::move(*before_division_);
     before_division_.reset();

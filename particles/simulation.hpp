@@ -86,6 +86,7 @@ class Simulation {
   void advance_whole(double h, double next, StepReport& report);
   template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
+  void take_impulses(const ProjectionResult& projected);
   std::size_t remember(const ProjectionResult& projected, double h);
   void scale_impulses(double factor);
   PairRadii radii_of(const Pair& pair) const {

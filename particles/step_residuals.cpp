@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "viscontact/common/error.hpp"
 
@@ -22,7 +23,7 @@ void StepResiduals::take_impulse(double residual, double at_work) {
 }
 
 void StepResiduals::take_gap(double gap, const Pair& pair) {
-  if (gap >= smallest_gap) return;
+  if (gap >= smallest_gap || std::isnan(smallest_gap)) return;
   smallest_gap = gap;
   deepest_overlap = pair;
 }

@@ -28,11 +28,11 @@ struct StepResiduals {
   bool take(double residual, double allowed);
   /// Takes in the residual of an impulse [M L/T]; `at_work` >= 0 are the impulses at work [M L/T].
   void take_impulse(double residual, double at_work);
-  /// Takes in the gap of a pair after the step [L].
+  /// Takes in the gap of a pair after the step [L]. A gap that is not a number stays the smallest.
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Takes residuals into the report of a step, of which they may be those of a part. `mean_radius` [L].
+/// Adds the residuals of a step, or of one part of a divided step, to the report. `mean_radius` > 0 [L].
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
 /// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an overlap

@@ -69,7 +69,8 @@ RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const doubl
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free);
 
-/// What the motion y of one unit adds to a row: the product of both.
+/// The part of one unit in a row: it adds the product of `coefficients` and the motion of the unit to the
+/// value of the row.
 template <int D>
 struct RowPart {
   std::int32_t unit = 0;     ///< number of a unit
@@ -88,7 +89,7 @@ struct ConstraintRow {
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
 /// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
 /// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have parts
-/// of the same units in the same order.
+/// of the same units, each of them once, in the same order.
 struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
   std::size_t rows = 1;    ///< number of its rows
@@ -129,14 +130,14 @@ struct ConstraintProblem {
   bool lifts_sliding = false;
 
   /// Adds a row with these parts and a guess of its impulse [M L/T].
-  void add_row(double offset, const std::vector<RowPart<D>>& of_row, double impulse) {
+  void add_row(double offset, std::span<const RowPart<D>> of_row, double impulse) {
     rows.push_back({offset, parts.size(), of_row.size()});
     parts.insert(parts.end(), of_row.begin(), of_row.end());
     impulses.push_back(impulse);
   }
   /// The parts of row `r`.
   std::span<const RowPart<D>> parts_of(std::size_t r) const {
-    return {&parts[rows[r].first_part], rows[r].parts};
+    return std::span(parts).subspan(rows[r].first_part, rows[r].parts);
   }
   /// Value of row `r` for the motions `y`, without its offset [L].
   double product(std::size_t r, std::span<const Motion<D>> y) const {

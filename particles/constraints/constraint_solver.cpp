@@ -138,10 +138,15 @@ void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
 }
 
 /// The mobilities of the rows, equal for the tangential rows of a contact, on which the projection
-/// acts together.
+/// acts together. With kLeastImpulses all rows have the largest of them, so that contacts share an
+/// impulse as if all were equally stiff.
 template <int D>
-std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem) {
+std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
+  if (start == ConstraintStart::kLeastImpulses && !w.empty()) {
+    const double largest = std::ranges::max(w);
+    std::ranges::fill(w, largest);
+  }
   for (const auto& block : problem.blocks)
     if (block.is_contact)
       for (std::size_t k = 2; k < block.rows; ++k)
@@ -152,8 +157,8 @@ std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem) {
 template <int D>
 class Iteration {
  public:
-  explicit Iteration(ConstraintProblem<D>& problem)
-      : problem_(problem), w_(scales_of_rows(problem)), sweeps_(problem) {
+  Iteration(ConstraintProblem<D>& problem, ConstraintStart start)
+      : problem_(problem), w_(scales_of_rows(problem, start)), sweeps_(problem), start_(start) {
     for (const auto& block : problem.blocks)
       if (block.is_contact)
         problem.impulses[block.row] = std::max(problem.impulses[block.row], block.lowest);
@@ -162,7 +167,7 @@ class Iteration {
   }
 
   ConstraintSolution<D> solve(int max_iterations) {
-    sweep_while_it_gains(max_iterations);
+    if (start_ == ConstraintStart::kSweeps) sweep_while_it_gains(max_iterations);
     if (residual_ <= 1 || best_.result.iterations >= max_iterations) return finish();
     proximal_.emplace(problem_, w_);
     proximal_->set_epsilon(epsilon_);
@@ -258,7 +263,7 @@ class Iteration {
       const double* p = &problem_.impulses[block.row];
       residuals_[b] = residual_of(block, problem_.lifts_sliding, v.data(), p, &w_[block.row]);
       const double share = residuals_[b].share(block);
-      residual_ = share <= residual_ ? residual_ : share;  // keeps what is not a number
+      residual_ = largest_or_nan(residual_, share);
     }
     if (!(residual_ < best_.result.residual)) return;
     best_.result.residual = residual_;
@@ -277,6 +282,7 @@ class Iteration {
   ConstraintProblem<D>& problem_;
   std::vector<double> w_;
   ContactSweeps<D> sweeps_;
+  ConstraintStart start_;
   std::optional<ProximalStep<D>> proximal_;
   std::vector<double> best_impulses_;
   std::vector<Motion<D>> motions_;
@@ -289,11 +295,12 @@ class Iteration {
 }  // namespace
 
 template <int D>
-ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations) {
-  return Iteration<D>(problem).solve(max_iterations);
+ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
+                                        ConstraintStart start) {
+  return Iteration<D>(problem, start).solve(max_iterations);
 }
 
-template ConstraintSolution<2> solve_constraints<2>(ConstraintProblem<2>&, int);
-template ConstraintSolution<3> solve_constraints<3>(ConstraintProblem<3>&, int);
+template ConstraintSolution<2> solve_constraints<2>(ConstraintProblem<2>&, int, ConstraintStart);
+template ConstraintSolution<3> solve_constraints<3>(ConstraintProblem<3>&, int, ConstraintStart);
 
 }  // namespace viscontact::particles

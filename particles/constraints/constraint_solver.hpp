@@ -17,6 +17,14 @@ struct ConstraintSolution {
   std::vector<BlockResidual> residuals;  ///< of the blocks [L]
 };
 
+/// How a solution begins.
+enum class ConstraintStart {
+  kSweeps,  ///< with sweeps, which are fast; where rows are redundant, impulses depend on their order
+  /// With a step of the proximal method from the guess: where rows are redundant, the sum of the squares
+  /// of the impulses' distances from the guess is near its minimum, whatever the order of the rows.
+  kLeastImpulses,
+};
+
 /// Improves problem.impulses until the residual of each block is allowed, or until about
 /// `max_iterations` sweeps, factorisations and solutions with factors are done.
 ///
@@ -24,6 +32,7 @@ struct ConstraintSolution {
 /// (proximal_step.hpp) follow, whose epsilon falls after a step that Newton's method solved easily
 /// and grows after one that it did not solve. The solution returned is the best that was found.
 template <int D>
-ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations);
+ConstraintSolution<D> solve_constraints(ConstraintProblem<D>& problem, int max_iterations,
+                                        ConstraintStart start = ConstraintStart::kSweeps);
 
 }  // namespace viscontact::particles

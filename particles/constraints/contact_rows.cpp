@@ -1,6 +1,7 @@
 // Tangents and rows of contacts (contact_rows.hpp).
 #include "viscontact/particles/constraints/contact_rows.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace viscontact::particles {
@@ -67,12 +68,12 @@ void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangen
   const RowPart<D> of_second{
       second.unit, displacement_row<D>(direction, second.offset - tangents.second_arm * normal)};
   if (first.unit < 0) {
-    problem.add_row(offset, {of_second}, impulse);
+    problem.add_row(offset, std::array{of_second}, impulse);
     return;
   }
   const RowPart<D> of_first{
       first.unit, displacement_row<D>(-1 * direction, first.offset + tangents.first_arm * normal)};
-  problem.add_row(offset, {of_second, of_first}, impulse);
+  problem.add_row(offset, std::array{of_second, of_first}, impulse);
 }
 
 template ContactTangents<2> tangents_of<2>(const Contact<2>&, const Particles&,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace viscontact::particles {
 
@@ -28,6 +30,17 @@ struct RestitutionLaw {
   /// gamma_c + e_d s [M L/T], the lower bound of p'.
   double lowest_in_restitution(double gamma_c, double solid_impulse) const {
     return gamma_c + coefficient * solid_impulse;
+  }
+
+  /// gamma_c + e_d s - p' [M L/T], gamma after a blow, within [`gamma_min`, 0], for the impulse `p` of the
+  /// restitution phase and `lowest` = gamma_c + e_d s. Both may contain the impulse of the compression.
+  /// A film that is left with the rounding error of this difference has given back all: it is 0. `gamma`
+  /// is that before the blow.
+  static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
+    const double left = lowest - p;
+    const double rounding =
+        8 * std::numeric_limits<double>::epsilon() * (std::abs(gamma) + std::abs(lowest));
+    return left >= -rounding ? 0 : std::max(left, gamma_min);
   }
 };
 

@@ -35,6 +35,10 @@ Vector Plane::displacement(const Vector& point, double from, double to) const {
   return shift + arm - turned(arm, axis, speed * (from - to));
 }
 
+Vector Plane::surface_velocity(const Vector& point, double t) const {
+  return velocity.value(t) + cross(angular_velocity, point - pivot - velocity.integral(t));
+}
+
 std::vector<PlanePosition> positions_of(const std::vector<Plane>& planes, double t) {
   std::vector<PlanePosition> places;
   for (const auto& plane : planes) places.push_back(plane.at(t));

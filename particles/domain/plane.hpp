@@ -35,6 +35,8 @@ struct Plane {
   /// Displacement, between the times `from` and `to` [T], of the material point of the plane that
   /// is at `point` at time `to` [L].
   Vector displacement(const Vector& point, double from, double to) const;
+  /// Velocity at time `t` [T] of the material point of the plane that is then at `point` [L/T].
+  Vector surface_velocity(const Vector& point, double t) const;
 };
 
 /// Positions of all planes at time t [T], in the order of `planes`.

@@ -23,8 +23,8 @@ namespace viscontact::particles {
 /// - otherwise a preconditioned conjugate gradient step;
 /// - expansion: if that step would leave the bounds, a projected step instead.
 ///
-/// `Preconditioner` is like the class Preconditioner. If its kMaySweep is
-/// false, it needs only apply(), and the preconditioner must not depend on sweep_forward().
+/// `Preconditioner` has apply(gradient, swept, y). With kMaySweep it also has sweeps(), factorise() and
+/// both sweep_forward(), as in dual_solver.cpp.
 template <Mobility Problem, class Preconditioner>
 class Mprgp {
  public:
@@ -71,7 +71,7 @@ class Mprgp {
     refresh();
   }
 
-  /// See Preconditioner::factorise.
+  /// Makes a new factor for the preconditioner. Returns false if there is none.
   bool factorise() {
     restart_ = true;
     return preconditioner_.factorise();

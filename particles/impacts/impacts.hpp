@@ -4,6 +4,7 @@
 // depend on the order of the particles, but for the order of sums.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,7 @@
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
+#include "viscontact/particles/projection/pairs_of_particles.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {
@@ -44,13 +46,14 @@ struct ImpactStep {
 /// step is u* + a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that changes
 /// the velocity by d moves the particle by (h - t_c) d in the rest of the step.
 ///
-/// A pair is hit when its gap closes, or at once if it touches and its particles approach each other
-/// faster than their load in a step would move them; a body at rest is therefore not hit. Blows of one
-/// time with a common body are decided together, others one after the other. A touching neighbour is
-/// hit by what a blow leaves, so that a row of equal spheres passes a blow on (Newton's cradle).
+/// A pair is hit when its gap closes. A pair that touches and bore no load is hit if it approached before
+/// the step. A pair that bore a load is hit only if it approaches faster than five times the velocity
+/// that forces give its particles in the step. Blows of one time with a common body are decided together,
+/// others one after the other. A touching neighbour is hit by what a blow leaves, so that a row of equal
+/// spheres passes a blow on (Newton's cradle).
 ///
-/// A bounce ends when its flight would be shorter than a twentieth of the step, or after thirty blows in
-/// it; the projection then keeps the pair closed.
+/// The projection takes over when a bounce would last less than a twentieth of the step, and after 1000
+/// hits of a pair in a step (30 if it bore a load).
 template <int D>
 class Impacts {
  public:
@@ -59,11 +62,15 @@ class Impacts {
 
   /// Finds all blows, adds them to the motions of `step` and changes gamma of the pairs.
   void run();
-  /// Gives all pairs the gamma that they had before run(). The motions stay as they are.
+  /// Gives all pairs gamma and the memory that they had before run(). The motions stay as they are.
   void undo();
 
   /// The blows in which solids touched, in order of time.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
+  /// Number of iterations that the blows took.
+  int iterations() const { return iterations_; }
+  /// Whether all blows were solved up to rounding errors.
+  bool converged() const { return converged_; }
   /// The particles that blows changed.
   const std::vector<std::int32_t>& touched() const { return touched_; }
   /// True if a blow changed particle `k`; false for an obstacle.
@@ -93,20 +100,23 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The flight of the second surface of a pair relative to the first, from a time on: the vector
-  // between the centres (at an obstacle: normal times gap) is c + a t + b t^2.
+  // The flight of the second particle of a pair: c + a t + b t^2 at the time t of the step is the vector
+  // from the centre of the first particle, or the place of the centre if the first is an obstacle.
   struct Approach {
     Vector c{}, a{}, b{};
-    double sum = 0;                // of the radii [L]; 0 at an obstacle
-    Vector before{};               // relative velocity before the step [L/T]
-    Vector at_rest{};              // the same with the blows so far, without the load of the step
-    std::optional<Vector> normal;  // of an obstacle
+    double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]
+    const Plane* obstacle = nullptr;  // if the first is one
+    Vector before{};                  // relative velocity before the step [L/T]
+    Vector at_rest{};  // the same with the blows so far, without the load of the step
+    Vector place(double t) const { return c + t * a + (t * t) * b; }
   };
   // A contact of a blow.
   struct Hit {
     std::size_t pair;
     Vector normal;
     double approach;  // velocity at which the gap closes, < 0 [L/T]
+    Vector
+        relative;  // velocity of the second centre relative to the first, or to the obstacle [L/T]
   };
 
   Pair& pair(std::size_t k) {
@@ -118,28 +128,37 @@ class Impacts {
   int version(std::int32_t k) const { return k < 0 ? 0 : flight_or_none(k).version; }
   Vector free_velocity(std::int32_t k) const;
   Vector acceleration(std::int32_t k) const;
-  Vector spin(std::int32_t k, double time) const;
+  Vector spin(std::int32_t k) const;
   Approach approach_of(std::size_t k);
+  Vector normal_of(const Approach& approach, double t) const;
+  double gap_of(const Approach& approach, double t) const;
+  Vector velocity_of(const Approach& approach, double t) const;
+  double acceleration_of_gap(const Approach& approach, double t) const;
+  std::optional<double> time_of_meeting(const Approach& approach, double from, double until) const;
   void expect(std::size_t k, double from);
   std::optional<Hit> hit_at(std::size_t k, double time);
-  void list_pairs_of_particles();
   void strike(const std::vector<Hit>& hits, double time);
-  ConstraintProblem<D> problem_of(const std::vector<Hit>& hits, double time,
-                                  std::vector<std::int32_t>& unit_of);
+  ConstraintProblem<D> problem_of(const std::vector<Hit>& hits, std::vector<std::int32_t>& unit_of);
   void move_unit(std::int32_t particle, const Motion<D>& change, double time);
   void finish();
 
   State& state_;
   ImpactStep step_;
-  std::vector<PlanePosition> places_, tangents_;
   std::priority_queue<Expected, std::vector<Expected>, std::greater<>> expected_;
   std::vector<std::int32_t> flight_of_;  // of each particle, -1: none; empty without a blow
   std::vector<Flight> flights_;
   std::vector<std::int32_t> touched_;
-  std::vector<std::size_t> offsets_, pairs_of_;  // the pairs of each particle
-  std::vector<int> hits_of_;                     // number of hits of each pair
+  std::optional<PairsOfParticles> pairs_of_;
+  std::vector<int> hits_of_;  // number of hits of each pair
   std::vector<Rebound> rebounds_;
-  std::vector<std::pair<std::size_t, Pair>> before_;  // pairs as they were before run()
+  int iterations_ = 0;
+  bool converged_ = true;
+  struct Before {
+    std::size_t number;
+    Pair pair;
+    PairMemory memory;
+  };
+  std::vector<Before> before_;  // pairs as they were before a blow
 };
 
 }  // namespace viscontact::particles

@@ -111,26 +111,31 @@ void rebuild_neighbour_list(State& state, std::span<const double> displacements,
           skin_within_period(p, k, half_period, state.skins[k], norm(displacement(k) - common));
     extents[k] = p.radii[k] + state.skins[k];
   }
+  // Of most pairs there is nothing to keep. Their memory is free while the search needs its own.
+  std::vector<Pair> before;
+  std::ranges::copy_if(state.pairs, std::back_inserter(before), [](const Pair& pair) {
+    return pair.gamma < 0 || pair.impulse != 0 || pair.memory != PairMemories::kNone;
+  });
+  state.pairs = {};
   const auto close = p.cell.is_periodic()
                          ? close_pairs_in_period(p.cell, p.positions, extents, pool)
                          : close_pairs(p.dimension, p.positions, extents, pool);
-  std::vector<Pair> pairs;
+  auto& pairs = state.pairs;
   pairs.reserve(close.size());
-  auto old = state.pairs.begin();
+  auto old = before.begin();
   const auto keep_until = [&](const std::tuple<std::int32_t, std::int32_t, std::int32_t>& place) {
-    for (; old != state.pairs.end() && place_of(*old) < place; ++old)
+    for (; old != before.end() && place_of(*old) < place; ++old)
       if (old->gamma < 0) pairs.push_back(*old);
   };
   for (const auto& pair : close) {
     keep_until(place_of(pair));
     if (p.bodies.are_one(pair.first, pair.second)) continue;
-    if (old != state.pairs.end() && place_of(*old) == place_of(pair))
+    if (old != before.end() && place_of(*old) == place_of(pair))
       pairs.push_back(*old++);
     else
       pairs.push_back({pair.first, pair.second, 0, 0, 0, pair.image});
   }
   keep_until({std::numeric_limits<std::int32_t>::max(), 0, 0});
-  state.pairs = std::move(pairs);
 }
 
 void rebuild_wall_list(State& state, std::span<const PlanePosition> planes, double margin,

@@ -18,19 +18,18 @@ bool take(double residual, const ResidualScale& scale, const SolverSettings& set
 
 }  // namespace
 
-/// The scales of a link are those of a contact between its particles, at which a force is at work
-/// also if all is at rest: its own.
+/// A link is measured like a contact of its particles.
 template <int D>
 ResidualScale StepProjection<D>::scale_of_link(const LinkEquations& link,
                                                ResidualScales<D>& scales) const {
-  const auto& parts = link.parts();
-  Contact<D> contact{};
-  contact.first = parts.size() > 1 ? parts.front().particle : -1;
-  contact.second = parts.back().particle;
-  contact.w = w(contact.first, contact.second);
-  for (const auto particle : {contact.first, contact.second})
-    if (particle >= 0) contact.gap += norm(state_.particles.position(index_of(particle)));
-  return scales.of(contact);
+  std::vector<std::int32_t> particles;
+  double w = 0, length = 0;
+  for (const auto& part : link.parts()) {
+    particles.push_back(part.particle);
+    w += mobilities_[index_of(part.particle)];
+    length += norm(state_.particles.position(index_of(part.particle)));
+  }
+  return scales.of(particles, w, length);
 }
 
 /// Measures the residuals of the links as those of contacts are measured.

@@ -16,26 +16,33 @@ namespace viscontact::particles {
 /// projection would find only the next one.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its list of pairs must not change.
-  explicit PairsOfParticles(const State& state)
-      : state_(&state),
-        pair_count_(state.pairs.size()),
-        offsets_(state.particles.count() + 1, 0),
-        pairs_of_(2 * state.pairs.size()) {
-    for (const auto& pair : state.pairs)
-      for (const auto particle : {pair.first, pair.second}) ++offsets_[index_of(particle) + 1];
+  /// `state` must outlive the object, and its lists of pairs must not change. Particles at obstacles are
+  /// listed only `with_walls`, and serve only of().
+  explicit PairsOfParticles(const State& state, bool with_walls = false)
+      : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
+    const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);
+    const auto for_particles = [&](const auto& visit) {
+      for (std::size_t f = 0; f < count; ++f)
+        for (const auto particle : {pair(f).first, pair(f).second})
+          if (particle >= 0) visit(index_of(particle), f);
+    };
+    for_particles([&](std::size_t k, std::size_t) { ++offsets_[k + 1]; });
     for (std::size_t k = 0; k + 1 < offsets_.size(); ++k) offsets_[k + 1] += offsets_[k];
+    pairs_of_.resize(offsets_.back());
     auto next = offsets_;
-    for (std::size_t f = 0; f < pair_count_; ++f)
-      for (const auto particle : {state.pairs[f].first, state.pairs[f].second})
-        pairs_of_[next[index_of(particle)]++] = f;
+    for_particles([&](std::size_t k, std::size_t f) { pairs_of_[next[k]++] = f; });
+  }
+
+  /// The pairs of a particle. Pairs have their numbers in state.pairs; walls follow after them.
+  std::span<const std::size_t> of(std::int32_t particle) const {
+    const auto k = index_of(particle);
+    return std::span(pairs_of_).subspan(offsets_[k], offsets_[k + 1] - offsets_[k]);
   }
 
   /// Returns `start` and all pairs that are connected with it through at most `depth` pairs for
   /// which `may_close(number of the pair)` is true. may_close is called at most once for each pair.
   /// `start` may contain particles at planes, but the search follows pairs of particles only,
-  /// because a plane does not pass a blow on. Pairs have their numbers in state.pairs; walls follow
-  /// after them.
+  /// because a plane does not pass a blow on. The object must be without walls.
   template <class Predicate>
   std::vector<std::size_t> connected(std::span<const std::size_t> start, int depth,
                                      const Predicate& may_close) const {
@@ -49,17 +56,14 @@ class PairsOfParticles {
     };
     for (const auto f : start) {
       if (f < pair_count_) seen[f] = 1;
-      const auto& pair = f < pair_count_ ? state_->pairs[f] : state_->walls[f - pair_count_];
-      visit(pair.first);
-      visit(pair.second);
+      visit(pair(f).first);
+      visit(pair(f).second);
     }
     for (int level = 0; level < depth && !next.empty(); ++level) {
       frontier.swap(next);
       next.clear();
       for (const auto particle : frontier) {
-        const auto k = index_of(particle);
-        for (auto n = offsets_[k]; n < offsets_[k + 1]; ++n) {
-          const auto f = pairs_of_[n];
+        for (const auto f : of(particle)) {
           if (seen[f] != 0) continue;
           seen[f] = 1;
           if (!may_close(f)) continue;
@@ -73,6 +77,10 @@ class PairsOfParticles {
   }
 
  private:
+  const Pair& pair(std::size_t f) const {
+    return f < pair_count_ ? state_->pairs[f] : state_->walls[f - pair_count_];
+  }
+
   const State* state_;
   std::size_t pair_count_;
   std::vector<std::size_t> offsets_, pairs_of_;  // the pairs of each particle

@@ -57,12 +57,13 @@ typename ResidualScales<D>::ParticleScale ResidualScales<D>::of_particle(
 }
 
 template <int D>
-ResidualScale ResidualScales<D>::of(const Contact<D>& contact) {
+ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, double w,
+                                    double length) {
   // Rounding errors are taken as 128 units in the last place of the lengths that are added below.
   constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
-  ResidualScale scale{contact.w, std::numeric_limits<double>::infinity(), std::abs(contact.gap)};
+  ResidualScale scale{w, std::numeric_limits<double>::infinity(), length};
   double around = 0;
-  for (const auto particle : {contact.first, contact.second}) {
+  for (const auto particle : particles) {
     if (particle < 0) continue;
     const auto k = index_of(particle);
     const auto body = system_.body_of(particle);

@@ -207,13 +207,11 @@ ProjectionResult StepProjection<D>::solve(const SolverSettings& settings, double
     choose(with_connected_pairs(more, ++rounds));
   }
   for (std::size_t c = 0; c < chosen_.size(); ++c) {
-    pair(chosen_[c]).impulse = system_.contacts[c].impulse;
-    if (constraints_) {
-      auto memory = state_.memories.of(pair(chosen_[c]).memory);
-      constraints_->remember(c, memory);
-      state_.memories.set(pair(chosen_[c]).memory, memory);
-    }
     result.pairs.push_back(&pair(chosen_[c]));
+    result.impulses.push_back(system_.contacts[c].impulse);
+    if (!constraints_) continue;
+    result.memories.push_back(state_.memories.of(pair(chosen_[c]).memory));
+    constraints_->remember(c, result.memories.back());
   }
   result.bodies = system_.bodies();
   return result;

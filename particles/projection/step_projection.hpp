@@ -34,7 +34,9 @@ struct ProjectionResult {
   double link_residual = 0;
   /// Those names; empty if the residuals of all links are allowed.
   std::vector<std::string> unsolved_links;
-  std::vector<Pair*> pairs;          ///< pairs in the projection; their impulses are the solution
+  std::vector<Pair*> pairs;          ///< pairs in the projection, which solve() leaves as they are
+  std::vector<double> impulses;      ///< of `pairs` [M L/T]
+  std::vector<PairMemory> memories;  ///< of `pairs`, with the friction; empty without constraints
   std::vector<std::int32_t> bodies;  ///< particles whose displacements the projection changed
 };
 
@@ -58,11 +60,12 @@ class StepProjection {
   /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
   /// object.
   void add_constraints(const ConstraintStep& step);
-  /// Starts from displacements that blows have changed, after which no pair is left that its path would
-  /// close. Contacts are therefore linearised where the blows leave the particles: at the beginning of
-  /// the step, particles that only pass each other would be stopped. `impacts` must outlive this object.
+  /// Solves a step in which blows have changed the displacements. A contact is then linearised at the
+  /// places where the blows leave its particles. Linearised at the beginning of the step, it would stop
+  /// particles that only pass each other. `impacts` must outlive this object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
-  /// Solves the projection and sets the displacements h v. `mean_radius` [L], > 0, is the length
+  /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories.
+  /// `mean_radius` [L], > 0, is the length
   /// that the tolerances of `settings` refer to.
   ProjectionResult solve(const SolverSettings& settings, double mean_radius);
 

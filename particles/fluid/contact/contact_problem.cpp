@@ -88,7 +88,6 @@ class FluidMobility : public DualProblem {
       if (values[c] != 0) add_contact_force(contacts_[c], values[c] / scale[c], impulses, layout_);
     // The mobility is linear, so that impulses give displacements as forces give velocities.
     const auto displacements = mobility_(impulses);
-    ++products_;
     std::ranges::copy(displacements, y.begin());
     double form = 0;
     for (std::size_t i = 0; i < motions_; ++i) form += displacements[i] * impulses[i];
@@ -104,14 +103,11 @@ class FluidMobility : public DualProblem {
     return opening(contacts_[c], y, layout_) / scale[c];
   }
 
-  int products() const { return products_; }  ///< number of calls of to_bodies()
-
  private:
   std::span<const Contact<2>> contacts_;
   std::size_t motions_;
   const MobilityFunction& mobility_;
   MotionLayout layout_;
-  int products_ = 0;
   mutable ThreadPool pool_{1};
 };
 
@@ -222,19 +218,20 @@ class IdentityPreconditioner {
   Problem* problem_;
 };
 
-/// Improves problem.z by MPRGP until all residuals are allowed, or until products() is at least
-/// `most`.
-template <Mobility Problem, class Products>
-void solve_by_gradients(Problem& problem, int most, const Products& products) {
+/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are done.
+/// Returns their number.
+template <Mobility Problem>
+int solve_by_gradients(Problem& problem, int most) {
   Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
   bool is_fresh = true;
-  for (;;) {
-    if (mprgp.residual() <= 1 || products() >= most) {
-      if (is_fresh) break;
+  for (int products = 1;;) {
+    if (mprgp.residual() <= 1 || products >= most) {
+      if (is_fresh) return products;
       mprgp.refresh();  // the updated gradient has accumulated rounding errors
+      ++products;
       is_fresh = true;
     } else {
-      mprgp.step();
+      products += mprgp.step();
       is_fresh = false;
     }
   }
@@ -304,11 +301,8 @@ void ContactProblem::solve_dense() {
   constexpr int kNewtonSteps = 50;
   auto solved = active_set_newton(problem, factor, std::min(most, kNewtonSteps));
   // Newton's method may cycle. Conjugate gradients do not.
-  if (!(solved.residual <= 1)) {
-    int steps = 0;
-    solve_by_gradients(problem, most - solved.iterations, [&] { return steps++; });
-    solved.iterations += steps;
-  }
+  if (!(solved.residual <= 1))
+    solved.iterations += solve_by_gradients(problem, most - solved.iterations);
   iterations_ += solved.iterations;
   std::ranges::copy(conditions_.free_velocities, velocities_.begin());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -320,14 +314,12 @@ void ContactProblem::solve_dense() {
 
 void ContactProblem::solve_by_products() {
   FluidMobility problem(contacts_, conditions_, mobility_);
-  solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_,
-                     [&] { return problem.products(); });
+  iterations_ += 1 + solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);
   std::vector<double> y(problem.displacement_count());
   problem.to_bodies(problem.z, y);
   for (std::size_t i = 0; i < velocities_.size(); ++i)
     velocities_[i] = conditions_.free_velocities[i] + y[i] / conditions_.h;
   for (std::size_t c = 0; c < contacts_.size(); ++c) contacts_[c].impulse = problem.impulse(c);
-  iterations_ += problem.products();
 }
 
 }  // namespace viscontact::particles

@@ -36,14 +36,15 @@ inline double gap_after(const Contact<2>& contact, const double* velocities, dou
   return contact.gap + h * opening(contact, velocities, layout);
 }
 
-/// The largest speed of a particle [L/T], without its turning, which changes no gap.
+/// The largest speed of a particle [L/T], without its turning, which changes no gap; NaN if one is not a
+/// number.
 inline double fastest(std::span<const double> velocities, const MotionLayout& layout) {
   double largest = 0;
   for (std::size_t k = 0; k < velocities.size(); k += layout.components) {
     double square = 0;
     for (std::size_t d = 0; d < layout.directions(); ++d)
       square += velocities[k + d] * velocities[k + d];
-    largest = std::max(largest, std::sqrt(square));
+    largest = largest_or_nan(largest, std::sqrt(square));
   }
   return largest;
 }

@@ -1,6 +1,7 @@
 // Each contact law by itself, against its equations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -105,6 +106,9 @@ TEST(FrictionCone, HasTheNearestPoint) {
         };
         const double found = distance(cone.load, cone.tangential * p_t);
         EXPECT_LE(cone.tangential * p_t, mu * cone.load * (1 + 1e-15));
+        EXPECT_EQ(cone.part, cone.load == 0 && p_t > 0 ? FrictionCone::Part::kApex
+                             : cone.tangential == 1    ? FrictionCone::Part::kInside
+                                                       : FrictionCone::Part::kSurface);
         for (int i = 0; i <= 500; ++i)
           for (int k = 0; k <= 20; ++k) {
             const double load = 0.01 * i;
@@ -113,13 +117,27 @@ TEST(FrictionCone, HasTheNearestPoint) {
       }
 }
 
-TEST(RestitutionLaw, GivesBackItsShareOfTheSolids) {
+TEST(RestitutionLaw, OfAParticleAtAPlaneIsThatOfTheClosedForm) {
+  // (4.13): both phases of a blow with the momentum p = m u on a film from gamma_min = -k; the particle
+  // leaves with e_d p - (1 + e_d) k, or stays with gamma = gamma_min + e_d (p - k).
   const RestitutionLaw law{0.8};
-  // The film takes 2 of 5, the solids 3; after the compression gamma is -2.
-  const double solid = RestitutionLaw::solid_impulse(5, 2);
-  EXPECT_EQ(solid, 3);
-  EXPECT_EQ(RestitutionLaw::solid_impulse(1, 2), 0);
-  EXPECT_NEAR(law.lowest_in_restitution(-2, solid), -2 + 0.8 * 3, 1e-15);
+  const double k = 2;
+  for (const double p : {1.0, 2.0, 3.0, 4.4, 4.6, 10.0, 1000.0}) {
+    const double solid = RestitutionLaw::solid_impulse(p, k);
+    const double gamma_c = std::max(-p, -k);
+    const double lowest = law.lowest_in_restitution(gamma_c, solid);
+    const double second =
+        std::max(lowest, 0.0);  // of the restitution: the film does not open by itself
+    const double gamma = RestitutionLaw::gamma_after(lowest, second, -k, 0);
+    const double leaves = 0.8 * p - 1.8 * k;
+    if (leaves > 0) {
+      EXPECT_NEAR(second, leaves, 1e-12 * p);
+      EXPECT_EQ(gamma, 0);
+    } else {
+      EXPECT_EQ(second, 0);
+      EXPECT_NEAR(gamma, p > k ? -k + 0.8 * (p - k) : -p, 1e-14);
+    }
+  }
   EXPECT_TRUE(law.is_on());
   EXPECT_FALSE(RestitutionLaw{}.is_on());
 }

@@ -29,9 +29,12 @@ struct Row {
       contact.normal = {1, 0};
       problem.add(contact);
     }
-    return problem.solve(false);
+    const bool is_solved = problem.solve(false);
+    for (const auto& contact : problem.contacts()) impulses.push_back(contact.impulse);
+    velocities = problem.velocities();
+    return is_solved;
   }
-  std::vector<double> free;
+  std::vector<double> free, impulses, velocities;
 };
 
 TEST(ContactProblem, SaysWhetherItIsSolved) {
@@ -40,6 +43,21 @@ TEST(ContactProblem, SaysWhetherItIsSolved) {
   EXPECT_TRUE(Row(61).solve(10000));
   EXPECT_FALSE(Row(61).solve(8));
   EXPECT_TRUE(Row(5).solve(10000));
+}
+
+TEST(ContactProblem, HasTheImpulsesThatMakeAllVelocitiesEqual) {
+  for (const std::size_t count : {5U, 61U}) {
+    Row row(count);
+    ASSERT_TRUE(row.solve(10000));
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_NEAR(row.velocities[2 * k], 0.5, 1e-9);
+      // The first k discs push the others with what they lose: h times the sum of free velocities - 1/2.
+      sum += 0.1 * (row.free[2 * k] - 0.5);
+      if (k + 1 == count) break;
+      EXPECT_NEAR(row.impulses[k], sum, 1e-8 * static_cast<double>(count));
+    }
+  }
 }
 
 }  // namespace

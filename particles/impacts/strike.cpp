@@ -1,0 +1,266 @@
+// Solves the blows of a step, each in its two phases (impacts.hpp). Units are those of the case.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "viscontact/particles/constraints/constraint_solver.hpp"
+#include "viscontact/particles/constraints/contact_rows.hpp"
+#include "viscontact/particles/contact/contact.hpp"
+#include "viscontact/particles/impacts/impacts.hpp"
+#include "viscontact/particles/rotation.hpp"
+
+namespace viscontact::particles {
+
+/// The contacts of a blow as constraints on the changes of h times the velocities. `unit_of` becomes a
+/// particle of each unit.
+template <int D>
+ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits,
+                                            std::vector<std::int32_t>& unit_of) {
+  const auto& p = state_.particles;
+  ConstraintProblem<D> problem;
+  std::map<std::int32_t, std::int32_t> numbers;
+  const auto side_of = [&](std::int32_t k) -> ContactSide {
+    if (k < 0) return {};
+    const auto body = p.bodies.body_of(k);
+    const auto [at, is_new] =
+        numbers.try_emplace(body < 0 ? k : -1 - body, static_cast<std::int32_t>(unit_of.size()));
+    if (is_new) {
+      unit_of.push_back(k);
+      if (body < 0) {
+        const std::array<double, 3> still{};
+        // Particles that do not turn have no moments but rounding errors, which this mobility leaves
+        // small in every unit.
+        const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
+        const double turns =
+            step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
+        problem.units.push_back(
+            unit_of_particle<D>(step_.mobilities[index_of(k)], turns, still.data(), still.data()));
+      } else {
+        auto still = step_.bodies[index_of(body)];
+        still.displacement = still.turn = {};
+        problem.units.push_back(unit_of_body<D>(still));
+      }
+    }
+    Vector offset{};
+    if (body >= 0) {
+      const auto& members = p.bodies.bodies[index_of(body)].members;
+      const auto m = std::ranges::find(members, k) - members.begin();
+      offset = present_offset(p.bodies.bodies[index_of(body)], static_cast<std::size_t>(m), D);
+    }
+    return {at->second, offset};
+  };
+  for (const auto& hit : hits) {
+    const auto& of = pair(hit.pair);
+    Contact<D> contact{of.first < 0 ? -1 : of.first, of.second, {}, 0, of.gamma};
+    std::copy_n(hit.normal.begin(), D, contact.normal.begin());
+    contact.obstacle = of.first < 0 ? -1 - of.first : 0;
+    const auto tangents = tangents_of(contact, p, step_.obstacles, step_.begin, step_.end);
+    const auto first = side_of(contact.first), second = side_of(contact.second);
+    ConstraintBlock block;
+    block.row = problem.rows.size();
+    block.rows = static_cast<std::size_t>(D);
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      add_contact_row(contact, tangents, first, second, k, 0, problem);
+      auto& row = problem.rows.back();
+      row.offset = step_.h * hit.approach;
+      if (k > 0) {
+        // The slip of the surfaces before the blow.
+        const Vector slip = hit.relative +
+                            cross(spin(of.second), -tangents.second_arm * hit.normal) -
+                            cross(spin(contact.first), tangents.first_arm * hit.normal);
+        row.offset = step_.h * dot(tangents.directions[k - 1], slip);
+      }
+    }
+    problem.blocks.push_back(block);
+  }
+  return problem;
+}
+
+/// Adds the change of h times the motion of the unit of `particle` at `time`.
+template <int D>
+void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, double time) {
+  const auto& p = state_.particles;
+  constexpr auto d = static_cast<std::size_t>(D), r = static_cast<std::size_t>(kTurns<D>);
+  Vector velocity{}, turn{};
+  for (std::size_t i = 0; i < d; ++i) velocity[i] = change[i] / step_.h;
+  for (std::size_t i = 0; i < r; ++i) turn[3 - r + i] = change[d + i] / step_.h;
+  const auto add = [&](std::int32_t k, const Vector& offset) {
+    auto& of = flight(k);
+    const Vector by = velocity + cross(turn, offset);
+    of.change = of.change + by;
+    of.late = of.late + time * by;
+    of.turn_change = of.turn_change + turn;
+    of.late_turn = of.late_turn + time * turn;
+    ++of.version;
+  };
+  const auto body = p.bodies.body_of(particle);
+  if (body < 0) {
+    add(particle, {});
+    return;
+  }
+  const auto& rigid = p.bodies.bodies[index_of(body)];
+  for (std::size_t m = 0; m < rigid.members.size(); ++m)
+    add(rigid.members[m], present_offset(rigid, m, D));
+  auto& step = step_.bodies[index_of(body)];
+  const double rest = step_.h - time;
+  step.displacement = step.displacement + rest * velocity;
+  step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
+  step.turn = step.turn + rest * turn;
+  // I (time/h) turn is what the angular momentum has beyond I turn/h in the plane; in space the step
+  // holds the whole of it.
+  const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
+  step.angular_momentum = step.angular_momentum + momentum;
+  step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
+}
+
+/// The two phases of a blow, (5.15), and what follows from it.
+template <int D>
+void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
+  // Residuals as a share of the approach: what is asked for, and what still counts as solved.
+  constexpr double kExact = 1e-13, kSolved = 1e-8;
+  const auto& laws = step_.laws;
+  std::vector<std::int32_t> unit_of;
+  auto problem = problem_of(hits, unit_of);
+  double fastest = 0, fastest_slip = 0;
+  for (const auto& hit : hits) {
+    fastest = std::max(fastest, -hit.approach);
+    fastest_slip = std::max({fastest_slip, -hit.approach, norm(hit.relative)});
+  }
+  // Compression. Friction acts in the whole blow and is decided at its end.
+  auto compression = problem;
+  for (auto& block : compression.blocks) {
+    block.rows = 1;
+    block.allowed = kExact * step_.h * fastest;
+  }
+  const auto keep_normal_rows = [&](ConstraintProblem<D>& of) {
+    std::vector<ConstraintRow> rows;
+    for (auto& block : of.blocks) {
+      rows.push_back(of.rows[block.row]);
+      block.row = rows.size() - 1;
+    }
+    of.rows = std::move(rows);
+    of.impulses.assign(of.blocks.size(), 0.0);
+  };
+  keep_normal_rows(compression);
+  // Where several contacts share a body, only sums of their impulses are determined. What each of them
+  // takes, and with it what its solids give back, must not depend on their order.
+  const auto solve = [&](ConstraintProblem<D>& of) {
+    constexpr int kMostIterations = 10000;
+    const auto result = solve_constraints(of, kMostIterations,
+                                          hits.size() > 1 ? ConstraintStart::kLeastImpulses
+                                                          : ConstraintStart::kSweeps)
+                            .result;
+    iterations_ += result.iterations;
+    converged_ = converged_ && result.residual * kExact <= kSolved;
+  };
+  solve(compression);
+  // The film takes what it can, the solids the rest.
+  struct Phases {
+    double capacity, compressed, solid, gamma, lowest;
+  };
+  std::vector<Phases> phases;
+  bool solids_touch = false;
+  for (std::size_t c = 0; c < hits.size(); ++c) {
+    const auto& of = pair(hits[c].pair);
+    const double lowest_gamma = laws.lowest_gamma(of, state_.memories.of(of.memory),
+                                                  radii_of(of, state_.particles, step_.obstacles));
+    Phases phase{of.gamma - lowest_gamma, compression.impulses[c], 0, 0, 0};
+    phase.solid = RestitutionLaw::solid_impulse(phase.compressed, phase.capacity);
+    phase.gamma = std::max(of.gamma - phase.compressed, lowest_gamma);
+    phase.lowest = laws.restitution.lowest_in_restitution(phase.gamma, phase.solid);
+    solids_touch = solids_touch || phase.solid > 0;
+    phases.push_back(phase);
+  }
+  // A film that takes the whole blow is left to the projection.
+  if (!solids_touch) return;
+  // The whole blow: compression and restitution together.
+  const double e = laws.restitution.coefficient;
+  for (std::size_t c = 0; c < hits.size(); ++c) {
+    auto& block = problem.blocks[c];
+    const auto& phase = phases[c];
+    block.lowest = phase.compressed + phase.lowest;
+    block.allowed = kExact * step_.h * fastest;
+    block.allowed_slip = kExact * step_.h * fastest_slip;
+    const bool rubs = laws.friction && phase.solid > 0;
+    block.friction = rubs ? laws.friction->coefficient : 0;
+    // The impulse beyond which friction grows: the solids carry (1 + e_d) s of the expected one.
+    block.capacity = phase.compressed + std::max(phase.lowest, 0.0) - (1 + e) * phase.solid;
+    problem.impulses[block.row] = block.lowest;
+  }
+  if (!laws.friction) {
+    keep_normal_rows(problem);
+    for (auto& block : problem.blocks) block.rows = 1;
+    for (std::size_t c = 0; c < hits.size(); ++c) problem.impulses[c] = problem.blocks[c].lowest;
+  }
+  solve(problem);
+  auto changes = motions<D>(problem, problem.impulses);
+  // Work of the impulses at the mean of the velocities before and after. Friction and films in blows of
+  // several contacts could make it positive; then all impulses go back towards those of the
+  // compression, whose work is negative, until it is not.
+  const auto work = [&](const std::vector<double>& impulses) {
+    const auto y = motions<D>(problem, impulses);
+    double sum = 0;
+    for (std::size_t r = 0; r < problem.rows.size(); ++r)
+      sum += impulses[r] * (problem.rows[r].offset + problem.product(r, y) / 2);
+    return sum;
+  };
+  if (work(problem.impulses) > 0) {
+    auto plain = problem.impulses;
+    std::ranges::fill(plain, 0.0);
+    for (std::size_t c = 0; c < hits.size(); ++c)
+      plain[problem.blocks[c].row] = compression.impulses[c];
+    const auto between = [&](double share) {
+      auto impulses = plain;
+      for (std::size_t r = 0; r < impulses.size(); ++r)
+        impulses[r] += share * (problem.impulses[r] - plain[r]);
+      return impulses;
+    };
+    double low = 0, high = 1;
+    constexpr int kHalvings = 50;
+    for (int n = 0; n < kHalvings; ++n) {
+      const double middle = (low + high) / 2;
+      (work(between(middle)) > 0 ? high : low) = middle;
+    }
+    problem.impulses = between(low);
+    changes = motions<D>(problem, problem.impulses);
+  }
+  for (std::size_t u = 0; u < unit_of.size(); ++u) move_unit(unit_of[u], changes[u], time);
+  for (std::size_t c = 0; c < hits.size(); ++c) {
+    auto& of = pair(hits[c].pair);
+    const auto& phase = phases[c];
+    const auto& block = problem.blocks[c];
+    before_.push_back({hits[c].pair, of, state_.memories.of(of.memory)});
+    // The film has taken up the difference of both values of gamma.
+    const double gamma = laws.restitution.gamma_after(block.lowest, problem.impulses[block.row],
+                                                      of.gamma - phase.capacity, of.gamma);
+    const double impulse = std::exchange(of.impulse, of.gamma - gamma);
+    laws.remember(of, state_.memories, radii_of(of, state_.particles, step_.obstacles), 0, 0);
+    of.impulse = impulse;
+    const double after =
+        (problem.rows[block.row].offset + problem.product(block.row, changes)) / step_.h;
+    if (phase.solid > 0)
+      rebounds_.push_back({step_.begin + time, of.first, of.second, hits[c].approach, phase.solid,
+                           std::abs(after) <= kExact * fastest ? 0 : after});
+    ++hits_of_[hits[c].pair];
+  }
+  // All that the changed particles may meet is expected anew.
+  std::vector<std::int32_t> changed;
+  for (const auto k : unit_of) {
+    const auto body = state_.particles.bodies.body_of(k);
+    if (body < 0)
+      changed.push_back(k);
+    else
+      for (const auto member : state_.particles.bodies.bodies[index_of(body)].members)
+        changed.push_back(member);
+  }
+  for (const auto k : changed)
+    for (const auto of : pairs_of_->of(k)) expect(of, time);
+}
+
+template void Impacts<2>::strike(const std::vector<Hit>&, double);
+template void Impacts<3>::strike(const std::vector<Hit>&, double);
+
+}  // namespace viscontact::particles
