@@ -74,6 +74,15 @@ void Simulation::scale_impulses(double factor) {
   });
 }
 
+/// Keeps the impulses of the step before and what pairs remember, for a step that has no solution.
+void Simulation::save_impulses() {
+  if (!saved_impulses_.empty() || before_division_) return;
+  for_pairs([&](const Pair& pair) {
+    if (pair.impulse != 0 || pair.memory != PairMemories::kNone)
+      saved_impulses_[key_of(pair)] = {pair.impulse, state_.memories.of(pair.memory)};
+  });
+}
+
 /// Gives the pairs the impulses of a projection, and what they remember of friction.
 void Simulation::take_impulses(const ProjectionResult& projected) {
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -159,7 +168,12 @@ ProjectionResult Simulation::project(double h, double next) {
         gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists cover, so the step is repeated with
-    // longer lists. The loop ends because skins and margin only grow.
+    // longer lists. The loop ends because skins and margin only grow. The impulses are a good guess; but
+    // blows ask them which pairs bore a load in the step before.
+    if (!setting_.laws.restitution.is_on()) {
+      save_impulses();
+      take_impulses(projected);
+    }
     margin = std::max(margin, 2 * gone);
     undo_impacts();
     rebuild_neighbour_list(state_, displacements_, *pool_);
@@ -331,11 +345,22 @@ void Simulation::advance_whole(double h, double next, StepReport& report) {
     impulses_of_parts_.clear();
     rebounds_.clear();
     undo_impacts();
-    if (before_division_) state_ = std::move(*before_division_);
+    if (before_division_) {
+      state_ = std::move(*before_division_);
+    } else if (!saved_impulses_.empty()) {
+      for_pairs([&](Pair& pair) {
+        const auto saved = saved_impulses_.find(key_of(pair));
+        const auto impulses = saved == saved_impulses_.end() ? Impulses{} : saved->second;
+        pair.impulse = impulses.of_contact;
+        state_.memories.set(pair.memory, impulses.memory);
+      });
+    }
     before_division_.reset();
+    saved_impulses_.clear();
     throw;
   }
   before_division_.reset();
+  saved_impulses_.clear();
 }
 
 StepReport Simulation::step(double end) {

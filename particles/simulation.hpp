@@ -86,6 +86,7 @@ class Simulation {
   void advance_whole(double h, double next, StepReport& report);
   template <int D>
   void accept(const ProjectionResult& projected, double h, double next, StepReport& report);
+  void save_impulses();
   void take_impulses(const ProjectionResult& projected);
   std::size_t remember(const ProjectionResult& projected, double h);
   void scale_impulses(double factor);
@@ -146,14 +147,16 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  // If a step is divided: the sums of the impulses of its parts [M L/T], by the numbers of both
-  // bodies and of the image, and the state before the step.
+  // By the numbers of both particles and of the image of a pair [M L/T]. If a step is divided: the sums
+  // of the impulses of its parts, and the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};
   };
   std::map<std::array<std::int32_t, 3>, Impulses> impulses_of_parts_;
   std::optional<State> before_division_;
+  std::map<std::array<std::int32_t, 3>, Impulses>
+      saved_impulses_;  // before a step that is repeated
 };
 
 }  // namespace viscontact::particles
