@@ -138,19 +138,19 @@ void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
 }
 
 /// The mobilities of the rows, equal for the tangential rows of a contact, on which the projection
-/// acts together. With kLeastImpulses all rows have the largest of them, so that contacts share an
+/// acts together. With kLeastImpulses all gaps have the largest of theirs, so that contacts share an
 /// impulse as if all were equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);
-  if (start == ConstraintStart::kLeastImpulses && !w.empty()) {
-    const double largest = std::ranges::max(w);
-    std::ranges::fill(w, largest);
+  double largest = 0;
+  for (const auto& block : problem.blocks) largest = std::max(largest, w[block.row]);
+  for (const auto& block : problem.blocks) {
+    if (!block.is_contact) continue;
+    if (start == ConstraintStart::kLeastImpulses) w[block.row] = largest;
+    for (std::size_t k = 2; k < block.rows; ++k)
+      w[block.row + 1] = w[block.row + k] = std::max(w[block.row + 1], w[block.row + k]);
   }
-  for (const auto& block : problem.blocks)
-    if (block.is_contact)
-      for (std::size_t k = 2; k < block.rows; ++k)
-        w[block.row + 1] = w[block.row + k] = std::max(w[block.row + 1], w[block.row + k]);
   return w;
 }
 
