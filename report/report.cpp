@@ -8,19 +8,15 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/report/html/figures.hpp"
-#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/html/page.hpp"
 #include "viscontact/report/html/report_tables.hpp"
 #include "viscontact/report/report_plots.hpp"
 #include "viscontact/report/report_warnings.hpp"
-#include "viscontact/results/foreign_files.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_results.hpp"
-#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -28,8 +24,6 @@ namespace {
 constexpr auto kPlotNames =
     std::to_array<std::string_view>({"thinnest_film", "gap", "gap_logarithmic", "external_force",
                                      "gamma", "solid_force", "fit", "uncertainty"});
-
-constexpr std::string_view kStillPicture = "<div class=still><svg";
 
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
@@ -51,30 +45,17 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   return plots;
 }
 
-/// The pictures with these names as HTML.
-std::string figures(const std::vector<Picture>& pictures,
-                    std::initializer_list<std::string_view> names) {
-  std::string text;
-  for (const auto name : names)
-    for (const auto& picture : pictures)
-      if (picture.plot.name == name) text += figure(picture);
-  return text;
-}
-
-std::string warnings_box(const results::RunResults& run) {
-  const auto warnings = warnings_of(run);
-  if (warnings.empty())
-    return fmt::format(
-        "<p class=fine>No warnings: all gaps are within the fitted interval, residuals are at most "
-        "{:g}, the table is as accurate as asked, no sphere goes through the plane, and all files "
-        "belong together.</p>\n",
-        kPoorFit);
-  std::string items;
-  for (const auto& warning : warnings)
-    items += fmt::format("<li>{} ({}).</li>\n", escaped(warning.text),
-                         link_to(run.folder, warning.file));
-  return fmt::format("<section class=warnings>\n<h2>Warnings</h2>\n<ul>\n{}</ul></section>\n",
-                     items);
+std::string warnings_of_run(const results::RunResults& run) {
+  std::vector<std::string> items;
+  for (const auto& warning : warnings_of(run))
+    items.push_back(
+        fmt::format("{} ({}).", escaped(warning.text), link_to(run.folder, warning.file)));
+  if (!items.empty()) return warnings_box(items);
+  return fmt::format(
+      "<p class=fine>No warnings: all gaps are within the fitted interval, residuals are at most "
+      "{:g}, the table is as accurate as asked, no sphere goes through the plane, and all files "
+      "belong together.</p>\n",
+      kPoorFit);
 }
 
 std::string summary(const results::RunResults& run) {
@@ -95,31 +76,21 @@ std::string summary(const results::RunResults& run) {
   return text + ".</p>\n";
 }
 
-std::string page_of(const results::RunResults& run, const std::vector<Picture>& pictures) {
-  std::string page = page_head(run.c.title);
-  page += summary(run) + warnings_box(run);
-  page += hints_about(pictures);
-  page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
-  page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
-  page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
-  page += section("Rebounds", rebounds_table(run));
-  page += section("Impulse and work", budget_table(run));
-  page += section("Lubrication force and fit", figures(pictures, {"fit"}) + fit_table(run));
-  page += section("How errors of the fit change the motion",
-                  uncertainty_words(run) + figures(pictures, {"uncertainty"}));
-  page += section("Parameters", parameters_table(run));
-  page += section("How it was made", origin_section(run));
-  return page + page_foot();
+std::string sections_of(const results::RunResults& run, const Report& report) {
+  return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
+         section("Trajectories", report.figures({"gap", "gap_logarithmic", "external_force"})) +
+         section("Contact", report.figures({"gamma", "solid_force"})) +
+         section("Rebounds", rebounds_table(run)) + section("Impulse and work", budget_table(run)) +
+         section("Lubrication force and fit", report.figures({"fit"}) + fit_table(run)) +
+         section("How errors of the fit change the motion",
+                 uncertainty_words(run) + report.figures({"uncertainty"})) +
+         section("Parameters", parameters_table(run)) +
+         section("How it was made", origin_section(run));
 }
 
 }  // namespace
 
-void check_report_files(const std::filesystem::path& folder) {
-  const results::RunFolder run{folder};
-  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
-  for (const auto name : kPlotNames)
-    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
-}
+void check_report_files(const std::filesystem::path& folder) { (void)Report(folder, kPlotNames); }
 
 bool report_is_current(const std::filesystem::path& folder) {
   const results::RunFolder run{folder};
@@ -144,25 +115,14 @@ bool report_is_current(const std::filesystem::path& folder) {
 
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {
-  check_report_files(folder);
+  Report report(folder, kPlotNames);
   const auto run = results::read_run(folder);
   const auto files = results::files_of(run);
   const auto provenance = results::provenance_of(given.empty() ? results::Inputs{files, {}}
                                                                : results::Inputs{given, files});
-  std::exception_ptr failure;
-  auto pictures = draw_pictures(plots_of(run), failure, stop);
-  const auto page = page_of(run, pictures);
-  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
-  for (const auto& [plot, svg] : pictures)
-    results::write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
-  results::write_output(run.folder.report(), TextKind::kHtml, page, provenance);
-  // Plots of an earlier report that this report does not have are removed.
-  for (const auto name : kPlotNames)
-    if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
-        pictures.end())
-      remove_file(run.folder.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run.folder.report().string()));
-  if (failure) warn_of_missing_pictures(failure);
+  report.draw(plots_of(run), stop);
+  report.write(run.c.title, summary(run) + warnings_of_run(run), sections_of(run, report),
+               provenance);
 }
 
 }  // namespace viscontact::report

@@ -12,7 +12,7 @@
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/shell_words.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/html/page.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/versions.hpp"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/html/page.hpp"
 #include "viscontact/report/page_texts.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/particles/flow/flow_frames.hpp"
@@ -130,16 +130,10 @@ std::string particles_page(const Playback& original, const std::string& title) {
   const bool sliding = std::ranges::any_of(playback.frames, has_sliding_contact);
   const bool flat = playback.dimension == 2;
   const auto words = words_for(original, data);
-  // The Content-Security-Policy forbids the browser to load anything from elsewhere.
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
-      "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
-      "<meta http-equiv=Content-Security-Policy content=\"default-src 'none'; style-src "
-      "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-      "<meta name=color-scheme content=\"light dark\">\n"
-      "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n"
-      "<header><h1>{0}</h1>\n<p>{2}</p></header>\n",
-      escaped(title), particles_style(), words);
+  std::string page = page_head(title, particles_style(), false,
+                               "<meta name=color-scheme content=\"light dark\">\n") +
+                     fmt::format("\n</head>\n<body>\n<header><h1>{}</h1>\n<p>{}</p></header>\n",
+                                 escaped(title), words);
   page += fmt::format(
       "<main>\n<div class=stage><canvas id=stage tabindex=0 role=img aria-label=\"Motion of {} "
       "The controls below choose the time.\"></canvas><output id=readout></output>"

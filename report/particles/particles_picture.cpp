@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/html/page.hpp"
 #include "viscontact/report/particles/film_colours.hpp"
 #include "viscontact/report/particles/flow/flow_frames.hpp"
 #include "viscontact/report/particles/flow/flow_picture.hpp"
