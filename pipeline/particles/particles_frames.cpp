@@ -13,9 +13,9 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/io/flow_vtk.hpp"
 #include "viscontact/particles/io/link_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
@@ -115,8 +115,8 @@ void ParticleFrames::add_rebounds(const particles::Particles& particles,
 
 void ParticleFrames::add_flow(const particles::FlowField& flow) {
   const auto name = flow_name(files_.back().second);
-  results::write_output(folder_ / name, TextKind::kXml,
-                        particles::write_flow(flow, playback_.dimension), provenance_);
+  results::write_output(folder_ / name, TextKind::kXml, write_flow(flow, playback_.dimension == 1),
+                        provenance_);
   flows_.emplace_back(files_.back().first, name);
   show_flow(flows_.back());
 }

@@ -13,7 +13,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/particles/io/appended_data.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact {

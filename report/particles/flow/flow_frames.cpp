@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -107,7 +107,7 @@ Playback in_plane(const Playback& playback) {
 std::optional<Window> flow_extent(const Playback& in_plane, bool has_axis) {
   for (const auto& frame : in_plane.frames) {
     if (frame.flow.empty()) continue;
-    const auto flow = particles::read_flow(frame.flow);
+    const auto flow = read_flow(frame.flow);
     if (flow.triangles.empty()) continue;
     const auto [left, right] = std::ranges::minmax(flow.x);
     const auto [bottom, top] = std::ranges::minmax(flow.y);
@@ -148,7 +148,7 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const Window& win
   for (const auto f : frames) {
     const auto& frame = in_plane.frames[f];
     if (frame.flow.empty()) continue;
-    const auto field = particles::read_flow(frame.flow);
+    const auto field = read_flow(frame.flow);
     if (field.triangles.empty()) continue;
     const auto flow = flow_on_grid(field, flows.grid, in_plane.cell);
     const auto is_body = points_in_bodies(flows.grid, in_plane, frame);
@@ -159,7 +159,7 @@ FlowFrames read_flows(const Playback& in_plane, bool has_axis, const Window& win
     const double mean = mean_outside(flow.pressure, is_body);
     for (const double pressure : flow.pressure)
       found.pressure.push_back(static_cast<float>(pressure - mean));
-    found.lines = stream_lines.of(flow, is_body, has_axis ? kLines * 2 / 3 : kLines);
+    found.lines = stream_lines.of(flow, is_body, has_axis ? kLines * 2 / 3 : kLines).lines;
     speeds.add(found.speed, is_body);
     pressures.add(found.pressure, is_body);
     flows.frames.push_back(std::move(found));

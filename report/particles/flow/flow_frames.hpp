@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "viscontact/particles/io/playback.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
 #include "viscontact/report/flow/pressure_colours.hpp"
-#include "viscontact/report/particles/flow/flow_grid.hpp"
-#include "viscontact/report/particles/flow/stream_lines.hpp"
+#include "viscontact/report/flow/stream_lines.hpp"
 #include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact::report {

@@ -29,7 +29,7 @@ TEST(FlowFrames, HaveTheExtentOfTheFirstFlowOrOfTheCell) {
   EXPECT_EQ(extent->top, 2);
   EXPECT_FALSE(flow_extent(one_particle(), false));
   // A solver without a mesh gives a flow without triangles.
-  playback.frames[1].flow = folder.file("none.vtu", particles::write_flow({}));
+  playback.frames[1].flow = folder.file("none.vtu", write_flow({}));
   EXPECT_FALSE(flow_extent(playback, false));
 }
 

@@ -1,6 +1,6 @@
-// Writes and reads the flow around particles as VTK files (flow_vtk.hpp). The names of the arrays
+// Writes and reads flows as VTK files (flow_vtk.hpp). The names of the arrays
 // must be kept, because the reader and users' pictures refer to them.
-#include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/io/appended_data.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 
-namespace viscontact::particles {
+namespace viscontact {
 namespace {
 
 // A quadratic triangle: the number of its nodes, and VTK's number of this type of cell.
@@ -36,8 +36,8 @@ std::vector<double> component(const std::vector<double>& vectors, std::size_t d)
 
 }  // namespace
 
-std::string write_flow(const FlowField& flow, int dimension) {
-  const bool on_axis = dimension == 1;
+std::string write_flow(const FlowField& flow, bool on_axis, std::string_view more_name,
+                       const std::vector<double>& more) {
   std::vector<double> speeds;
   speeds.reserve(flow.x.size());
   for (std::size_t k = 0; k < flow.x.size(); ++k)
@@ -62,6 +62,7 @@ std::string write_flow(const FlowField& flow, int dimension) {
       data.array("Float64", "velocity", 3, vectors_of(flow.velocity_x, flow.velocity_y, on_axis));
   text += data.array("Float64", "pressure", 1, flow.pressure);
   text += data.array("Float64", "speed", 1, speeds);
+  if (!more.empty()) text += data.array("Float64", more_name, 1, more);
   text += "</PointData>\n<Points>\n";
   text += data.array("Float64", "Points", 3, vectors_of(flow.x, flow.y, on_axis));
   text += "</Points>\n<Cells>\n";
@@ -99,4 +100,4 @@ FlowField read_flow(const std::filesystem::path& path) {
   return flow;
 }
 
-}  // namespace viscontact::particles
+}  // namespace viscontact

@@ -1,5 +1,5 @@
 // Interpolation of flows at the points of a grid.
-#include "viscontact/report/particles/flow/flow_grid.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,18 +1,40 @@
-// Streamlines of the flow around particles. Lengths and times are in the units of the case.
+// Level lines of fields, and the streamlines of a flow on a grid. Lengths and times are in the units
+// of the case.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "viscontact/report/particles/flow/flow_grid.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
 
 namespace viscontact::report {
+
+using Polyline = std::vector<std::pair<double, double>>;  ///< points of a line [L]
+
+/// A field that is linear on each of a set of straight triangles.
+struct LinearField {
+  std::vector<std::array<double, 2>> points;
+  std::vector<double> values;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// The lines on which the field equals `level`, joined across triangles.
+std::vector<Polyline> level_lines(const LinearField& field, double level);
 
 /// A streamline in the direction of the flow.
 struct StreamLine {
   Polyline points;  ///< [L]
   /// Place in `points` of an arrow that shows the direction, outside all particles; -1: no arrow.
   int arrow = -1;
+};
+
+/// Streamlines at equal steps of the stream function.
+struct StreamLineSet {
+  std::vector<StreamLine> lines;
+  double step = 0;  ///< of psi between neighbours, > 0; 0 if there are no lines
 };
 
 /// Computes streamlines as level lines of the stream function psi: u = dpsi/dy, v = -dpsi/dx in the
@@ -29,7 +51,7 @@ class StreamLines {
   /// `is_body` says for each point of the grid whether it is in a particle, which hides it. None if
   /// nothing moves. Frames should be given in their order, because the factor of the matrix is
   /// used again as long as the fluid covers about the same points.
-  std::vector<StreamLine> of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
+  StreamLineSet of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count);
 
  private:
   struct Equations;

@@ -1,5 +1,5 @@
 // Streamlines of flows whose stream function is known.
-#include "viscontact/report/particles/flow/stream_lines.hpp"
+#include "viscontact/report/flow/stream_lines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(StreamLines, OfARotationAreCircles) {
       [](double x, double y) {
         return std::array{-y, x, 0.0};
       });
-  const auto lines = StreamLines(grid, false).of(flow, no_bodies(grid), 12);
+  const auto lines = StreamLines(grid, false).of(flow, no_bodies(grid), 12).lines;
   ASSERT_GE(lines.size(), 12U);
   for (const auto& line : lines) {
     const auto& [x0, y0] = line.points.front();
@@ -62,7 +62,7 @@ TEST(StreamLines, AlongAnAxisEncloseEqualFlows) {
   const auto flow = flow_at(grid, kEverywhere, [](double, double) {
     return std::array{0.0, -2.0, 0.0};
   });
-  const auto lines = StreamLines(grid, true).of(flow, no_bodies(grid), 4);
+  const auto lines = StreamLines(grid, true).of(flow, no_bodies(grid), 4).lines;
   ASSERT_EQ(lines.size(), 4U);
   std::set<double> squares;
   for (const auto& line : lines) {
@@ -86,7 +86,7 @@ TEST(StreamLines, HaveArrowsOutsideTheParticlesAndApart) {
   const auto in_body = [](double x) { return x > 0.3 && x < 0.7; };
   for (std::size_t i = 0; i < grid.size(); ++i) is_body[i] = in_body(grid.x(i % 51)) ? 1 : 0;
   Polyline arrows;
-  for (const auto& line : StreamLines(grid, false).of(flow, is_body, 20))
+  for (const auto& line : StreamLines(grid, false).of(flow, is_body, 20).lines)
     if (line.arrow > 0) arrows.push_back(line.points[static_cast<std::size_t>(line.arrow)]);
   ASSERT_GE(arrows.size(), 4U);
   for (std::size_t i = 0; i < arrows.size(); ++i) {
@@ -106,9 +106,9 @@ TEST(StreamLines, DoNotDependOnTheFlowBefore) {
   const auto right = flow_at(
       grid, [](double x, double) { return x > -0.5; }, at);
   StreamLines both(grid, false);
-  both.of(left, no_bodies(grid), 8);
-  const auto again = both.of(right, no_bodies(grid), 8);
-  const auto alone = StreamLines(grid, false).of(right, no_bodies(grid), 8);
+  both.of(left, no_bodies(grid), 8).lines;
+  const auto again = both.of(right, no_bodies(grid), 8).lines;
+  const auto alone = StreamLines(grid, false).of(right, no_bodies(grid), 8).lines;
   ASSERT_EQ(again.size(), alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(again[i].points, alone[i].points);
 }
@@ -118,7 +118,7 @@ TEST(StreamLines, AreNoneIfNothingMoves) {
   const auto flow = flow_at(grid, kEverywhere, [](double, double) {
     return std::array{0.0, 0.0, 1.0};
   });
-  EXPECT_TRUE(StreamLines(grid, false).of(flow, no_bodies(grid), 8).empty());
+  EXPECT_TRUE(StreamLines(grid, false).of(flow, no_bodies(grid), 8).lines.empty());
 }
 
 }  // namespace

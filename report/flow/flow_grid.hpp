@@ -1,16 +1,21 @@
-// The flow around particles on a regular grid, from which pictures and pages draw it. Lengths,
-// masses and times are in the units of the case.
+// A flow on a regular grid, from which pictures and pages draw it. Lengths, masses and times are in
+// the units of the case.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "viscontact/common/vtk/flow_field.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/fluid/fluid_solver.hpp"
-#include "viscontact/report/flow/triangle_fields.hpp"
 
 namespace viscontact::report {
+
+/// A rectangle of a plane [L].
+struct Window {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+};
 
 /// Evenly spaced points that fill a window, with points on its sides.
 struct Grid {
@@ -43,7 +48,15 @@ struct FlowOnGrid {
 /// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
 /// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in the
 /// cell (docs/fluid-solver.md).
-FlowOnGrid flow_on_grid(const particles::FlowField& flow, const Grid& grid,
-                        const particles::PeriodicCell& cell);
+FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
+                        const particles::PeriodicCell& cell = {});
+
+/// Interpolates a field with these values at the nodes in the same way.
+std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
+                                  const Grid& grid);
+
+/// Gives each point of a grid that is NaN the mean value of those of its up to eight neighbours that
+/// are not. The points are row by row, with `columns` in a row.
+void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

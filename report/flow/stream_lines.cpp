@@ -1,18 +1,25 @@
 // Solves for the stream function on a grid, follows its level lines, and simplifies them
 // (stream_lines.hpp). Points without fluid take part with a small weight, so that the matrix is
 // never singular and the fluid may consist of several regions.
-#include "viscontact/report/particles/flow/stream_lines.hpp"
+#include "viscontact/report/flow/stream_lines.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 
 namespace viscontact::report {
 namespace {
 
 using Index = std::uint32_t;
+
+/// A key for a pair of points, which does not depend on their order.
+std::uint64_t pair_key(Index a, Index b) {
+  constexpr int kHalf = 32;
+  return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
+}
 
 /// Distance of a point from the line through two others; from the first if they are the same.
 double distance(const Polyline::value_type& p, const Polyline::value_type& a,
@@ -132,6 +139,64 @@ StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
 
 }  // namespace
 
+std::vector<Polyline> level_lines(const LinearField& field, double level) {
+  // The points of a level line are its crossings with sides of triangles. Each crossing has at most
+  // two neighbours along the line, one in each triangle at the side.
+  struct Crossing {
+    std::pair<double, double> point;
+    std::array<std::uint64_t, 2> next{};
+    int neighbours = 0;
+    bool drawn = false;
+  };
+  std::unordered_map<std::uint64_t, Crossing> crossings;
+  const auto above = [&](Index i) { return field.values[i] >= level; };
+  for (const auto& triangle : field.triangles) {
+    std::array<std::uint64_t, 2> keys{};
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = std::min(triangle[i], triangle[(i + 1) % 3]);
+      const Index b = std::max(triangle[i], triangle[(i + 1) % 3]);
+      if (above(a) == above(b)) continue;
+      const double w = (level - field.values[a]) / (field.values[b] - field.values[a]);
+      const auto key = pair_key(a, b);
+      crossings[key].point = {std::lerp(field.points[a][0], field.points[b][0], w),
+                              std::lerp(field.points[a][1], field.points[b][1], w)};
+      keys[found++] = key;
+    }
+    if (found != 2) continue;
+    for (std::size_t i = 0; i < 2; ++i) {
+      auto& crossing = crossings[keys[i]];
+      if (crossing.neighbours < 2)
+        crossing.next[static_cast<std::size_t>(crossing.neighbours++)] = keys[1 - i];
+    }
+  }
+  std::vector<Polyline> lines;
+  const auto follow = [&](std::uint64_t key) {
+    Polyline line;
+    for (bool more = true; more;) {
+      auto& crossing = crossings.at(key);
+      crossing.drawn = true;
+      line.push_back(crossing.point);
+      more = false;
+      for (int i = 0; i < crossing.neighbours && !more; ++i)
+        if (const auto next = crossing.next[static_cast<std::size_t>(i)];
+            !crossings.at(next).drawn) {
+          key = next;
+          more = true;
+        }
+    }
+    return line;
+  };
+  for (auto& [key, crossing] : crossings)
+    if (!crossing.drawn && crossing.neighbours == 1) lines.push_back(follow(key));
+  for (auto& [key, crossing] : crossings)  // the lines that are left are closed
+    if (!crossing.drawn) {
+      lines.push_back(follow(key));
+      lines.back().push_back(lines.back().front());
+    }
+  return lines;
+}
+
 /// The normal equations, and for which points they were factorised.
 struct StreamLines::Equations {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
@@ -209,8 +274,7 @@ std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
   return values;
 }
 
-std::vector<StreamLine> StreamLines::of(const FlowOnGrid& flow, const std::vector<char>& is_body,
-                                        int count) {
+StreamLineSet StreamLines::of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count) {
   const auto psi = stream_function(flow);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < psi.size(); ++i)
@@ -218,16 +282,18 @@ std::vector<StreamLine> StreamLines::of(const FlowOnGrid& flow, const std::vecto
       low = std::min(low, psi[i]);
       high = std::max(high, psi[i]);
     }
-  std::vector<StreamLine> lines;
-  if (!(high > low)) return lines;
+  StreamLineSet set;
+  if (!(high > low)) return set;
+  set.step = (high - low) / count;
   const auto field = field_on(grid_, psi);
   Polyline arrows;
   for (int n = 0; n < count; ++n) {
     const double level = std::lerp(low, high, (n + 0.5) / count);
     for (auto& line : level_lines(field, level))
-      if (line.size() > 2) lines.push_back(directed(std::move(line), grid_, flow, is_body, arrows));
+      if (line.size() > 2)
+        set.lines.push_back(directed(std::move(line), grid_, flow, is_body, arrows));
   }
-  return lines;
+  return set;
 }
 
 }  // namespace viscontact::report

@@ -16,7 +16,7 @@
 
 #include "viscontact/common/error.hpp"
 
-namespace viscontact::particles {
+namespace viscontact {
 
 /// Collects the `AppendedData` of a file and makes the elements that refer to it.
 class AppendedData {
@@ -156,4 +156,4 @@ class AppendedReader {
   std::string_view head_, bytes_;
 };
 
-}  // namespace viscontact::particles
+}  // namespace viscontact
