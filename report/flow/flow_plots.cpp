@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -17,9 +18,8 @@
 #include <vector>
 
 #include "viscontact/report/flow/flow_grid.hpp"
-#include "viscontact/report/flow/pressure_colours.hpp"
 #include "viscontact/report/flow/stream_lines.hpp"
-#include "viscontact/report/particles/view_box.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 namespace viscontact::report {
@@ -308,11 +308,13 @@ ColourField colour_field(std::vector<double> values, const Grid& grid, const Plo
 /// The smallest and the largest value at the nodes in the window.
 std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<double>& values,
                                    const Window& window) {
-  Interval reach;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (mesh.x[i] <= window.right && mesh.y[i] >= window.bottom && mesh.y[i] <= window.top)
-      reach.add(values[i], values[i]);
-  return {reach.low, reach.high};
+    if (mesh.x[i] <= window.right && mesh.y[i] >= window.bottom && mesh.y[i] <= window.top) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+  return {low, high};
 }
 
 Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "viscontact/report/html/page.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 
 namespace viscontact::report {

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "viscontact/report/html/page.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
@@ -198,7 +198,7 @@ std::vector<Plot> swimmer_plots(const SwimmerResults& results) {
   return plots;
 }
 
-std::string number(double value) { return fmt::format("{:.7g}", value); }
+std::string seven_digits(double value) { return fmt::format("{:.7g}", value); }
 
 std::string with_error(double value, double error) {
   return fmt::format("{:.9g} &plusmn; {:.1g}", value, error);
@@ -223,10 +223,10 @@ std::string strokes_table(const SwimmerResults& results) {
       row("energy of a period [M L<sup>2</sup>/T<sup>2</sup>]",
           [](const StrokeResult& s) { return with_error(s.sums.energy, s.errors.energy); }) +
       row("the same at constant power",
-          [](const StrokeResult& s) { return number(s.sums.energy_at_constant_power); }) +
+          [](const StrokeResult& s) { return seven_digits(s.sums.energy_at_constant_power); }) +
       row("Lighthill's efficiency",
-          [](const StrokeResult& s) { return number(s.sums.efficiency); }) +
-      row("period [T]", [](const StrokeResult& s) { return number(s.period); }));
+          [](const StrokeResult& s) { return seven_digits(s.sums.efficiency); }) +
+      row("period [T]", [](const StrokeResult& s) { return seven_digits(s.period); }));
 }
 
 std::string search_words(const SwimmerResults& results) {

@@ -1,5 +1,5 @@
 // The flow in the page that plays a motion of particles, in a browser (chromium) and as text.
-#include "viscontact/report/particles/flow/flow_page.hpp"
+#include "viscontact/report/particles/particles_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Flows of a motion on one grid, motions on an axis, and the colours of the speed.
-#include "viscontact/report/particles/flow/flow_frames.hpp"
+// The scene of a motion: its flows on one grid, motions on an axis, and the colours of the speed.
+#include "viscontact/report/particles/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,40 +7,50 @@
 #include <cmath>
 
 #include "tests/report/particles/flow/flows.hpp"
-#include "viscontact/report/particles/flow/flow_page.hpp"
-#include "viscontact/report/particles/flow/speed_colours.hpp"
 
 namespace viscontact::report {
 namespace {
 
-TEST(FlowFrames, HaveTheExtentOfTheFirstFlowOrOfTheCell) {
+/// The flows of all frames of a motion with two frames.
+FlowFrames flows_of(const particles::Playback& playback) {
+  return scene_of(playback, {0, 1}, {0, 1}, 2000).flows;
+}
+
+TEST(Scene, HasTheExtentOfTheFirstFlowOrOfTheCell) {
   const TemporaryFolder folder;
   auto playback = disc_in_flow(folder, 2, turning);
   playback.frames[0].flow.clear();
-  auto extent = flow_extent(playback, false);
-  ASSERT_TRUE(extent);
-  EXPECT_EQ(extent->left, 0);
-  EXPECT_EQ(extent->right, 4);
-  EXPECT_EQ(flow_extent(playback, true)->left, -4);
+  EXPECT_EQ(flows_of(playback).grid.window.left, 0);
+  EXPECT_EQ(flows_of(playback).grid.window.right, 4);
   playback.cell = {{-1, 0}, {4, 0}};
-  extent = flow_extent(playback, false);
-  EXPECT_EQ(extent->left, -1);
-  EXPECT_EQ(extent->right, 3);
-  EXPECT_EQ(extent->top, 2);
-  EXPECT_FALSE(flow_extent(one_particle(), false));
+  EXPECT_EQ(flows_of(playback).grid.window.left, -1);
+  EXPECT_EQ(flows_of(playback).grid.window.right, 3);
+  EXPECT_EQ(flows_of(playback).grid.window.top, 2);
+  EXPECT_FALSE(scene_of(one_particle(), {0}, {0}, 100).is_in_fluid);
   // A solver without a mesh gives a flow without triangles.
   playback.frames[1].flow = folder.file("none.vtu", write_flow({}));
-  EXPECT_FALSE(flow_extent(playback, false));
+  EXPECT_FALSE(scene_of(playback, {0, 1}, {1}, 100).is_in_fluid);
 }
 
-TEST(FlowFrames, PressureHasNoMeanOutsideTheParticles) {
+TEST(Scene, OnAnAxisIsMirrored) {
+  const TemporaryFolder folder;
+  auto playback = disc_in_flow(folder, 1, turning);
+  playback.dimension = 1;
+  playback.frames[0].positions = {1};
+  const auto scene = scene_of(playback, {0}, {0}, 100);
+  EXPECT_LE(scene.box.low[0], -4);
+  EXPECT_EQ(scene.flows.grid.window.left, 0);
+  EXPECT_EQ(scene.flows.grid.window.right, 4);
+}
+
+TEST(Scene, PressureHasNoMeanOutsideTheParticles) {
   const TemporaryFolder folder;
   const auto playback = disc_in_flow(folder, 1, [](double x, double y) {
     // The triangles at the node (1, 1) are in the disc of radius 0.5, whose pressure must not
     // count.
     return std::array{0.0, 0.0, std::hypot(x - 1, y - 1) < 0.1 ? 1e6 : 7.0};
   });
-  const auto flows = read_flows(playback, false, {0, 4, 0, 2}, {0}, 2000);
+  const auto flows = scene_of(playback, {0}, {0}, 2000).flows;
   ASSERT_EQ(flows.frames.size(), 1U);
   EXPECT_NEAR(flows.frames[0].pressure.front(), 0, 1e-6);
   EXPECT_LT(flows.pressure_colours.high, 10);
@@ -48,10 +58,9 @@ TEST(FlowFrames, PressureHasNoMeanOutsideTheParticles) {
   EXPECT_TRUE(flows.frames[0].lines.empty());
 }
 
-TEST(FlowFrames, TopSpeedIsThatOutsideTheParticles) {
+TEST(Scene, TopSpeedIsThatOutsideTheParticles) {
   const TemporaryFolder folder;
-  const auto flows =
-      read_flows(disc_in_flow(folder, 3, turning), false, {0, 4, 0, 2}, {0, 2}, 2000);
+  const auto flows = scene_of(disc_in_flow(folder, 3, turning), {0}, {0, 2}, 2000).flows;
   ASSERT_EQ(flows.frames.size(), 2U);
   EXPECT_EQ(flows.frames[1].frame, 2U);
   // The corners turn at sqrt(5); a few of the 2000 points are faster than the top of the scale.
@@ -59,7 +68,7 @@ TEST(FlowFrames, TopSpeedIsThatOutsideTheParticles) {
   EXPECT_FALSE(flows.frames[0].lines.empty());
 }
 
-TEST(InPlane, SpheresOnAnAxisAreDiscsBetweenTwoWalls) {
+TEST(Scene, SpheresOnAnAxisAreDiscsBetweenTwoWalls) {
   particles::Playback playback;
   playback.dimension = 1;
   playback.radii = {1, 2};
@@ -69,7 +78,7 @@ TEST(InPlane, SpheresOnAnAxisAreDiscsBetweenTwoWalls) {
   playback.frames[0].planes = {{.point = {0, -5, 0}, .normal = {0, 1, 0}},
                                {.point = {0, 0, 0}, .normal = {1, 0, 0}},
                                {.point = {10, 0, 0}, .normal = {-1, 0, 0}}};
-  const auto plane = in_plane(playback);
+  const auto plane = scene_of(playback, {0}, {}, 2).playback;
   EXPECT_EQ(plane.dimension, 2);
   EXPECT_THAT(plane.frames[0].positions, ::testing::ElementsAre(0, 3, 0, 6));
   const std::vector<particles::PlanePosition> expected = {
@@ -98,7 +107,7 @@ TEST(SpeedColours, DarkenEvenly) {
   };
   EXPECT_EQ(speed_colour(0), "#f3fcfd");
   for (int i = 0; i < 10; ++i) EXPECT_GT(green(i / 10.0), green((i + 1) / 10.0));
-  const auto ticks = speed_ticks(0.137);
+  const auto ticks = speed_scale(0.137, 2).ticks;
   EXPECT_EQ(ticks.front().second, "0");
   EXPECT_EQ(ticks.back().second, "0.1");
 }

@@ -1,22 +1,68 @@
-// The writer of all reports: report.html, with figures that can be zoomed in a browser, and a still
-// picture plots/NAME.svg of each figure, for browsers without scripts and for printing. Pieces of
-// HTML that all pages share are here, too.
+// The writer of all reports: report.html, with plots that can be zoomed in a browser, and a still
+// picture plots/NAME.svg of each, for browsers without scripts and for printing. Pieces of HTML that
+// all pages share are here, too. Plots have no units; the labels of their axes name them.
 #pragma once
 
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/report/report_plot.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_folder.hpp"
 
 namespace viscontact::report {
+
+enum class PointKind { kNone, kCircle, kDisc, kSquare, kCross };
+
+/// How a curve is drawn.
+struct CurveStyle {
+  std::string colour{};        ///< "#rrggbb"
+  double width = 2;            ///< width of the line [pixels]; 0: points only
+  std::vector<double> dash{};  ///< lengths of dashes and spaces in turn [pixels]; empty: solid
+  PointKind point = PointKind::kNone;
+  double point_size = 1;  ///< in units of about 7 pixels
+};
+
+/// A curve of points (x, y).
+struct PlotCurve {
+  /// Words in the legend. A curve without words belongs to the entry of the curve before it.
+  std::string legend{};
+  CurveStyle style{};
+  /// The values of x must not decrease; a non-finite y interrupts the line.
+  std::vector<std::pair<double, double>> points{};
+};
+
+struct PlotAxis {
+  std::string label{};
+  bool logarithmic = false;
+  std::optional<double> low{}, high{};  ///< range before zooming; nothing: as the curves need
+};
+
+/// Where the legend of the still picture is.
+enum class KeyPlace { kBelow, kTopRight, kBottomRight };
+
+/// Curves on common axes.
+struct PlotPanel {
+  std::string title{};
+  PlotAxis x{}, y{};
+  std::vector<PlotCurve> curves{};
+  KeyPlace key = KeyPlace::kBelow;
+  std::vector<std::string> rows{};  ///< names of y = 1, 2, ... if y numbers rows from the bottom
+};
+
+/// Panels one below the other.
+struct Plot {
+  std::string name{};  ///< name of the file plots/NAME.svg
+  int height = 440;    ///< height of the still picture [pixels]
+  std::vector<PlotPanel> panels{};
+};
 
 /// The text with the special characters of HTML escaped.
 std::string escaped(std::string_view text);

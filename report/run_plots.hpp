@@ -9,7 +9,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/fit_uncertainty.hpp"
-#include "viscontact/report/report_plot.hpp"
+#include "viscontact/report/page.hpp"
 
 namespace viscontact::report {
 
