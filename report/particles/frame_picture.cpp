@@ -42,8 +42,6 @@ bool is_in_body(const particles::Playback& playback, std::size_t k) {
   return !playback.bodies.empty() && playback.bodies[k] >= 0;
 }
 
-constexpr const char* kMarkColour = "#4a4a44";
-
 /// True if the panel shows a part of a circle about (x, y) of the page.
 bool is_seen(const PanelSettings& panel, double x, double y, double r) {
   return x > -r && x < panel.width + r && y > -r && y < panel.height + r;
@@ -86,8 +84,8 @@ double smaller_radius(const PanelSettings& panel, std::size_t first, std::size_t
 
 std::string spring_path(const PanelSettings& panel, const Vector& from, const Vector& to,
                         double width) {
-  constexpr int kTurns = 12;
-  constexpr double kEnd = 0.12;  // straight part at each end, of the length
+  constexpr int kTurns = kStyle.spring_turns;
+  constexpr double kEnd = kStyle.spring_end;
   const double x = panel.view.x(from), y = panel.view.y(from), dx = panel.view.x(to) - x,
                dy = panel.view.y(to) - y, length = std::hypot(dx, dy);
   if (!(length > 0)) return "";
@@ -111,26 +109,25 @@ std::string circle(const PanelSettings& panel, const Vector& at, double radius) 
 
 /// A dot at the rim of each disc, which shows how far it has turned; nothing on very small discs.
 std::string angle_marks(const PanelSettings& panel, const Frame& frame) {
-  constexpr double kFromCentre = 0.66, kRadius = 0.13;  // of the disc's radius
-  constexpr double kSmallest = 0.5;                     // radius of a dot [page units]
+  constexpr double kSmallest = 0.5;  // radius of a dot [page units]
   if (frame.angles.size() != panel.scene.playback.radii.size()) return "";
   std::string text;
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
     const double r = panel.scene.playback.radii[k], angle = frame.angles[k];
-    if (kRadius * r * panel.view.scale >= kSmallest)
-      text += circle(panel, centre + kFromCentre * r * Vector{std::cos(angle), std::sin(angle), 0},
-                     kRadius * r);
+    if (kStyle.mark_radius * r * panel.view.scale >= kSmallest)
+      text += circle(
+          panel, centre + kStyle.mark_distance * r * Vector{std::cos(angle), std::sin(angle), 0},
+          kStyle.mark_radius * r);
   });
-  return fmt::format("<g fill=\"{}\">\n{}</g>\n", kMarkColour, text);
+  return fmt::format("<g fill=\"{}\">\n{}</g>\n", kStyle.mark, text);
 }
 
 /// Dots on sphere k where its three axes come out of it, as far as they are seen.
 std::string orientation_marks(const PanelSettings& panel, const Frame& frame, std::size_t k) {
-  constexpr double kRadius = 0.12;   // of the sphere's radius
   constexpr double kSmallest = 0.5;  // radius of a dot [page units]
   const double r = panel.scene.playback.radii[k];
   if (frame.orientations.size() != 4 * panel.scene.playback.radii.size() ||
-      kRadius * r * panel.view.scale < kSmallest)
+      kStyle.axis_radius * r * panel.view.scale < kSmallest)
     return "";
   const float* q = &frame.orientations[4 * k];
   const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -143,23 +140,23 @@ std::string orientation_marks(const PanelSettings& panel, const Frame& frame, st
   for (const auto& axis : axes)
     for (const double side : {1.0, -1.0}) {
       const double towards = side * particles::dot(axis, panel.view.toward);
-      // A dot near the rim is seen from the side.
-      if (towards > 0.15)
+      if (towards > kStyle.least_toward)
         dots += circle(panel, position(panel.scene.playback, frame, k) + side * r * axis,
-                       kRadius * r * std::sqrt(towards));
+                       kStyle.axis_radius * r * std::sqrt(towards));
     }
-  return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kMarkColour, dots);
+  return fmt::format("<g fill=\"{}\" stroke=\"none\">{}</g>\n", kStyle.mark, dots);
 }
 
 /// The discs of rigid bodies, in a colour of their own, with lines that join the discs of each.
 std::string body_discs(const PanelSettings& panel, const Frame& frame) {
   if (panel.scene.playback.bodies.empty()) return "";
-  std::string text = "<g fill=\"#e0cda6\" stroke=\"#8a713b\" stroke-width=\".6\">\n";
+  const auto [fill, edge] = kStyle.disc_of_body;
+  auto text = fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\".6\">\n", fill, edge);
   for_each_image(panel, frame, [&](std::size_t k, const Vector& centre) {
     if (is_in_body(panel.scene.playback, k))
       text += circle(panel, centre, panel.scene.playback.radii[k]);
   });
-  text += "</g>\n<g fill=\"none\" stroke=\"#8a713b\" stroke-linecap=\"round\">\n";
+  text += fmt::format("</g>\n<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\">\n", edge);
   std::map<std::int32_t, std::size_t> before;  // the last member of each body
   for (std::size_t k = 0; k < panel.scene.playback.radii.size(); k += panel.every) {
     if (!is_in_body(panel.scene.playback, k)) continue;
@@ -168,8 +165,9 @@ std::string body_discs(const PanelSettings& panel, const Frame& frame) {
     const auto path = both_sides(
         panel, frame, last->second, k,
         [&](const Vector& a, const Vector& b) { return move_to(panel, a) + line_to(panel, b); });
-    text += fmt::format("<path stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
-                        std::clamp(0.18 * smaller_radius(panel, last->second, k), 0.5, 4.0), path);
+    text += fmt::format(
+        "<path stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
+        std::clamp(kStyle.body_line * smaller_radius(panel, last->second, k), 0.5, 4.0), path);
     last->second = k;
   }
   return text + "</g>\n";
@@ -184,15 +182,15 @@ std::string link_marks(const PanelSettings& panel, const Frame& frame) {
   for (const auto& [first, second] : links.arms)
     text += fmt::format(
         "<path stroke=\"#333\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n",
-        std::clamp(0.25 * smaller_radius(panel, number(first), number(second)), 1.2, 5.0),
+        std::clamp(kStyle.arm * smaller_radius(panel, number(first), number(second)), 1.2, 5.0),
         both_sides(panel, frame, number(first), number(second),
                    [&](const Vector& a, const Vector& b) {
                      return move_to(panel, a) + line_to(panel, b);
                    }));
   for (const auto& [first, second] : links.springs) {
-    const double width =
-        std::clamp(0.35 * smaller_radius(panel, number(first), number(second)), 1.5, 6.0);
-    text += fmt::format("<path stroke=\"#2b6e3f\" stroke-width=\"1.3\" d=\"{}\"/>\n",
+    const double width = std::clamp(
+        kStyle.spring_width * smaller_radius(panel, number(first), number(second)), 1.5, 6.0);
+    text += fmt::format("<path stroke=\"{}\" stroke-width=\"1.3\" d=\"{}\"/>\n", kStyle.spring,
                         both_sides(panel, frame, number(first), number(second),
                                    [&](const Vector& a, const Vector& b) {
                                      return spring_path(panel, a, b, width);
@@ -360,8 +358,10 @@ bool drawn(const PanelSettings& d, const particles::CurrentContact& contact) {
 
 std::string discs(const PanelSettings& d, const Frame& frame, const std::string& behind) {
   std::string text = behind + plane_2d_solids(d, frame);
-  text += d.scene.is_in_fluid ? "<g fill=\"#f1ece0\" stroke=\"#3c3a34\" stroke-width=\".8\">\n"
-                              : "<g fill=\"#a9c3da\" stroke=\"#4f728f\" stroke-width=\".6\">\n";
+  const bool is_in_fluid = d.scene.is_in_fluid;
+  const auto [fill, edge] = is_in_fluid ? kStyle.disc_in_fluid : kStyle.disc;
+  text += fmt::format("<g fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">\n", fill, edge,
+                      is_in_fluid ? ".8" : ".6");
   for_each_image(d, frame, [&](std::size_t k, const Vector& centre) {
     if (!is_in_body(d.scene.playback, k)) text += circle(d, centre, d.scene.playback.radii[k]);
   });
@@ -402,8 +402,9 @@ std::string spheres(const PanelSettings& d, const Frame& frame) {
                             class_colour(line.colour), line.width, line.path);
   }
   std::string text = plane_3d_patches(d, frame, true);
-  text +=
-      "<g fill=\"url(#ball)\" stroke=\"#34536e\" stroke-width=\".5\" stroke-linecap=\"round\">\n";
+  text += fmt::format(
+      "<g fill=\"url(#ball)\" stroke=\"{}\" stroke-width=\".5\" stroke-linecap=\"round\">\n",
+      kStyle.ball.back());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto k = order[i].second;
     const auto sphere = circle(d, position(d.scene.playback, frame, k), d.scene.playback.radii[k]);

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -368,6 +369,27 @@ FlowOfPage flow_of_page(const Scene& scene) {
 
 constexpr int kPageColours = 24;
 
+/// kStyle as JSON.
+std::string style_of_page() {
+  return nlohmann::ordered_json{{"disc", kStyle.disc},
+                                {"discInFluid", kStyle.disc_in_fluid},
+                                {"discOfBody", kStyle.disc_of_body},
+                                {"ball", kStyle.ball},
+                                {"ballOfBody", kStyle.ball_of_body},
+                                {"mark", kStyle.mark},
+                                {"spring", kStyle.spring},
+                                {"markDistance", kStyle.mark_distance},
+                                {"markRadius", kStyle.mark_radius},
+                                {"axisRadius", kStyle.axis_radius},
+                                {"leastToward", kStyle.least_toward},
+                                {"bodyLine", kStyle.body_line},
+                                {"arm", kStyle.arm},
+                                {"springWidth", kStyle.spring_width},
+                                {"springTurns", kStyle.spring_turns},
+                                {"springEnd", kStyle.spring_end}}
+      .dump();
+}
+
 /// The JSON and the blocks of numbers that the script reads.
 std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& flow) {
   const auto& playback = scene.playback;
@@ -391,14 +413,14 @@ std::string data_of(const Scene& scene, const PageData& data, const FlowOfPage& 
       "<script type=\"application/json\" id=\"motion\">{{\"dimension\":{},\"every\":{},"
       "\"bytes\":{},\"low\":{},\"step\":{},\"roomLow\":{},\"roomHigh\":{},\"lowest\":{},"
       "\"touching\":\"{}\",\"colours\":[{}],\"cell\":[{},{},{},{}],\"hasAxis\":{},\"flow\":{},"
-      "\"sliding\":{},\"hinges\":[{}],\"springs\":[{}],\"arms\":[{}]}}"
+      "\"sliding\":{},\"hinges\":[{}],\"springs\":[{}],\"arms\":[{}],\"style\":{}}}"
       "</script>\n",
       playback.dimension, data.every_particle, data.position_bytes, list(data.low), list(data.step),
       list(scene.box.low), list(scene.box.high), scene.lowest_gamma, kTouchingColour, colours,
       playback.cell.from[0], playback.cell.from[1], playback.cell.lengths[0],
       playback.cell.lengths[1], scene.has_axis, flow.settings,
       playback.has_friction ? fmt::format("\"{}\"", kSlidingColour) : "null", hinges,
-      ends_of(links.springs), ends_of(links.arms));
+      ends_of(links.springs), ends_of(links.arms), style_of_page());
   for (const auto* blocks : {&data.blocks, &flow.blocks})
     for (const auto& [name, bytes] : *blocks)
       text += fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", name,

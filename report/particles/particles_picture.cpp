@@ -199,26 +199,28 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   return {x.high - x.low, y.high - y.low};
 }
 
+/// The gradient with which spheres are filled.
+std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& colours) {
+  return fmt::format(
+      "<radialGradient id=\"{}\" cx=\".36\" cy=\".32\" r=\".72\">"
+      "<stop offset=\"0\" stop-color=\"{}\"/><stop offset=\".5\" stop-color=\"{}\"/>"
+      "<stop offset=\"1\" stop-color=\"{}\"/></radialGradient>",
+      id, colours[0], colours[1], colours[2]);
+}
+
 /// The beginning of the SVG, with the title.
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" fill=\"#1a1a1a\">\n"
-      "<title>{2}</title>\n"
-      "<defs><radialGradient id=\"ball\" cx=\".36\" cy=\".32\" r=\".72\">"
-      "<stop offset=\"0\" stop-color=\"#e3eef7\"/><stop offset=\".5\" stop-color=\"#a3bfd8\"/>"
-      "<stop offset=\"1\" stop-color=\"#5b7f9f\"/></radialGradient>{5}</defs>\n"
+      "<title>{2}</title>\n<defs>{5}{6}</defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kPictureWidth, height, escaped(title), kPictureWidth / 2,
       // A character is on average about half as wide as high.
       std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
-      has_bodies ? "<radialGradient id=\"body\" cx=\".36\" cy=\".32\" r=\".72\">"
-                   "<stop offset=\"0\" stop-color=\"#f6ead0\"/><stop offset=\".5\" "
-                   "stop-color=\"#dcc79c\"/><stop offset=\"1\" stop-color=\"#a98d55\"/>"
-                   "</radialGradient>"
-                 : "");
+      gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
 
 /// The panels of the chosen frames with their times, in rows of `columns`.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -64,6 +65,31 @@ struct ShownFlows {
   std::size_t points = 0;
 };
 ShownFlows shown_flows(const particles::Playback& playback);
+
+/// Colours and proportions that the still picture and the page have in common. The page gets them as
+/// JSON, by the same names.
+struct SceneStyle {
+  using Colour = const char*;  ///< "#rrggbb"
+  /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.
+  std::array<Colour, 2> disc{"#a9c3da", "#4f728f"}, disc_in_fluid{"#f1ece0", "#3c3a34"},
+      disc_of_body{"#e0cda6", "#8a713b"};
+  /// Of a sphere from its brightest point to its rim, then of its edge; and of a rigid body's.
+  std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
+      ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
+  Colour mark = "#4a4a44", spring = "#2b6e3f";
+  /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
+  /// radius of the disc; the radius of the dots at the axes of a sphere, over that of the sphere.
+  double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
+  /// An axis is marked if its component towards the reader is larger; at the rim it is seen from the
+  /// side.
+  double least_toward = 0.15;
+  /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
+  /// over the smaller radius of both ends.
+  double body_line = 0.18, arm = 0.25, spring_width = 0.35;
+  int spring_turns = 12;     ///< corners of the zigzag line of a spring
+  double spring_end = 0.12;  ///< length of its straight ends over the whole length
+};
+inline constexpr SceneStyle kStyle;
 
 /// The description of a motion from which the still picture and the page are drawn.
 struct Scene {
