@@ -210,9 +210,17 @@ std::string link_to(const results::RunFolder& run, const std::string& file,
              : text;
 }
 
-std::string table_of(const std::string& rows) {
-  return "<div class=scroll><table>\n" + rows + "</table></div>\n";
+std::string headings(std::initializer_list<std::string_view> cells) {
+  return fmt::format("<tr><th>{}</th></tr>", fmt::join(cells, "</th><th>"));
 }
+
+std::string table_of(const std::string& rows, const std::string& head) {
+  if (head.empty()) return "<div class=scroll><table>\n" + rows + "</table></div>\n";
+  return fmt::format(
+      "<div class=scroll><table><thead>{}</thead><tbody>\n{}</tbody></table></div>\n", head, rows);
+}
+
+std::string source(const std::string& words) { return "<p class=source>From " + words + ".</p>\n"; }
 
 std::string warnings_box(const std::vector<std::string>& items) {
   if (items.empty()) return "";

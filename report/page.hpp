@@ -84,14 +84,22 @@ std::string table_row(const Cells&... cells) {
   return row + "</tr>\n";
 }
 
-/// A table with these rows, which can be scrolled if it is wider than the page.
-std::string table_of(const std::string& rows);
+/// A row of headings "<tr><th>a</th><th>b</th></tr>", which must be HTML already.
+std::string headings(std::initializer_list<std::string_view> cells);
+
+/// A table with these rows, which can be scrolled if it is wider than the page. `head` are its rows
+/// of headings; empty: they are among the rows, if there are any.
+std::string table_of(const std::string& rows, const std::string& head = {});
+
+/// The files from which the numbers above it are.
+std::string source(const std::string& words);
 
 /// Items of HTML as a box with warnings; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items);
 
-/// The beginning of any page, up to its body: the title, `style` (CSS), and a policy that forbids
-/// the browser to load anything from elsewhere, except images in the page if `has_images`.
+/// The beginning of any page, up to its body: the title, `style` (CSS), `more` elements of the head,
+/// and a policy that forbids the browser to load anything from elsewhere, except images that are in
+/// the page if `has_images`.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more = {});
 
@@ -117,7 +125,7 @@ class Report {
     figures_.push_back({{.name = name}, std::move(svg)});
   }
 
-  /// The figures with these names as HTML, as far as there are such figures; of no name, all.
+  /// The figures with these names as HTML, as far as there are such figures; without names, all.
   std::string figures(std::initializer_list<std::string_view> names = {}) const;
 
   /// Writes the pictures and report.html, and removes pictures of an earlier report that this one

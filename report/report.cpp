@@ -257,7 +257,7 @@ std::string trust(const lubrication::FitDiagnostics& d) {
 
 /// The name of a model as a link to its trajectory.
 std::string model_link(const results::RunResults& run, const std::string& model) {
-  return link_to(run.folder, "trajectories/" + model + ".csv", model);
+  return link_to(run.folder, trajectory_name(model), model);
 }
 
 std::string drag_in_words(const results::RunResults& run) {
@@ -316,11 +316,9 @@ std::string parameters_table(const results::RunResults& run) {
     add("accuracy asked of the table",
         link_to(run.folder, "table.csv", fmt::format("{:g}", c.tabulation->relative_accuracy)),
         "1");
-  return fmt::format(
-      "<p>From {}. Any coherent system of units: M mass, L length, T time.</p>\n"
-      "<div class=scroll><table><thead><tr><th>parameter</th><th>value</th><th>dimension</th></tr>"
-      "</thead><tbody>\n{}</tbody></table></div>\n",
-      link_to(run.folder, "case.toml"), rows);
+  return fmt::format("<p>From {}. Any coherent system of units: M mass, L length, T time.</p>\n",
+                     link_to(run.folder, "case.toml")) +
+         table_of(rows, headings({"parameter", "value", "dimension"}));
 }
 
 /// Smallest gap, times of contact and distance to the reference of each model.
@@ -340,15 +338,15 @@ std::string models_table(const results::RunResults& run) {
   for (const auto& failed : run.comparison.failed_models)
     rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n",
                         escaped(failed.model), escaped(failed.reason));
-  return fmt::format(
-      "<div class=scroll><table><thead><tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th>"
-      "<th rowspan=2>at time</th><th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"
-      "<th colspan=3 class=group>distance to {}</th></tr>\n"
-      "<tr><th>max |q &minus; q<sub>ref</sub>|</th><th>&int; |q &minus; q<sub>ref</sub>| dt</th>"
-      "<th>&int; |u &minus; u<sub>ref</sub>| "
-      "dt</th></tr></thead><tbody>\n{}</tbody></table></div>\n"
-      "<p class=source>From {}; each model's name leads to its trajectory.</p>\n",
-      escaped(run.comparison.reference_model), rows, link_to(run.folder, "comparison.json"));
+  const auto head = fmt::format(
+      "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th><th rowspan=2>at time</th>"
+      "<th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"
+      "<th colspan=3 class=group>distance to {}</th></tr>\n{}",
+      escaped(run.comparison.reference_model),
+      headings({"max |q &minus; q<sub>ref</sub>|", "&int; |q &minus; q<sub>ref</sub>| dt",
+                "&int; |u &minus; u<sub>ref</sub>| dt"}));
+  return table_of(rows, head) + source(link_to(run.folder, "comparison.json") +
+                                       "; each model's name leads to its trajectory");
 }
 
 /// The impacts on the solids of each model; empty if there are none.
@@ -363,15 +361,11 @@ std::string rebounds_table(const results::RunResults& run) {
                         fmt::format("{:.5g}", of.coefficient));
     }
   if (rows.empty()) return "";
-  return fmt::format(
-      "<div class=scroll><table><thead><tr><th>model</th><th>number</th>"
-      "<th>time</th><th>velocity of approach</th><th>impulse of the solids</th>"
-      "<th>velocity of "
-      "rebound</th><th>coefficient</th></tr></thead><tbody>\n{}</tbody></table></div>\n"
-      "<p class=source>From {}. The coefficient is that of the velocities where the sphere meets "
-      "and "
-      "leaves the film.</p>\n",
-      rows, link_to(run.folder, "comparison.json"));
+  return table_of(rows, headings({"model", "number", "time", "velocity of approach",
+                                  "impulse of the solids", "velocity of rebound", "coefficient"})) +
+         source(link_to(run.folder, "comparison.json") +
+                ". The coefficient is that of the velocities where the sphere meets and leaves the "
+                "film");
 }
 
 /// The budget (impulses and works) of each model; empty if no model has one.
@@ -385,14 +379,12 @@ std::string budget_table(const results::RunResults& run) {
     rows += "</tr>\n";
   }
   if (rows.empty()) return "";
-  return fmt::format(
-      "<div class=scroll><table><thead><tr><th rowspan=2>model</th><th colspan=4 "
-      "class=group>impulse on the "
-      "sphere</th><th colspan=4 class=group>work done on "
-      "it</th></tr>\n<tr>{0}{0}</tr></thead><tbody>\n"
-      "{1}</tbody></table></div>\n<p class=source>From {2}.</p>\n",
-      "<th>external</th><th>film</th><th>drag</th><th>solid</th>", rows,
-      link_to(run.folder, "comparison.json"));
+  return table_of(rows,
+                  "<tr><th rowspan=2>model</th><th colspan=4 class=group>impulse on the sphere</th>"
+                  "<th colspan=4 class=group>work done on it</th></tr>\n" +
+                      headings({"external", "film", "drag", "solid", "external", "film", "drag",
+                                "solid"})) +
+         source(link_to(run.folder, "comparison.json"));
 }
 
 /// The coefficients of the fit and its diagnostics.
@@ -407,14 +399,12 @@ std::string fit_table(const results::RunResults& run) {
                       term.is_fixed ? "fixed" : fmt::format("{:.2g}", term.standard_error));
   return fmt::format(
              "<p>F(q) at velocity {}, {} weights: largest relative residual {:.3g}, root mean "
-             "square {:.3g}, condition number {:.3g}.</p>\n"
-             "<div class=scroll><table><thead><tr><th>term</th><th>coefficient</th><th>standard "
-             "error</th></tr></thead><tbody>\n{}</tbody></table></div>\n<p class=source>From "
-             "{}{}.</p>\n",
+             "square {:.3g}, condition number {:.3g}.</p>\n",
              fit.reference_velocity, lubrication::to_string(fit.weights),
-             fit.largest_relative_residual, fit.rms_relative_residual, fit.condition_number, rows,
-             link_to(run.folder, "fit.json"),
-             run.table ? ", the table in " + link_to(run.folder, "table.csv") : "") +
+             fit.largest_relative_residual, fit.rms_relative_residual, fit.condition_number) +
+         table_of(rows, headings({"term", "coefficient", "standard error"})) +
+         source(link_to(run.folder, "fit.json") +
+                (run.table ? ", the table in " + link_to(run.folder, "table.csv") : "")) +
          (fit.diagnostics ? trust(*fit.diagnostics) : "");
 }
 

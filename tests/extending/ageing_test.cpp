@@ -80,7 +80,7 @@ class AgeingFilm : public ::testing::Test {
     const auto path = out(name) / ("particles_" + number + ".vtp");
     const std::string text = read_file(path);
     const auto values =
-        particles::AppendedReader(text, path.string(), "frame").array<double>("CellData", array);
+        AppendedReader(text, path.string(), "frame").array<double>("CellData", array);
     EXPECT_LE(values.size(), 1U);
     return values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
   }

@@ -71,7 +71,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // obstacles in words
                   Found("case_file/particles/particles_start.cpp", "plane"),
                   Found("case_file/fluid/fluid_start.cpp", "plane"),
-                  Found("particles/simulation_errors.cpp", "plane"),
+                  Found("particles/step_residuals.cpp", "plane"),
                   // a key in the head of a file of a sweep
                   Found("sweep/sweep.cpp", "reference"),
                   // a part of the boundary, which FreeFEM's scripts print
