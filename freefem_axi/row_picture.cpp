@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
-#include "viscontact/common/text/number.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/freefem_axi/motions/motion_row.hpp"
 
 namespace viscontact::freefem_axi {
@@ -22,29 +21,35 @@ class PictureReader {
  public:
   explicit PictureReader(const std::string& output) : stream_(output) {}
 
-  /// Reads the next mesh, with `columns` numbers for each node. The numbers after (rho, z) are
-  /// stored in `fields`.
-  CurvedMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields) {
+  /// Reads the next mesh, with `columns` numbers for each node, and its boundary. The numbers after
+  /// (rho, z) are stored in `fields`.
+  QuadraticMesh read_mesh(std::size_t columns, std::vector<std::vector<double>>& fields,
+                          std::vector<BoundaryEdge>& boundary) {
     std::string line;
     while (std::getline(stream_, line) && !line.starts_with("viscontact-mesh ")) {
     }
     std::istringstream head(line);
     std::string word;
     head >> word;
-    CurvedMesh mesh;
-    mesh.nodes.resize(size_from(head));
+    QuadraticMesh mesh;
+    const auto nodes = size_from(head);
+    mesh.x.resize(nodes);
+    mesh.y.resize(nodes);
     mesh.triangles.resize(size_from(head));
-    mesh.boundary.resize(size_from(head));
-    fields.assign(columns - 2, std::vector<double>(mesh.nodes.size()));
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-      for (double& coordinate : mesh.nodes[i]) coordinate = number();
+    boundary.resize(size_from(head));
+    fields.assign(columns - 2, std::vector<double>(nodes));
+    for (std::size_t i = 0; i < nodes; ++i) {
+      mesh.x[i] = number();
+      mesh.y[i] = number();
       for (auto& field : fields) field[i] = number();
     }
+    // FreeFEM's middle i is that of the side opposite to corner i.
     for (auto& triangle : mesh.triangles)
-      for (auto& node : triangle) node = node_of(mesh);
-    for (auto& edge : mesh.boundary) {
+      for (const std::size_t place : {0, 1, 2, 4, 5, 3})
+        triangle.at(place) = static_cast<std::int32_t>(node_below(nodes));
+    for (auto& edge : boundary) {
       edge.kind = boundary_kind();
-      for (auto& node : edge.nodes) node = node_of(mesh);
+      for (auto& node : edge.nodes) node = node_below(nodes);
     }
     return mesh;
   }
@@ -75,21 +80,14 @@ class PictureReader {
     if (found == kWords.end()) fail();
     return static_cast<BoundaryKind>(found - kWords.begin());
   }
-  std::size_t node_of(const CurvedMesh& mesh) {
+  std::size_t node_below(std::size_t nodes) {
     std::size_t node = 0;
-    if (!(stream_ >> node) || node >= mesh.nodes.size()) fail();
+    if (!(stream_ >> node) || node >= nodes) fail();
     return node;
   }
 
   std::istringstream stream_;
 };
-
-template <class Write>
-std::string data_array(std::string_view attributes, std::size_t count, const Write& write) {
-  std::string text = fmt::format("<DataArray {} format=\"ascii\">\n", attributes);
-  for (std::size_t i = 0; i < count; ++i) text += write(i) + "\n";
-  return text + "</DataArray>\n";
-}
 
 /// What velocities, pressure and the last column of FreeFEM are multiplied by.
 std::array<double, 4> factors_of_approach(const Tabulation& tabulation, double velocity) {
@@ -131,62 +129,24 @@ RowPicture solve_row_for_picture(const FreeFem& freefem, const Tabulation& tabul
   PictureReader reader(output);
   constexpr std::size_t kColumns = 6;
   std::vector<std::vector<double>> fields;
-  picture.flow.mesh = reader.read_mesh(kColumns, fields);
+  static_cast<QuadraticMesh&>(picture.flow) = reader.read_mesh(kColumns, fields, picture.boundary);
   const auto factors = approaches ? factors_of_approach(tabulation, reference_velocity)
                                   : factors_of_motion(tabulation, motion, reference_velocity);
   for (std::size_t k = 0; k < fields.size(); ++k)
     for (double& value : fields[k]) value *= factors.at(k);
-  picture.flow.velocity.resize(fields[0].size());
-  for (std::size_t i = 0; i < fields[0].size(); ++i)
-    picture.flow.velocity[i] = {fields[0][i], fields[1][i]};
+  picture.flow.velocity_x = std::move(fields[0]);
+  picture.flow.velocity_y = std::move(fields[1]);
   picture.flow.pressure = std::move(fields[2]);
-  (approaches ? picture.flow.stream_function : picture.flow.azimuthal_velocity) =
-      std::move(fields[3]);
-  picture.coarsest = reader.read_mesh(2, fields);
+  (approaches ? picture.stream_function : picture.azimuthal_velocity) = std::move(fields[3]);
+  std::vector<BoundaryEdge> boundary;
+  picture.coarsest = reader.read_mesh(2, fields, boundary);
   return picture;
 }
 
-std::string write_vtu(const Flow& flow) {
-  constexpr int kQuadraticTriangle = 22;  // number of this cell type in VTK
-  constexpr std::size_t kNodes = 6;
-  const auto& mesh = flow.mesh;
-  const auto at_point = [&](const std::vector<double>& field) {
-    return [&field](std::size_t i) { return format_number(field[i]); };
-  };
-  const auto vector = [&](const std::vector<std::array<double, 2>>& field) {
-    return [&field](std::size_t i) {
-      return format_number(field[i][0]) + " " + format_number(field[i][1]) + " 0";
-    };
-  };
-  const std::size_t points = mesh.nodes.size(), cells = mesh.triangles.size();
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-      points, cells);
-  text += "<PointData Scalars=\"pressure\" Vectors=\"velocity\">\n";
-  text += data_array(R"(type="Float64" Name="velocity" NumberOfComponents="3")", points,
-                     vector(flow.velocity));
-  text += data_array(R"(type="Float64" Name="pressure")", points, at_point(flow.pressure));
-  const bool is_axisymmetric = flow.azimuthal_velocity.empty();
-  text += data_array(fmt::format(R"(type="Float64" Name="{}")",
-                                 is_axisymmetric ? "stream_function" : "azimuthal_velocity"),
-                     points,
-                     at_point(is_axisymmetric ? flow.stream_function : flow.azimuthal_velocity));
-  text += "</PointData>\n<Points>\n";
-  text += data_array(R"(type="Float64" NumberOfComponents="3")", points, vector(mesh.nodes));
-  text += "</Points>\n<Cells>\n";
-  text += data_array(R"(type="Int64" Name="connectivity")", cells, [&](std::size_t i) {
-    // The mid-side nodes of VTK are in the order of the sides, those of CurvedMesh in the order of
-    // the opposite vertices.
-    const auto& [v0, v1, v2, m0, m1, m2] = mesh.triangles[i];
-    return fmt::format("{} {} {} {} {} {}", v0, v1, v2, m2, m0, m1);
-  });
-  text += data_array(R"(type="Int64" Name="offsets")", cells,
-                     [](std::size_t i) { return std::to_string((i + 1) * kNodes); });
-  text += data_array(R"(type="UInt8" Name="types")", cells,
-                     [](std::size_t) { return std::to_string(kQuadraticTriangle); });
-  return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+std::string write_vtu(const RowPicture& picture) {
+  return picture.azimuthal_velocity.empty()
+             ? write_flow(picture.flow, false, "stream_function", picture.stream_function)
+             : write_flow(picture.flow, false, "azimuthal_velocity", picture.azimuthal_velocity);
 }
 
 }  // namespace viscontact::freefem_axi

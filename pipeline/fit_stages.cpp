@@ -12,7 +12,6 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/lubrication/lubrication_force.hpp"
-#include "viscontact/report/pictures/shift_plot.hpp"
 #include "viscontact/report/summaries.hpp"
 #include "viscontact/results/picture_kind.hpp"
 #include "viscontact/results/versions.hpp"

@@ -1,26 +1,29 @@
-// Writes the report: tables, warnings, plots and provenance. gnuplot draws the plots as still
-// pictures, and report/page/panels.js draws them so that they can be zoomed. kPlotNames must
-// contain the name of every plot, because it decides which files in plots/ may be replaced or
-// removed.
+// The report of a run: warnings, tables, plots and provenance (report.hpp). kPlotNames must contain
+// the name of every plot, because it decides which files in plots/ may be replaced or removed. Gaps
+// [L] and times [T] are in the units of the case.
 #include "viscontact/report/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <exception>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/report/html/figures.hpp"
-#include "viscontact/report/html/html.hpp"
-#include "viscontact/report/html/report_tables.hpp"
-#include "viscontact/report/report_plots.hpp"
-#include "viscontact/report/report_warnings.hpp"
-#include "viscontact/results/foreign_files.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/shell_words.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/report/page.hpp"
+#include "viscontact/report/run_plots.hpp"
 #include "viscontact/results/provenance.hpp"
 #include "viscontact/results/run_results.hpp"
-#include "viscontact/terminal/progress.hpp"
+#include "viscontact/results/versions.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -29,7 +32,439 @@ constexpr auto kPlotNames =
     std::to_array<std::string_view>({"thinnest_film", "gap", "gap_logarithmic", "external_force",
                                      "gamma", "solid_force", "fit", "uncertainty"});
 
-constexpr std::string_view kStillPicture = "<div class=still><svg";
+/// A warning of the report.
+struct ReportWarning {
+  std::string text;  ///< a sentence with numbers, without the full stop
+  std::string file;  ///< file of these numbers, relative to the run's folder
+};
+
+/// A fit is called poor if its largest relative residual is above this.
+constexpr double kPoorFit = 0.01;
+
+/// The report warns if more than this share of the random draws of coefficients was refused.
+constexpr double kManyRefused = 0.01;
+
+/// The warnings so far.
+struct Warnings {
+  std::vector<ReportWarning> all{};
+
+  /// Adds a warning with the file of its numbers; the other arguments are those of fmt::format.
+  template <class... Numbers>
+  void add(const std::string& file, fmt::format_string<Numbers...> text, Numbers&&... numbers) {
+    all.push_back({fmt::format(text, std::forward<Numbers>(numbers)...), file});
+  }
+};
+
+std::string trajectory_name(const std::string& model) { return "trajectories/" + model + ".csv"; }
+
+/// Warns of gaps and recovered films outside the fit's interval, where the table has no row.
+void add_extrapolation(Warnings& warnings, const results::RunResults& run) {
+  if (run.fit.terms.empty()) return;  // exact
+  const auto [low, high] = run.fit.gap_interval;
+  const lubrication::LubricationForce force(run.fit,
+                                            {lubrication::BelowInterval::kLubricationLimit});
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = reduced_model::known_model(trajectory.model);
+    if (!choice || choice->exact_drag) continue;
+    const auto [first, last] =
+        std::ranges::minmax_element(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap);
+    const double smallest = first->gap, largest = last->gap;
+    const bool contact = choice->model->contact != nullptr;
+    // In contact, the gap of a contact model is 0, where no drag is computed; the recovered film is
+    // compared instead.
+    const double thinnest = contact ? trajectory.recovered_minimal_gap.value_or(low) : smallest;
+    if (thinnest > 0 && thinnest < low)
+      warnings.add(
+          trajectory_name(trajectory.model),
+          "Extrapolation: {} gets down to {} {:.4g}, below the smallest fitted gap, {:.4g}",
+          trajectory.model, contact ? "a film of" : "a gap of", thinnest, low);
+    const bool drag_at_distance =
+        !contact ||
+        reduced_model::contact_model_of(*choice, run.c.motion.value(), force).drag.has_value();
+    if (largest > high && drag_at_distance)
+      warnings.add(
+          trajectory_name(trajectory.model),
+          "Extrapolation: {} gets up to a gap of {:.4g}, above the largest fitted gap, {:.4g}",
+          trajectory.model, largest, high);
+  }
+}
+
+void add_failed_models(Warnings& warnings, const results::RunResults& run) {
+  for (const auto& failed : run.comparison.failed_models)
+    warnings.add("failed_models.json", "{} failed and has no trajectory: {}", failed.model,
+                 failed.reason);
+}
+
+/// Warns if the residuals are larger than the table's error estimates. Each residual is compared
+/// with the error estimate of its own row, because that of another row may be much larger. A fit
+/// file of an earlier version does not have this comparison.
+void add_coarser_than_table(Warnings& warnings, const lubrication::FitDiagnostics& d) {
+  if (d.misfit != lubrication::Misfit::kBasis) return;
+  if (const auto& worst = d.worst_to_estimate)
+    warnings.add("fit.json",
+                 "The fit is coarser than the table: {} of {} rows have a relative residual "
+                 "above their own error estimate, most of all the row at gap {:.4g} ({:.2g}, "
+                 "which is {:.2g} times its estimate); another basis can do better",
+                 d.rows_beyond_estimate, d.rows, worst->gap, std::abs(worst->relative_residual),
+                 worst->ratio);
+  else
+    warnings.add("fit.json",
+                 "The fit is coarser than the table: chi-squared is {:.2g} for "
+                 "{} degrees of freedom; another basis can do better",
+                 d.chi_squared.value_or(0), d.degrees_of_freedom);
+}
+
+void add_poor_fit(Warnings& warnings, const lubrication::Fit& fit) {
+  const auto& diagnostics = fit.diagnostics;
+  if (std::abs(fit.largest_relative_residual) > kPoorFit)
+    warnings.add("fit.json",
+                 "Poor fit: the largest relative residual is {:.2g}{}; "
+                 "a fit is called poor above {:g}",
+                 fit.largest_relative_residual,
+                 diagnostics ? fmt::format(" (at gap {:.4g})", diagnostics->worst_gap) : "",
+                 kPoorFit);
+  if (!diagnostics) return;
+  for (const auto& warning : diagnostics->warnings) warnings.add("fit.json", "Fit: {}", warning);
+  add_coarser_than_table(warnings, *diagnostics);
+}
+
+void add_unmet_accuracy(Warnings& warnings, const results::RunResults& run) {
+  if (!run.table || !run.c.tabulation) return;
+  const double asked = run.c.tabulation->relative_accuracy;
+  const auto unmet = std::ranges::count_if(
+      run.table->rows, [&](const auto& row) { return row.relative_error_estimate > asked; });
+  if (unmet == 0) return;
+  const auto worst = std::ranges::max_element(run.table->rows, {},
+                                              &lubrication::ForceTableRow::relative_error_estimate);
+  warnings.add("table.csv",
+               "Accuracy not met: {} of {} rows of the table have an error estimate above the "
+               "relative {:.2g} asked for, the largest {:.2g} at gap {:.4g}",
+               unmet, run.table->rows.size(), asked, worst->relative_error_estimate, worst->gap);
+}
+
+void add_passage_through_plane(Warnings& warnings, const results::RunResults& run) {
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = reduced_model::known_model(trajectory.model);
+    if (!choice || choice->model->contact != nullptr || trajectory.rows.back().gap > 0) continue;
+    warnings.add(trajectory_name(trajectory.model),
+                 "The sphere of {} goes through the plane at time {:.4g}, although "
+                 "the drag of a film forbids it: the time step is too long",
+                 trajectory.model, trajectory.rows.back().time);
+  }
+}
+
+/// Warns if models that do not compute the solid contact have gaps at which the rough surfaces
+/// would touch.
+void add_roughness(Warnings& warnings, const results::RunResults& run) {
+  const auto& motion = run.c.motion.value();
+  const double roughness = motion.roughness[0] + motion.roughness[1];
+  for (const auto& trajectory : run.trajectories) {
+    const auto choice = reduced_model::known_model(trajectory.model);
+    if (!choice || choice->model->contact != nullptr) continue;
+    const double smallest =
+        std::ranges::min(trajectory.rows, {}, &reduced_model::TrajectoryRow::gap).gap;
+    if (smallest < roughness)
+      warnings.add(trajectory_name(trajectory.model),
+                   "{} ignores the roughness: its gap falls to {:.4g}, but the solids would "
+                   "touch at {:.4g}",
+                   trajectory.model, smallest, roughness);
+  }
+}
+
+void add_refused_draws(Warnings& warnings, const results::RunResults& run) {
+  if (!run.uncertainty) return;
+  const auto& u = *run.uncertainty;
+  if (static_cast<double>(u.refused) > kManyRefused * static_cast<double>(u.draws))
+    warnings.add("uncertainty.json",
+                 "{} of {} draws of the fit's coefficients were refused, because they "
+                 "give no possible drag; the interval from the others is too narrow",
+                 u.refused, u.draws);
+}
+
+/// Warns of files that were made from other inputs: the hash that they record differs from that of
+/// the file in the folder.
+void add_other_origin(Warnings& warnings, const results::RunResults& run) {
+  const auto fit_hash = results::content_sha256(read_file(run.folder.fit()));
+  const std::array<std::pair<std::string, std::string>, 2> inputs = {
+      {{"case", sha256(run.c.text)}, {"fit", fit_hash}}};
+  for (const auto& trajectory : run.trajectories)
+    for (const auto& [key, hash] : inputs) {
+      const auto found = trajectory.provenance.find(key);
+      if (found == trajectory.provenance.end() || found->second == hash) continue;
+      warnings.add(trajectory_name(trajectory.model),
+                   "{} was made from another {} than the one in this folder", trajectory.model,
+                   key);
+    }
+  if (run.table && !run.fit.table_sha256.empty() &&
+      run.fit.table_sha256 != results::content_sha256(read_file(run.folder.table())))
+    warnings.add("fit.json", "The fit was made from another table than the one in this folder");
+  for (const auto& model : run.comparison.models)
+    if (std::ranges::find(run.trajectories, model.model, &reduced_model::Trajectory::model) ==
+        run.trajectories.end())
+      warnings.add("comparison.json",
+                   "The trajectory of {} is not in this folder and in no plot; copy it into "
+                   "trajectories/ and compare again",
+                   model.model);
+}
+
+/// The warnings of a run, in this order: models that failed, drag from outside the fit's interval,
+/// a poor fit, rows less accurate than was asked, spheres that go through the plane, roughness that
+/// a model does not know, refused draws, files that were not made from each other. Empty if there
+/// is nothing to warn of.
+std::vector<ReportWarning> warnings_of(const results::RunResults& run) {
+  Warnings warnings;
+  add_failed_models(warnings, run);
+  add_extrapolation(warnings, run);
+  add_poor_fit(warnings, run.fit);
+  add_unmet_accuracy(warnings, run);
+  add_passage_through_plane(warnings, run);
+  add_roughness(warnings, run);
+  add_refused_draws(warnings, run);
+  add_other_origin(warnings, run);
+  return warnings.all;
+}
+
+std::string trust(const lubrication::FitDiagnostics& d) {
+  std::string text;
+  if (d.leave_one_out_rms)
+    text += fmt::format("Each row predicted from the others: root mean square {:.3g}",
+                        *d.leave_one_out_rms);
+  if (d.left_out_inner)
+    text += fmt::format(", between the rows at worst {:.3g} at gap {:.4g}",
+                        d.left_out_inner->relative_residual, d.left_out_inner->gap);
+  if (d.left_out_end)
+    text += fmt::format(", beyond an end (an extrapolation) {:.3g} at gap {:.4g}",
+                        d.left_out_end->relative_residual, d.left_out_end->gap);
+  // A fit file of an earlier version has one value for inner rows and end rows together.
+  if (d.leave_one_out_rms && !d.left_out_inner && !d.left_out_end)
+    text += fmt::format(", largest {:.3g} at gap {:.4g}", d.leave_one_out_largest.value(),
+                        d.leave_one_out_gap.value());
+  if (d.leave_one_out_rms) text += ". ";
+  if (d.chi_squared)
+    text += fmt::format(
+        "Chi-squared against the table's error estimates: {:.3g} for {} degrees of freedom{}.",
+        *d.chi_squared, d.degrees_of_freedom,
+        d.misfit == lubrication::Misfit::kBasis
+            ? ": the basis causes the misfit, but the standard errors treat it as noise"
+            : "");
+  if (!text.empty()) text = "<p>" + text + "</p>\n";
+  for (const auto& outlier : d.outliers)
+    text += fmt::format(
+        "<p>Outlier at gap {:.6g}: the relative difference of the fit is {:+.2g}.</p>\n",
+        outlier.gap, outlier.relative_residual);
+  return text;
+}
+
+/// The name of a model as a link to its trajectory.
+std::string model_link(const results::RunResults& run, const std::string& model) {
+  return link_to(run.folder, trajectory_name(model), model);
+}
+
+std::string drag_in_words(const results::RunResults& run) {
+  const lubrication::Fit& fit = run.fit;
+  if (fit.terms.empty()) return "Brenner's exact series; nothing is fitted";
+  return fmt::format("{}, gaps from {:.4g} to {:.4g}",
+                     fit.table_sha256.empty() ? "a given fit" : "a fit", fit.gap_interval[0],
+                     fit.gap_interval[1]);
+}
+
+/// The command as a user would type it in a shell.
+std::string command_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const auto& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  return line;
+}
+
+std::optional<results::Provenance> provenance_or_none(const std::filesystem::path& path) {
+  try {
+    return results::read_provenance(path);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::string hash_cell(const std::string& sha256) {
+  return "<code class=hash>" + escaped(sha256) + "</code>";
+}
+
+/// The parameters of the case with their dimensions.
+std::string parameters_table(const results::RunResults& run) {
+  const case_file::Case& c = run.c;
+  const auto& motion = case_file::required_motion(c);
+  std::string rows;
+  const auto add = [&](std::string_view name, const std::string& value,
+                       std::string_view dimension) { rows += table_row(name, value, dimension); };
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  add("viscosity", number(c.viscosity), "M L<sup>-1</sup> T<sup>-1</sup>");
+  add("radius of the sphere", number(c.radius), "L");
+  add("mass", number(motion.mass), "M");
+  add("initial gap", number(motion.initial_gap), "L");
+  add("initial velocity", number(motion.initial_velocity), "L T<sup>-1</sup>");
+  add("end time", number(motion.end_time), "T");
+  add("roughness of sphere and plane",
+      fmt::format("{}, {}", motion.roughness[0], motion.roughness[1]), "L");
+  for (const auto& parameter : reduced_model::model_parameters())
+    add(parameter.description, number(motion.parameter(parameter)), parameter.dimension);
+  add("external force", link_to(run.folder, "plots/external_force.svg", "over time"),
+      "M L T<sup>-2</sup>");
+  if (run.table) {
+    add("geometry", escaped(run.table->geometry), "L");
+    add("container", escaped(run.table->container), "L");
+  }
+  add("lubrication force", link_to(run.folder, "fit.json", drag_in_words(run)), "");
+  if (c.tabulation && run.table)
+    add("accuracy asked of the table",
+        link_to(run.folder, "table.csv", fmt::format("{:g}", c.tabulation->relative_accuracy)),
+        "1");
+  return fmt::format("<p>From {}. Any coherent system of units: M mass, L length, T time.</p>\n",
+                     link_to(run.folder, "case.toml")) +
+         table_of(rows, headings({"parameter", "value", "dimension"}));
+}
+
+/// Smallest gap, times of contact and distance to the reference of each model.
+std::string models_table(const results::RunResults& run) {
+  std::string rows;
+  for (const auto& model : run.comparison.models)
+    rows += table_row(
+        model_link(run, model.model), fmt::format("{:.6g}", model.minimal_gap),
+        fmt::format("{:.5g}", model.minimal_gap_time),
+        model.recovered_minimal_gap ? fmt::format("{:.6g}", *model.recovered_minimal_gap)
+                                    : "&ndash;",
+        model.contact_interval ? fmt::format("{:.4g} to {:.4g}", (*model.contact_interval)[0],
+                                             (*model.contact_interval)[1])
+                               : "&ndash;",
+        fmt::format("{:.3g}", model.sup_gap_distance), fmt::format("{:.3g}", model.l1_gap_distance),
+        fmt::format("{:.3g}", model.l1_velocity_distance));
+  for (const auto& failed : run.comparison.failed_models)
+    rows += fmt::format("<tr><td>{}</td><td colspan=7>failed: {}</td></tr>\n",
+                        escaped(failed.model), escaped(failed.reason));
+  const auto head = fmt::format(
+      "<tr><th rowspan=2>model</th><th rowspan=2>smallest gap</th><th rowspan=2>at time</th>"
+      "<th rowspan=2>film from gamma</th><th rowspan=2>in contact</th>"
+      "<th colspan=3 class=group>distance to {}</th></tr>\n{}",
+      escaped(run.comparison.reference_model),
+      headings({"max |q &minus; q<sub>ref</sub>|", "&int; |q &minus; q<sub>ref</sub>| dt",
+                "&int; |u &minus; u<sub>ref</sub>| dt"}));
+  return table_of(rows, head) + source(link_to(run.folder, "comparison.json") +
+                                       "; each model's name leads to its trajectory");
+}
+
+/// The impacts on the solids of each model; empty if there are none.
+std::string rebounds_table(const results::RunResults& run) {
+  std::string rows;
+  for (const auto& model : run.comparison.models)
+    for (std::size_t n = 0; n < model.rebounds.size(); ++n) {
+      const auto& of = model.rebounds[n];
+      rows += table_row(model_link(run, model.model), fmt::format("{}", n + 1),
+                        fmt::format("{:.6g}", of.time), fmt::format("{:.5g}", of.approach_velocity),
+                        fmt::format("{:.5g}", of.solid_impulse), fmt::format("{:.5g}", of.velocity),
+                        fmt::format("{:.5g}", of.coefficient));
+    }
+  if (rows.empty()) return "";
+  return table_of(rows, headings({"model", "number", "time", "velocity of approach",
+                                  "impulse of the solids", "velocity of rebound", "coefficient"})) +
+         source(link_to(run.folder, "comparison.json") +
+                ". The coefficient is that of the velocities where the sphere meets and leaves the "
+                "film");
+}
+
+/// The budget (impulses and works) of each model; empty if no model has one.
+std::string budget_table(const results::RunResults& run) {
+  std::string rows;
+  for (const auto& model : run.comparison.models) {
+    if (!model.budget) continue;
+    rows += "<tr><td>" + model_link(run, model.model) + "</td>";
+    for (const auto& entry : reduced_model::kBudgetEntries)
+      rows += fmt::format("<td>{:.5g}</td>", (*model.budget).*entry.value);
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return table_of(rows,
+                  "<tr><th rowspan=2>model</th><th colspan=4 class=group>impulse on the sphere</th>"
+                  "<th colspan=4 class=group>work done on it</th></tr>\n" +
+                      headings({"external", "film", "drag", "solid", "external", "film", "drag",
+                                "solid"})) +
+         source(link_to(run.folder, "comparison.json"));
+}
+
+/// The coefficients of the fit and its diagnostics.
+std::string fit_table(const results::RunResults& run) {
+  const lubrication::Fit& fit = run.fit;
+  if (fit.terms.empty())
+    return "<p>The exact drag of a sphere near a plane in a half-space (Brenner 1961): nothing is "
+           "fitted.</p>\n";
+  std::string rows;
+  for (const auto& term : fit.terms)
+    rows += table_row(escaped(term.name), fmt::format("{:.8g}", term.coefficient),
+                      term.is_fixed ? "fixed" : fmt::format("{:.2g}", term.standard_error));
+  return fmt::format(
+             "<p>F(q) at velocity {}, {} weights: largest relative residual {:.3g}, root mean "
+             "square {:.3g}, condition number {:.3g}.</p>\n",
+             fit.reference_velocity, lubrication::to_string(fit.weights),
+             fit.largest_relative_residual, fit.rms_relative_residual, fit.condition_number) +
+         table_of(rows, headings({"term", "coefficient", "standard error"})) +
+         source(link_to(run.folder, "fit.json") +
+                (run.table ? ", the table in " + link_to(run.folder, "table.csv") : "")) +
+         (fit.diagnostics ? trust(*fit.diagnostics) : "");
+}
+
+/// The effect of the fit's errors on the smallest gap, in words; empty if it is not known.
+std::string uncertainty_words(const results::RunResults& run) {
+  if (!run.uncertainty) return "";
+  const auto& smallest = run.uncertainty->smallest;
+  return fmt::format(
+      "<p>Without inertia the smallest gap is {:.6g} at time {:.4g}. Of {} random draws of the "
+      "coefficients ({} of them refused), 95 % give a smallest gap in [{:.6g}, {:.6g}]. If the "
+      "drag were wrong at every gap by {:.2g} (from the largest residual and the largest error "
+      "estimate), the smallest gap would be in [{:.6g}, {:.6g}].</p>\n"
+      "<p class=source>From {}.</p>\n",
+      smallest.gap, smallest.time, run.uncertainty->draws, run.uncertainty->refused,
+      smallest.random[0], smallest.random[1], run.uncertainty->misfit, smallest.misfit[0],
+      smallest.misfit[1], link_to(run.folder, "uncertainty.json"));
+}
+
+/// How the files of the run were made: commands, inputs with their hashes, versions and times. If
+/// the provenance in a file is missing or damaged, the table says so.
+std::string origin_section(const results::RunResults& run) {
+  std::string made, inputs;
+  auto versions = results::library_versions();
+  versions.insert(run.fit.versions.begin(), run.fit.versions.end());
+  if (run.table) versions.insert(run.table->versions.begin(), run.table->versions.end());
+  std::vector<std::string> files;
+  if (run.table) files.emplace_back("table.csv");
+  files.emplace_back("fit.json");
+  if (!run.trajectories.empty())
+    files.push_back("trajectories/" + run.trajectories.front().model + ".csv");
+  files.emplace_back("comparison.json");
+  for (const auto& file : files) {
+    const auto path = run.folder.path / file;
+    if (!std::filesystem::exists(path)) continue;
+    const auto provenance = provenance_or_none(path);
+    made += table_row(
+        link_to(run.folder, file),
+        provenance ? escaped(provenance->made) : "not recorded, or damaged",
+        provenance ? "<code>" + escaped(command_line(provenance->command)) + "</code>" : "",
+        hash_cell(sha256(read_file(path))));
+    if (!provenance) continue;
+    versions.insert(provenance->versions.begin(), provenance->versions.end());
+    for (const auto& input : provenance->inputs)
+      inputs += table_row(link_to(run.folder, file), escaped(input.file), hash_cell(input.sha256));
+  }
+  std::string programs;
+  for (const auto& [program, version] : versions)
+    programs += fmt::format("{}{}&nbsp;{}", programs.empty() ? "" : ", ", escaped(program),
+                            escaped(version));
+  std::string text = fmt::format(
+      "<div class=scroll><table class=words><thead><tr><th>file</th><th>made (UTC)</th><th>by</th>"
+      "<th>SHA-256</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      made);
+  if (!inputs.empty())
+    text += fmt::format(
+        "<div class=scroll><table class=words><thead><tr><th>file</th><th>made from</th>"
+        "<th>SHA-256</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+        inputs);
+  return text + fmt::format("<p>Programs and libraries: {}.</p>\n", programs);
+}
 
 std::vector<Plot> plots_of(const results::RunResults& run) {
   const auto& motion = case_file::required_motion(run.c);
@@ -47,34 +482,25 @@ std::vector<Plot> plots_of(const results::RunResults& run) {
   if (run.table) plots.push_back(plot_fit(*run.table, run.fit));
   if (run.uncertainty && run.uncertainty->misfit > 0)
     plots.push_back(plot_uncertainty(*run.uncertainty));
-  std::erase_if(plots, [](const Plot& plot) { return !shows_something(plot); });
+  // A plot without curves has nothing to show.
+  std::erase_if(plots, [](const Plot& plot) {
+    return std::ranges::all_of(plot.panels,
+                               [](const PlotPanel& panel) { return panel.curves.empty(); });
+  });
   return plots;
 }
 
-/// The pictures with these names as HTML.
-std::string figures(const std::vector<Picture>& pictures,
-                    std::initializer_list<std::string_view> names) {
-  std::string text;
-  for (const auto name : names)
-    for (const auto& picture : pictures)
-      if (picture.plot.name == name) text += figure(picture);
-  return text;
-}
-
-std::string warnings_box(const results::RunResults& run) {
-  const auto warnings = warnings_of(run);
-  if (warnings.empty())
-    return fmt::format(
-        "<p class=fine>No warnings: all gaps are within the fitted interval, residuals are at most "
-        "{:g}, the table is as accurate as asked, no sphere goes through the plane, and all files "
-        "belong together.</p>\n",
-        kPoorFit);
-  std::string items;
-  for (const auto& warning : warnings)
-    items += fmt::format("<li>{} ({}).</li>\n", escaped(warning.text),
-                         link_to(run.folder, warning.file));
-  return fmt::format("<section class=warnings>\n<h2>Warnings</h2>\n<ul>\n{}</ul></section>\n",
-                     items);
+std::string warnings_of_run(const results::RunResults& run) {
+  std::vector<std::string> items;
+  for (const auto& warning : warnings_of(run))
+    items.push_back(
+        fmt::format("{} ({}).", escaped(warning.text), link_to(run.folder, warning.file)));
+  if (!items.empty()) return warnings_box(items);
+  return fmt::format(
+      "<p class=fine>No warnings: all gaps are within the fitted interval, residuals are at most "
+      "{:g}, the table is as accurate as asked, no sphere goes through the plane, and all files "
+      "belong together.</p>\n",
+      kPoorFit);
 }
 
 std::string summary(const results::RunResults& run) {
@@ -95,31 +521,21 @@ std::string summary(const results::RunResults& run) {
   return text + ".</p>\n";
 }
 
-std::string page_of(const results::RunResults& run, const std::vector<Picture>& pictures) {
-  std::string page = page_head(run.c.title);
-  page += summary(run) + warnings_box(run);
-  page += hints_about(pictures);
-  page += section("Models", models_table(run) + figures(pictures, {"thinnest_film"}));
-  page += section("Trajectories", figures(pictures, {"gap", "gap_logarithmic", "external_force"}));
-  page += section("Contact", figures(pictures, {"gamma", "solid_force"}));
-  page += section("Rebounds", rebounds_table(run));
-  page += section("Impulse and work", budget_table(run));
-  page += section("Lubrication force and fit", figures(pictures, {"fit"}) + fit_table(run));
-  page += section("How errors of the fit change the motion",
-                  uncertainty_words(run) + figures(pictures, {"uncertainty"}));
-  page += section("Parameters", parameters_table(run));
-  page += section("How it was made", origin_section(run));
-  return page + page_foot();
+std::string sections_of(const results::RunResults& run, const Report& report) {
+  return section("Models", models_table(run) + report.figures({"thinnest_film"})) +
+         section("Trajectories", report.figures({"gap", "gap_logarithmic", "external_force"})) +
+         section("Contact", report.figures({"gamma", "solid_force"})) +
+         section("Rebounds", rebounds_table(run)) + section("Impulse and work", budget_table(run)) +
+         section("Lubrication force and fit", report.figures({"fit"}) + fit_table(run)) +
+         section("How errors of the fit change the motion",
+                 uncertainty_words(run) + report.figures({"uncertainty"})) +
+         section("Parameters", parameters_table(run)) +
+         section("How it was made", origin_section(run));
 }
 
 }  // namespace
 
-void check_report_files(const std::filesystem::path& folder) {
-  const results::RunFolder run{folder};
-  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
-  for (const auto name : kPlotNames)
-    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
-}
+void check_report_files(const std::filesystem::path& folder) { (void)Report(folder, kPlotNames); }
 
 bool report_is_current(const std::filesystem::path& folder) {
   const results::RunFolder run{folder};
@@ -144,25 +560,14 @@ bool report_is_current(const std::filesystem::path& folder) {
 
 void write_report(const std::filesystem::path& folder,
                   const std::vector<std::filesystem::path>& given, const StopToken& stop) {
-  check_report_files(folder);
+  Report report(folder, kPlotNames);
   const auto run = results::read_run(folder);
   const auto files = results::files_of(run);
   const auto provenance = results::provenance_of(given.empty() ? results::Inputs{files, {}}
                                                                : results::Inputs{given, files});
-  std::exception_ptr failure;
-  auto pictures = draw_pictures(plots_of(run), failure, stop);
-  const auto page = page_of(run, pictures);
-  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
-  for (const auto& [plot, svg] : pictures)
-    results::write_output(run.folder.plot(plot.name), TextKind::kSvg, svg, provenance);
-  results::write_output(run.folder.report(), TextKind::kHtml, page, provenance);
-  // Plots of an earlier report that this report does not have are removed.
-  for (const auto name : kPlotNames)
-    if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
-        pictures.end())
-      remove_file(run.folder.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run.folder.report().string()));
-  if (failure) warn_of_missing_pictures(failure);
+  report.draw(plots_of(run), stop);
+  report.write(run.c.title, summary(run) + warnings_of_run(run), sections_of(run, report),
+               provenance);
 }
 
 }  // namespace viscontact::report

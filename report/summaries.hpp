@@ -1,5 +1,5 @@
-// Summaries of fits and comparisons: words and tables for the terminal, and the picture of several
-// bases. Gaps and times are in the units of the case.
+// Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps and
+// times are in the units of the case.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/common/text/text_kind.hpp"
 #include "viscontact/fitting/basis_comparison.hpp"
+#include "viscontact/fitting/wall_shift.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 
 namespace viscontact::report {
@@ -27,6 +28,12 @@ std::string basis_json(const std::vector<fitting::BasisResult>& results);
 std::string plot_bases(const lubrication::ForceTable& table,
                        const std::vector<fitting::BasisResult>& results, TextKind kind,
                        const StopToken& stop = {});
+
+/// A picture of the `kind` kSvg, kPdf or kPng with two panels over the gap: the shift of each row
+/// beside the common shift [L], and the relative residuals with the common shift. `wall` names the
+/// wall in the title. Throws Error(kExternalProgram) if gnuplot is missing or fails.
+std::string plot_wall_shift(const fitting::WallShift& shift, const std::string& wall, TextKind kind,
+                            const StopToken& stop = {});
 
 /// One line per model: smallest gap and its time, recovered film, times of contact, largest
 /// distance to the reference.

@@ -204,6 +204,25 @@ std::optional<Line> find_line(const std::string& text) {
   return {};
 }
 
+/// The folder from which the relative path `output` leads to `file`; nothing if there is none.
+std::optional<std::filesystem::path> folder_around(const std::filesystem::path& file,
+                                                   const std::string& output) {
+  const auto path = std::filesystem::weakly_canonical(file);
+  auto folder = path;
+  for ([[maybe_unused]] const auto& part : std::filesystem::path(output))
+    folder = folder.parent_path();
+  if (output.empty() || folder / output != path) return {};
+  return folder;
+}
+
+/// True if the inputs that the user gave are all at relative paths, and are there in the folder.
+bool has_inputs(const std::filesystem::path& folder, const Provenance& provenance) {
+  return std::ranges::all_of(provenance.inputs, [&](const InputFile& input) {
+    return input.intermediate || (std::filesystem::path(input.file).is_relative() &&
+                                  std::filesystem::exists(folder / input.file));
+  });
+}
+
 }  // namespace
 
 Provenance provenance_of(const Inputs& inputs) {
@@ -316,6 +335,31 @@ std::string change_of(const InputFile& input, const std::filesystem::path& folde
   if (input.sha256.empty()) return fmt::format("{} was a pipe and not a file", path.string());
   if (sha256(read_file(path)) != input.sha256) return fmt::format("{} has changed", path.string());
   return "";
+}
+
+std::filesystem::path folder_to_run_in(const std::filesystem::path& file,
+                                       const Provenance& provenance) {
+  const auto around = folder_around(file, provenance.output);
+  if (provenance.folder.empty())
+    return around.value_or(std::filesystem::weakly_canonical(file).parent_path());
+  return around && has_inputs(*around, provenance) ? *around
+                                                   : std::filesystem::path(provenance.folder);
+}
+
+std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& path) {
+  const auto provenance = read_provenance(path);
+  if (!provenance)
+    throw_bad_input({path.string()}, "does not say how it was made; it has no line 'provenance'");
+  const auto folder = folder_to_run_in(path, *provenance);
+  const bool is_here = folder == std::filesystem::current_path();
+  std::vector<std::filesystem::path> files;
+  for (const auto& input : provenance->inputs) {
+    if (input.intermediate) continue;
+    if (const auto change = change_of(input, folder); !change.empty())
+      throw_bad_input({path.string()}, fmt::format("was made from other inputs: {}", change));
+    files.push_back(is_here ? std::filesystem::path(input.file) : folder / input.file);
+  }
+  return files;
 }
 
 std::string output_text(const std::filesystem::path& path, TextKind kind, const std::string& text,

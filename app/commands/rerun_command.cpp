@@ -146,33 +146,6 @@ void move_to(results::Provenance& provenance, const fs::path& to) {
   provenance.folder = to.string();
 }
 
-/// The folder from which the relative path `output` leads to `file`; nothing if there is none.
-std::optional<fs::path> folder_around(const fs::path& file, const std::string& output) {
-  const auto path = fs::weakly_canonical(file);
-  auto folder = path;
-  for ([[maybe_unused]] const auto& part : fs::path(output)) folder = folder.parent_path();
-  if (output.empty() || folder / output != path) return {};
-  return folder;
-}
-
-/// True if the inputs that the user gave are all at relative paths, and are there in the folder.
-bool has_inputs(const fs::path& folder, const results::Provenance& provenance) {
-  return std::ranges::all_of(provenance.inputs, [&](const results::InputFile& input) {
-    return input.intermediate ||
-           (fs::path(input.file).is_relative() && fs::exists(folder / input.file));
-  });
-}
-
-/// The folder to run the command in that made `file`. It is the recorded one, unless `file` and the
-/// inputs lie in the same places below another folder, as in a copy or a clone of the project. If
-/// the provenance has no folder, it is the folder from which the output leads to `file`, or that of
-/// `file`.
-fs::path folder_to_run_in(const fs::path& file, const results::Provenance& provenance) {
-  const auto around = folder_around(file, provenance.output);
-  if (provenance.folder.empty()) return around.value_or(fs::weakly_canonical(file).parent_path());
-  return around && has_inputs(*around, provenance) ? *around : fs::path(provenance.folder);
-}
-
 std::string in_words(const std::vector<std::string>& command) {
   std::string text = "viscontact";
   for (std::size_t i = 1; i < command.size(); ++i) text += " " + shell_word(command[i]);
@@ -186,7 +159,7 @@ void rerun(const RerunOptions& o) {
                     "does not say how it was made, because it has no line 'provenance'; every file "
                     "that Viscontact writes has one, but copies of your own files have none");
   const std::string made_in = provenance->folder;
-  move_to(*provenance, o.folder.empty() ? folder_to_run_in(o.file, *provenance)
+  move_to(*provenance, o.folder.empty() ? results::folder_to_run_in(o.file, *provenance)
                                         : fs::weakly_canonical(o.folder));
   const fs::path folder = provenance->folder;
   if (!fs::is_directory(folder))

@@ -13,10 +13,10 @@
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/pipeline/compare_stage.hpp"
+#include "viscontact/pipeline/report_stage.hpp"
 #include "viscontact/pipeline/run_stages.hpp"
 #include "viscontact/pipeline/simulate/simulate_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
-#include "viscontact/report/report.hpp"
 #include "viscontact/results/run_folder.hpp"
 
 namespace viscontact::app {
@@ -125,14 +125,16 @@ void add_compare(CLI::App& app) {
 }
 
 void add_report(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("report", "write report.html, one self-contained page with the plots");
+  auto* command = app.add_subcommand(
+      "report", "make the page and the pictures of a folder again from its other files");
   auto folder = std::make_shared<std::string>();
-  add_value(*command, "DIR", *folder, kFolder, "folder of a run")->required();
+  add_value(*command, "DIR", *folder, kFolder,
+            "folder that run, rolling, swimmer or particles wrote")
+      ->required();
   command->callback([folder] {
     std::optional<LockedFolder> lock;
     if (std::filesystem::is_directory(*folder)) lock.emplace(*folder, results::kFolderIsLocked);
-    report::write_report(*folder, {}, interrupt_token());
+    pipeline::report_stage(*folder, interrupt_token());
   });
 }
 

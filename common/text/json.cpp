@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact {
 namespace {
@@ -166,6 +167,15 @@ int JsonDocument::line_of(std::string path) const {
     if (const auto found = lines_.find(path); found != lines_.end()) return found->second;
     const auto last = path.find_last_of(".[");
     path.erase(last == std::string::npos ? 0 : last);
+  }
+}
+
+void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read) {
+  const auto document = JsonDocument::parse(read_file(path), path.string());
+  try {
+    read(document.root());
+  } catch (const Json::exception& error) {
+    throw_bad_input({path.string()}, fmt::format("is not complete ({})", cause_in_words(error)));
   }
 }
 

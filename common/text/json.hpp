@@ -1,6 +1,8 @@
 // Reads JSON texts (RFC 8259) in such a way that an error can name the line of a value.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -37,5 +39,9 @@ class JsonDocument {
 /// Text of an error of the JSON library, without the library's error name and without a position,
 /// shortened to about 200 characters.
 std::string cause_in_words(const Json::exception& error);
+
+/// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file, if
+/// it is not valid JSON, or if a value that `read` asks for is missing or of another type.
+void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read);
 
 }  // namespace viscontact

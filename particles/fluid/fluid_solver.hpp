@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "viscontact/common/vtk/flow_field.hpp"
 #include "viscontact/particles/particles.hpp"
 
 namespace viscontact::particles {
@@ -57,18 +58,7 @@ struct SecondMesh {
   double error_of_one_mesh = 0;  ///< factor of |d| in the error on the mesh of the placement
 };
 
-/// Velocity and pressure at the nodes of a mesh of quadratic triangles. On an axis, x is the
-/// distance from it and y is z.
-struct FlowField {
-  std::vector<double> x;           ///< of each node [L]
-  std::vector<double> y;           ///< of each node [L]
-  std::vector<double> velocity_x;  ///< along x, of each node [L/T]
-  std::vector<double> velocity_y;  ///< along y, of each node [L/T]
-  std::vector<double> pressure;    ///< of each node [M/(L T^2)]
-  /// The nodes of each triangle: three corners counter-clockwise, then the middles of the sides
-  /// between corners 0 and 1, 1 and 2, 2 and 0, as VTK numbers them.
-  std::vector<std::array<std::int32_t, 6>> triangles;
-};
+using viscontact::FlowField;
 
 /// A fluid with rigid particles. All arrays have motion_components() numbers for each particle.
 ///

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscontact/particles/io/appended_data.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscontact/common/text/number.hpp"
-#include "viscontact/particles/io/appended_data.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -8,8 +8,8 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 #include "viscontact/particles/domain/periods.hpp"
-#include "viscontact/particles/io/appended_data.hpp"
 #include "viscontact/particles/io/vtk.hpp"
 
 namespace viscontact::particles {

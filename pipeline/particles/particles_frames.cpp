@@ -13,9 +13,9 @@
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/text/number.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/domain/domain.hpp"
-#include "viscontact/particles/io/flow_vtk.hpp"
 #include "viscontact/particles/io/link_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 #include "viscontact/particles/io/vtk.hpp"
@@ -115,8 +115,8 @@ void ParticleFrames::add_rebounds(const particles::Particles& particles,
 
 void ParticleFrames::add_flow(const particles::FlowField& flow) {
   const auto name = flow_name(files_.back().second);
-  results::write_output(folder_ / name, TextKind::kXml,
-                        particles::write_flow(flow, playback_.dimension), provenance_);
+  results::write_output(folder_ / name, TextKind::kXml, write_flow(flow, playback_.dimension == 1),
+                        provenance_);
   flows_.emplace_back(files_.back().first, name);
   show_flow(flows_.back());
 }
@@ -186,20 +186,33 @@ std::vector<std::pair<std::string, std::string>> ParticleFrames::tables() const 
   return texts;
 }
 
+/// Reads a frame that is there. The last frame is always kept.
+void ParticleFrames::read_frame(const FrameFile& file, const particles::Setting& setting,
+                                bool is_last) {
+  files_.push_back(file);
+  // Frames that are not kept are read, too, to check that their files exist and are complete.
+  auto content = particles::read_vtp(folder_ / file.second, playback_.dimension);
+  if (content.positions.size() !=
+      playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
+    throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
+  if (setting.fluid) add_contact_rows(file.first, content.contacts);
+  if (is_last || (files_.size() - 1) % every_ == 0)
+    keep(frame_at(file.first, setting, content, std::move(content.contacts)));
+}
+
+void ParticleFrames::read_all(const particles::Setting& setting) {
+  playback_.cell = particles::cell_of(setting);
+  const auto files = particles::read_pvd(folder_ / "particles.pvd");
+  if (files.empty()) throw_bad_input({(folder_ / "particles.pvd").string()}, "has no frame");
+  for (const auto& file : files) read_frame(file, setting, &file == &files.back());
+  if (setting.fluid)
+    for (const auto& flow : particles::read_pvd(folder_ / "flow.pvd")) show_flow(flow);
+}
+
 void ParticleFrames::resume(const std::vector<FrameFile>& files, const particles::Setting& setting,
                             double time) {
   playback_.cell = particles::cell_of(setting);
-  for (const auto& file : files) {
-    files_.push_back(file);
-    // Frames that are not kept are read, too, to check that their files exist and are complete.
-    auto content = particles::read_vtp(folder_ / file.second, playback_.dimension);
-    if (content.positions.size() !=
-        playback_.radii.size() * static_cast<std::size_t>(playback_.dimension))
-      throw_bad_input({(folder_ / file.second).string()}, "is a frame of other particles");
-    if (setting.fluid) add_contact_rows(file.first, content.contacts);
-    if ((files_.size() - 1) % every_ == 0)
-      keep(frame_at(file.first, setting, content, std::move(content.contacts)));
-  }
+  for (const auto& file : files) read_frame(file, setting, false);
   for (const auto& links : links()) check_exists(folder_ / links.second);
   if (setting.fluid) resume_fluid(time);
   for (std::size_t t = 0; t < tables_.size(); ++t)

@@ -70,6 +70,10 @@ class ParticleFrames {
   /// particles.
   void resume(const std::vector<FrameFile>& files, const particles::Setting& setting, double time);
 
+  /// Reads all frames, and the places of all flows, that a run has written, for its page and picture.
+  /// Throws as resume() does.
+  void read_all(const particles::Setting& setting);
+
   /// Adds a frame of the last state, unless the last frame shows it. Does nothing if no frame was
   /// written.
   void end(const particles::Setting& setting, const particles::State& state,
@@ -90,6 +94,7 @@ class ParticleFrames {
 
  private:
   void keep(particles::Frame frame);
+  void read_frame(const FrameFile& file, const particles::Setting& setting, bool is_last);
   void add_contact_rows(double time, const std::vector<particles::CurrentContact>& contacts);
   void show_flow(const FrameFile& flow);
   void resume_fluid(double time);

@@ -40,6 +40,16 @@ using particles::Simulation;
 using particles::StepReport;
 using Clock = std::chrono::steady_clock;
 
+/// Writes the page and the still picture of the frames.
+void write_pages(const ParticleFrames& frames, const std::string& title, const fs::path& folder,
+                 const results::Provenance& provenance) {
+  constexpr int kPanels = 4;  // states in the still picture
+  results::write_output(folder / "particles.html", TextKind::kHtml,
+                        report::particles_page(frames.playback(), title), provenance);
+  results::write_output(folder / "particles.svg", TextKind::kSvg,
+                        report::particles_picture(frames.playback(), title, kPanels), provenance);
+}
+
 /// A run with its state, frames and record, which can be written at any time.
 class Run {
  public:
@@ -90,11 +100,7 @@ class Run {
     write("final_particles.csv", TextKind::kHashComment, final_particles());
     write("final_contacts.csv", TextKind::kHashComment,
           particles::write_contacts(state.particles, particles::contacts_of(case_.setting, state)));
-    constexpr int kPanels = 4;  // states in the still picture
-    write("particles.html", TextKind::kHtml,
-          report::particles_page(frames_.playback(), case_.title));
-    write("particles.svg", TextKind::kSvg,
-          report::particles_picture(frames_.playback(), case_.title, kPanels));
+    write_pages(frames_, case_.title, folder_, provenance_);
     auto json = run_json(case_, with_costs(), state);
     // Forces of the fluid are not in restart.bin. A run that is killed before this line computes
     // its last step again.
@@ -300,6 +306,19 @@ void run_particles(const ParticlesRequest& request) {
   const auto json = run.write_results();
   if (request.json) fmt::print("{}", json);
   warn_or_fail_if_not_converged(c, run.record(), folder, request.stop);
+}
+
+void report_particles(const fs::path& folder) {
+  check_results(folder);
+  auto files = results::given_inputs(folder / "particles.pvd");
+  const auto c = case_file::read_particles_case(files.front());
+  files.push_back(folder / "particles.pvd");
+  if (c.setting.fluid) files.push_back(folder / "flow.pvd");
+  const auto provenance = results::provenance_of({files, {}});
+  ParticleFrames frames(folder, provenance, c.setting, c.particles);
+  frames.read_all(c.setting);
+  write_pages(frames, c.title, folder, provenance);
+  terminal::say(fmt::format("report: {0}/particles.html, {0}/particles.svg", folder.string()));
 }
 
 }  // namespace viscontact::pipeline

@@ -1,6 +1,7 @@
 // The command `particles`: simulates many particles from a case and writes the files of the run.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
@@ -23,5 +24,10 @@ struct ParticlesRequest {
 /// must not be replaced. Throws after everything is written: Error(kNotConverged) if a step did not
 /// reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
 void run_particles(const ParticlesRequest& request);
+
+/// Writes particles.html and particles.svg again from the frames that run_particles wrote into
+/// `folder`, and from the case and its file of particles, which must not have changed since. Throws
+/// Error(kBadInput) if a file is missing or damaged.
+void report_particles(const std::filesystem::path& folder);
 
 }  // namespace viscontact::pipeline

@@ -5,14 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/pipeline/pair_fit_stage.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
@@ -50,20 +51,22 @@ void check_rolling_files(const RollingFolder& folder) {
   report::check_rolling_report(folder.path);
 }
 
-/// The fit of the case's tables, or the one that it names, for the viscosity of the case. `failure`
-/// is set to the rows that failed.
-lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder& folder,
-                            const RollingRequest& request, RowFailure& failure) {
-  fs::path file = folder.fit();
-  if (c.fit) {
-    file = *c.fit;
-  } else {
-    const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
-    failure = tabulate_stage(case_tables(c, path_of), request.jobs, request.stop);
-    with_failure(failure, [&] {
-      fit_pair_stage(pair_table_files({(folder.path / "tables").string()}), file, {}, request.stop);
-    });
-  }
+/// Makes the fit of the case's tables, unless the case names a fit. `failure` is set to the rows that
+/// failed.
+void make_fit(const case_file::RollingCase& c, const RollingFolder& folder,
+              const RollingRequest& request, RowFailure& failure) {
+  if (c.fit) return;
+  const auto path_of = [folder](lubrication::MotionKind motion) { return folder.table(motion); };
+  failure = tabulate_stage(case_tables(c, path_of), request.jobs, request.stop);
+  with_failure(failure, [&] {
+    fit_pair_stage(pair_table_files({(folder.path / "tables").string()}), folder.fit(), {},
+                   request.stop);
+  });
+}
+
+/// The fit that the case names, or that of its tables, for the viscosity of the case.
+lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder& folder) {
+  const auto file = c.fit.value_or(folder.fit());
   auto fit = lubrication::read_pair_fit(file);
   if (!equal_up_to_rounding(fit.radius, c.radius))
     throw Error(ErrorKind::kBadInput,
@@ -79,26 +82,55 @@ lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder
   return fit;
 }
 
+/// The columns of a trajectory before `contact`.
+constexpr std::array<double RollingRow::*, 9> kColumns = {&RollingRow::time,
+                                                          &RollingRow::gap,
+                                                          &RollingRow::position,
+                                                          &RollingRow::angle,
+                                                          &RollingRow::normal_velocity,
+                                                          &RollingRow::velocity,
+                                                          &RollingRow::angular_velocity,
+                                                          &RollingRow::contact_force,
+                                                          &RollingRow::friction_force};
+const std::array<std::string, kColumns.size() + 1> kColumnNames = {"time",
+                                                                   "gap",
+                                                                   "position",
+                                                                   "angle",
+                                                                   "normal_velocity",
+                                                                   "velocity",
+                                                                   "angular_velocity",
+                                                                   "contact_force",
+                                                                   "friction_force",
+                                                                   "contact"};
+
 std::string trajectory_csv(const std::string& model,
                            const reduced_model::RollingTrajectory& trajectory) {
   std::string text = write_csv_comments({{"viscontact", "rolling sphere"},
                                          {"model", model},
                                          {"rows", std::to_string(trajectory.size())}});
-  text +=
-      "time,gap,position,angle,normal_velocity,velocity,angular_velocity,contact_force,"
-      "friction_force,contact\n";
+  text += fmt::format("{}\n", fmt::join(kColumnNames, ","));
   for (const auto& row : trajectory) {
-    for (const double value :
-         {row.time, row.gap, row.position, row.angle, row.normal_velocity, row.velocity,
-          row.angular_velocity, row.contact_force, row.friction_force})
-      text += format_number(value) + ",";
+    for (const auto column : kColumns) text += format_number(row.*column) + ",";
     text += fmt::format("{}\n", static_cast<int>(row.contact));
   }
   return text;
 }
 
+reduced_model::RollingTrajectory read_trajectory(const fs::path& path) {
+  reduced_model::RollingTrajectory trajectory;
+  for (const auto& [fields, line] : read_csv(path, kColumnNames, kColumnNames.size()).rows) {
+    if (!std::ranges::all_of(fields, [](const auto& field) { return field.has_value(); }))
+      throw_bad_input({path.string(), line}, "lacks a number");
+    auto& row = trajectory.emplace_back();
+    for (std::size_t i = 0; i < kColumns.size(); ++i) row.*kColumns[i] = *fields[i];
+    row.contact = static_cast<reduced_model::SolidContact>(static_cast<int>(*fields.back()));
+  }
+  if (trajectory.empty()) throw_bad_input({path.string()}, "has no rows");
+  return trajectory;
+}
+
 std::string rolling_json(const RollingResults& results) {
-  nlohmann::ordered_json json = {{"kind", "rolling"}, {"title", results.c.title}};
+  Json json = {{"kind", "rolling"}, {"title", results.c.title}};
   for (const auto& [model, rows] : results.trajectories) {
     const auto& last = rows.back();
     const auto first_contact = std::ranges::find_if(rows, [](const RollingRow& row) {
@@ -114,14 +146,13 @@ std::string rolling_json(const RollingResults& results) {
               {"slip", last.velocity - results.c.motion.plane_velocity -
                            results.c.radius * last.angular_velocity},
               {"contact", static_cast<int>(last.contact)}};
-    object["contact_time"] = first_contact == rows.end()
-                                 ? nlohmann::ordered_json(nullptr)
-                                 : nlohmann::ordered_json(first_contact->time);
+    object["contact_time"] =
+        first_contact == rows.end() ? Json(nullptr) : Json(first_contact->time);
   }
   if (const auto warnings = report::rolling_warnings(results); !warnings.empty())
     json["warnings"] = warnings;
   for (const auto& model : results.failed) json["failed_models"][model.model] = model.reason;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 /// Runs the models of the case, and keeps the reasons of those that fail. Throws the Error of the
@@ -171,7 +202,8 @@ void run_rolling(const RollingRequest& request) {
   check_rolling_files(folder);
   const LockedFolder lock(folder.path, results::kFolderIsLocked);
   RowFailure rows_failed;
-  results.fit = fit_of(results.c, folder, request, rows_failed);
+  make_fit(results.c, folder, request, rows_failed);
+  results.fit = fit_of(results.c, folder);
   std::vector<fs::path> given = {results.c.path};
   if (results.c.fit) given.push_back(*results.c.fit);
   const auto provenance = results::provenance_of(
@@ -191,6 +223,26 @@ void run_rolling(const RollingRequest& request) {
       throw results::error_of(results.failed, results.trajectories.size(), results.c.path);
   });
   if (rows_failed) throw Error(*rows_failed);
+}
+
+void report_rolling(const fs::path& path, const StopToken& stop) {
+  const RollingFolder folder{path};
+  auto files = results::given_inputs(folder.results());
+  RollingResults results;
+  results.c = case_file::read_rolling_case(files.front());
+  results.fit = fit_of(results.c, folder);
+  if (!results.c.fit) files.push_back(folder.fit());
+  files.push_back(folder.results());
+  read_json(folder.results(), [&](const Json& json) {
+    if (json.contains("failed_models"))
+      for (const auto& [model, reason] : json.at("failed_models").items())
+        results.failed.push_back({model, reason, ErrorKind::kBadInput, {}});
+    for (const auto& [model, state] : json.at("models").items()) {
+      files.push_back(folder.trajectory(model));
+      results.trajectories.emplace_back(model, read_trajectory(files.back()));
+    }
+  });
+  report::write_rolling_report(results, path, results::provenance_of({files, {}}), stop);
 }
 
 }  // namespace viscontact::pipeline

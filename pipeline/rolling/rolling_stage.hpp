@@ -1,6 +1,7 @@
 // The command `rolling`: tables, fit, trajectories and report of a sphere that moves along a plane.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
@@ -20,5 +21,10 @@ struct RollingRequest {
 /// written if the case is wrong or a file must not be replaced, and the errors of tabulate_stage,
 /// fit_pair and of the models.
 void run_rolling(const RollingRequest& request);
+
+/// Writes the report again from the files that run_rolling wrote into `folder`, and from the case
+/// and the fit that it names, which must not have changed since. Throws Error(kBadInput) if one of
+/// them is missing or damaged.
+void report_rolling(const std::filesystem::path& folder, const StopToken& stop);
 
 }  // namespace viscontact::pipeline

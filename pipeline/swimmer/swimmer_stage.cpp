@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <span>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
 #include "viscontact/common/text/csv.hpp"
+#include "viscontact/common/text/json.hpp"
 #include "viscontact/common/text/number.hpp"
 #include "viscontact/fitting/fit_resistance.hpp"
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
@@ -94,7 +97,7 @@ std::string stroke_csv(const StrokeResult& stroke) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const StrokeResult& stroke) {
+Json json_of(const StrokeResult& stroke) {
   return {{"displacement", stroke.sums.displacement},
           {"displacement_error_estimate", stroke.errors.displacement},
           {"energy", stroke.sums.energy},
@@ -105,23 +108,22 @@ nlohmann::ordered_json json_of(const StrokeResult& stroke) {
 }
 
 std::string results_json(const SwimmerResults& results) {
-  nlohmann::ordered_json json = {{"kind", "swimmer"}, {"title", results.c.title}};
+  Json json = {{"kind", "swimmer"}, {"title", results.c.title}};
   if (results.stroke) json.update(json_of(*results.stroke));
   if (results.optimal) {
     auto& optimal = json["optimal"] = json_of(*results.optimal);
-    const auto& steps = results.search->convergence;
-    optimal["polynomials"] = steps.back().polynomials;
-    optimal["euler_lagrange_residual"] = steps.back().euler_lagrange_residual;
-    // The energies here and the multiplier are those of the case's period.
-    optimal["energy_per_displacement"] = results.search->multiplier / results.optimal->period;
-    for (const auto& step : steps)
+    const auto& last = results.convergence.back();
+    optimal["polynomials"] = last.polynomials;
+    optimal["euler_lagrange_residual"] = last.euler_lagrange_residual;
+    optimal["energy_per_displacement"] = results.energy_per_displacement;
+    for (const auto& step : results.convergence)
       optimal["convergence"].push_back({{"polynomials", step.polynomials},
-                                        {"energy", step.energy / results.optimal->period},
+                                        {"energy", step.energy},
                                         {"euler_lagrange_residual", step.euler_lagrange_residual}});
   }
   json["fit"] = {{"largest_left_one_out_error", results.fit.largest_left_one_out_error},
                  {"rms_left_one_out_error", results.fit.rms_left_one_out_error}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 /// Computes the strokes of the case.
@@ -133,11 +135,15 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   if (!results.c.optimal) return;
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {
-    results.search = reduced_model::find_optimal_stroke(reduced_model::Swimmer(results.fit),
-                                                        *results.c.optimal, stop);
-    return result_of(results,
-                     reduced_model::stroke_of(results.search->loop, results.c.optimal_period),
-                     results.search->multiplier / results.c.optimal_period);
+    const auto search = reduced_model::find_optimal_stroke(reduced_model::Swimmer(results.fit),
+                                                           *results.c.optimal, stop);
+    // The results of the search are those of a period of 1.
+    const double period = results.c.optimal_period;
+    results.energy_per_displacement = search.multiplier / period;
+    results.convergence = search.convergence;
+    for (auto& step : results.convergence) step.energy /= period;
+    return result_of(results, reduced_model::stroke_of(search.loop, period),
+                     results.energy_per_displacement);
   });
   terminal::clear_progress();
 }
@@ -149,6 +155,60 @@ void write_stroke(const fs::path& path, const std::optional<StrokeResult>& strok
     results::write_output(path, TextKind::kHashComment, stroke_csv(*stroke), provenance);
   else
     remove_file(path);
+}
+
+/// Reads what json_of and stroke_csv wrote, of a swimmer with so many spheres.
+StrokeResult read_stroke(const Json& json, const fs::path& path, std::size_t spheres) {
+  StrokeResult stroke{json.at("period"),
+                      {json.at("displacement"), json.at("energy"),
+                       json.at("energy_at_constant_power"), json.at("efficiency")},
+                      {json.at("displacement_error_estimate"), json.at("energy_error_estimate")},
+                      {}};
+  std::vector<std::string> motion = {"time", "position", "power"}, forces;
+  for (std::size_t k = 1; k < spheres; ++k) motion.push_back(fmt::format("x{}", k));
+  for (std::size_t i = 1; i <= spheres; ++i) forces.push_back(fmt::format("force{}", i));
+  const auto numbers_of = [&](std::span<const std::optional<double>> fields, int line) {
+    Eigen::VectorXd numbers(std::ssize(fields));
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (!fields[i]) throw_bad_input({path.string(), line}, "lacks a number");
+      numbers[static_cast<Eigen::Index>(i)] = *fields[i];
+    }
+    return numbers;
+  };
+  // The reader takes as many columns at once as a row has without the forces.
+  CsvComments comments;
+  std::set<std::string> contradictions;
+  read_csv_rows(path, motion, motion.size(), comments, contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  const auto row = numbers_of(fields, line);
+                  stroke.rows.push_back({row[0], row.tail(row.size() - 3), row[1], {}, row[2]});
+                });
+  std::size_t next = 0;
+  read_csv_rows(path, forces, forces.size(), comments, contradictions,
+                [&](std::span<const std::optional<double>> fields, int line) {
+                  stroke.rows.at(next++).forces = numbers_of(fields, line);
+                });
+  if (stroke.rows.empty()) throw_bad_input({path.string()}, "has no rows");
+  return stroke;
+}
+
+/// Reads the results of a run of the case from its folder.
+SwimmerResults read_results(const SwimmerFolder& folder, const fs::path& case_file) {
+  SwimmerResults results;
+  results.c = case_file::read_swimmer_case(case_file);
+  results.table = lubrication::read_resistance_table(folder.table());
+  results.fit = lubrication::read_resistance_fit(folder.fit());
+  const auto spheres = results.c.spheres.radii.size();
+  read_json(folder.results(), [&](const Json& json) {
+    if (results.c.stroke) results.stroke = read_stroke(json, folder.stroke(), spheres);
+    if (!results.c.optimal) return;
+    const auto& optimal = json.at("optimal");
+    results.optimal = read_stroke(optimal, folder.optimal(), spheres);
+    for (const auto& step : optimal.at("convergence"))
+      results.convergence.push_back(
+          {step.at("polynomials"), step.at("energy"), step.at("euler_lagrange_residual")});
+  });
+  return results;
 }
 
 void tell(const std::string& name, const StrokeResult& stroke) {
@@ -186,6 +246,16 @@ void run_swimmer(const SwimmerRequest& request) {
   if (results.optimal) tell("optimal stroke", *results.optimal);
   report::write_swimmer_report(results, folder.path, provenance, request.stop);
   if (request.json) fmt::print("{}", json);
+}
+
+void report_swimmer(const fs::path& path, const StopToken& stop) {
+  const SwimmerFolder folder{path};
+  auto files = results::given_inputs(folder.results());
+  const auto results = read_results(folder, files.front());
+  files.insert(files.end(), {folder.table(), folder.fit(), folder.results()});
+  if (results.stroke) files.push_back(folder.stroke());
+  if (results.optimal) files.push_back(folder.optimal());
+  report::write_swimmer_report(results, path, results::provenance_of({files, {}}), stop);
 }
 
 }  // namespace viscontact::pipeline

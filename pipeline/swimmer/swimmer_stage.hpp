@@ -1,6 +1,7 @@
 // The command `swimmer`: table, fit, strokes and report of a swimmer.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "viscontact/common/stop_token.hpp"
@@ -20,5 +21,9 @@ struct SwimmerRequest {
 /// before anything is written if the case is wrong or a file must not be replaced, and the errors
 /// of tabulate_stage, fit_resistance, swim_sums and find_optimal_stroke.
 void run_swimmer(const SwimmerRequest& request);
+
+/// Writes the report again from the files that run_swimmer wrote into `folder`, and from the case,
+/// which must not have changed since. Throws Error(kBadInput) if one of them is missing or damaged.
+void report_swimmer(const std::filesystem::path& folder, const StopToken& stop);
 
 }  // namespace viscontact::pipeline

@@ -85,8 +85,7 @@ void picture_stage(const freefem_axi::Tabulation& tabulation, lubrication::Motio
         freefem, tabulation, gap, tabulation.reference_velocities.front(), motion);
     const auto path = [&](const PictureFile& file) { return path_of(folder, gap, file); };
     // The VTK file comes first because it needs no gnuplot, which may be missing.
-    results::write_output(path(kVtu), TextKind::kXml, freefem_axi::write_vtu(picture.flow),
-                          provenance);
+    results::write_output(path(kVtu), TextKind::kXml, freefem_axi::write_vtu(picture), provenance);
     results::write_output(path(kMesh), TextKind::kSvg, report::plot_mesh(picture, tabulation, stop),
                           provenance);
     results::write_output(path(kFlow), TextKind::kSvg,

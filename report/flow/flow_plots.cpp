@@ -1,22 +1,193 @@
-// Combines title, colours of the pressure and curves into the pictures of a row (flow_plots.hpp).
-// Lengths and pressures are in the units of the case.
+// The pictures of a row: views of the half-plane (rho, z) and of its mirror image, colours of the
+// pressure or speed, and curves (flow_plots.hpp). Lengths, velocities and pressures are in the units
+// of the case.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "viscontact/report/flow/flow_lines.hpp"
-#include "viscontact/report/flow/pressure_colours.hpp"
-#include "viscontact/report/flow/triangle_fields.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
+#include "viscontact/report/flow/stream_lines.hpp"
+#include "viscontact/report/pictures/colours.hpp"
 #include "viscontact/report/pictures/gnuplot.hpp"
 
 namespace viscontact::report {
 namespace {
+
+/// The part of the half-plane that a picture shows, and its size in the picture.
+struct PlotView {
+  Window window;
+  double plot_width = 0, plot_height = 0;  // [pixels]
+  /// How many times larger heights are drawn than widths.
+  double stretch() const { return plot_height / window.height() / (plot_width / window.width()); }
+};
+
+// Sizes of the drawing [pixels].
+constexpr double kPlotWidth = 640;
+constexpr double kTallestPlot = 640;
+constexpr double kStretchedPlot = 360;
+
+/// A view with equal scales on both axes.
+PlotView unstretched(const Window& window) {
+  const double scale = std::min(kPlotWidth / window.width(), kTallestPlot / window.height());
+  return {window, window.width() * scale, window.height() * scale};
+}
+
+double sphere_bottom(double radius, double gap, double rho) {
+  return gap + radius - std::sqrt(std::max(0.0, radius * radius - rho * rho));
+}
+
+/// The lines, without the points that are less than a pixel away from the point before them.
+std::vector<Polyline> thinned(const std::vector<Polyline>& lines, const PlotView& view) {
+  const double x_scale = view.plot_width / view.window.width();
+  const double y_scale = view.plot_height / view.window.height();
+  std::vector<Polyline> result;
+  for (const auto& line : lines) {
+    Polyline kept;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (i == 0 || i + 1 == line.size() ||
+          std::hypot((line[i].first - kept.back().first) * x_scale,
+                     (line[i].second - kept.back().second) * y_scale) >= 1)
+        kept.push_back(line[i]);
+    result.push_back(std::move(kept));
+  }
+  return result;
+}
+
+/// Adds the quadratic curve through the ends and the middle of a side, if it is near the window.
+void add_side(std::vector<Polyline>& lines, const QuadraticMesh& mesh, const Window& window,
+              const std::array<std::size_t, 3>& side, int pieces) {
+  const auto at = [&](std::size_t place) {
+    return std::array<double, 2>{mesh.x[side.at(place)], mesh.y[side.at(place)]};
+  };
+  const auto start = at(0), end = at(1), middle = at(2);
+  const auto [left, right] = std::minmax({start[0], end[0], middle[0]});
+  const auto [bottom, top] = std::minmax({start[1], end[1], middle[1]});
+  if (left > window.right || bottom > window.top || top < window.bottom) return;
+  Polyline line;
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    const double a = (1 - t) * (1 - 2 * t), b = t * (2 * t - 1), c = 4 * t * (1 - t);
+    line.emplace_back(a * start[0] + b * end[0] + c * middle[0],
+                      a * start[1] + b * end[1] + c * middle[1]);
+  }
+  lines.push_back(std::move(line));
+}
+
+/// A view of the sphere and the fluid around it: the whole fluid if it extends at most 6 radii from
+/// the axis and is at most 12 radii high, otherwise the fluid within 3.2 radii of the sphere's
+/// centre.
+PlotView surroundings(const QuadraticMesh& mesh, double radius, double gap) {
+  constexpr double kReach = 3.2, kWhole = 6, kMargin = 0.15;  // in radii
+  const Window fluid{0, std::ranges::max(mesh.x), std::min(0.0, std::ranges::min(mesh.y)),
+                     std::max(0.0, std::ranges::max(mesh.y))};
+  const double margin = kMargin * radius, centre = gap + radius;
+  const bool whole = fluid.right <= kWhole * radius && fluid.height() <= 2 * kWhole * radius;
+  const double reach = kReach * radius;
+  return whole ? unstretched({-fluid.right - margin, fluid.right + margin, fluid.bottom - margin,
+                              fluid.top + margin})
+               : unstretched({-std::min(reach, fluid.right + margin),
+                              std::min(reach, fluid.right + margin),
+                              std::max(centre - reach, fluid.bottom - margin),
+                              std::min(centre + reach, fluid.top + margin)});
+}
+
+/// Half the width of the view of a gap, in units of sqrt(2 gap radius). At one such unit from the
+/// axis, the film over a plane is twice as thick as on the axis; at this end it is about 7 times as
+/// thick.
+constexpr double kGapReach = 2.5;
+
+PlotView gap_view(const QuadraticMesh& mesh, double radius, double gap, double reach = kGapReach) {
+  constexpr double kOfSphere = 0.9;  // of the radius, at most
+  constexpr double kMargin = 0.08;   // of the height
+  constexpr double kFlattest = 0.4;  // of a view drawn at equal scales
+  const double half = std::min(reach * std::sqrt(2 * gap * radius), kOfSphere * radius);
+  const double top = sphere_bottom(radius, gap, half);
+  double bottom = 0;
+  for (std::size_t i = 0; i < mesh.x.size(); ++i)
+    if (mesh.x[i] < half && mesh.y[i] > -top) bottom = std::min(bottom, mesh.y[i]);
+  const double margin = kMargin * (top - bottom);
+  Window window{-half, half, bottom - margin, top + margin};
+  const double widest = std::max(half, window.height() / 2);  // the view is not higher than wide
+  window.left = -widest;
+  window.right = widest;
+  if (window.height() > kFlattest * window.width()) return unstretched(window);
+  return {window, kPlotWidth, kStretchedPlot};
+}
+
+/// The lines in rho >= 0 and their mirror images, as one curve with interruptions.
+Curve mirrored(const std::string& legend, const std::string& style,
+               const std::vector<Polyline>& lines) {
+  Curve curve{legend, style, {}};
+  for (const double side : {1.0, -1.0})
+    for (const auto& line : lines) {
+      for (const auto& [rho, z] : line) curve.points.emplace_back(side * rho, z);
+      curve.points.emplace_back(0, std::nan(""));
+    }
+  return curve;
+}
+
+/// The sides of the triangles near the window, each divided into `pieces` straight pieces.
+std::vector<Polyline> sides(const QuadraticMesh& mesh, const Window& window, int pieces) {
+  // Two triangles share a side. The map has each side once, by the number of its middle node.
+  std::map<std::int32_t, std::array<std::size_t, 3>> by_middle;
+  for (const auto& nodes : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      by_middle[nodes.at(3 + i)] = {static_cast<std::size_t>(nodes.at(i)),
+                                    static_cast<std::size_t>(nodes.at((i + 1) % 3)),
+                                    static_cast<std::size_t>(nodes.at(3 + i))};
+  std::vector<Polyline> lines;
+  for (const auto& [middle, side] : by_middle) add_side(lines, mesh, window, side, pieces);
+  return lines;
+}
+
+/// The sphere as a filled surface, and the walls and the neighbour as lines.
+std::vector<Curve> outlines(const freefem_axi::RowPicture& picture, const PlotView& view,
+                            double radius) {
+  const double gap = picture.gap;
+  const auto& window = view.window;
+  // Straight pieces of a side of a triangle, and of the visible part of the sphere.
+  constexpr int kPieces = 6, kSamples = 200;
+  std::vector<Polyline> walls, shear_free;
+  for (const auto& edge : picture.boundary) {
+    if (edge.kind == freefem_axi::BoundaryKind::kWall ||
+        edge.kind == freefem_axi::BoundaryKind::kShearFree)
+      add_side(edge.kind == freefem_axi::BoundaryKind::kShearFree ? shear_free : walls,
+               picture.flow, window, edge.nodes, kPieces);
+  }
+  // The part of the sphere that is in the window, as a curve that is closed far above the window.
+  Curve sphere{
+      "", "filledcurves closed fillcolor rgb '#8c8c8c' fillstyle solid border rgb '#000000'", {}};
+  const double half = window.right < radius ? std::asin(window.right / radius) : std::numbers::pi;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double angle = half * (2.0 * i / kSamples - 1);
+    sphere.points.emplace_back(radius * std::sin(angle), gap + radius * (1 - std::cos(angle)));
+  }
+  if (half < std::numbers::pi) {
+    sphere.points.emplace_back(sphere.points.back().first, window.top);
+    sphere.points.emplace_back(sphere.points.front().first, window.top);
+  }
+  std::vector<Curve> curves = {sphere};
+  if (!walls.empty())
+    curves.push_back(
+        mirrored("", "lines linewidth 2 linecolor rgb '#000000'", thinned(walls, view)));
+  if (!shear_free.empty())
+    curves.push_back(mirrored("shear-free surface",
+                              "lines linewidth 2.5 linecolor rgb '#009E73' dashtype (12,5)",
+                              thinned(shear_free, view)));
+  return curves;
+}
 
 // Margins of the drawing [pixels].
 constexpr double kLeft = 110, kAbove = 66, kBelow = 106;
@@ -91,56 +262,106 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The values at the cells of the plot, which are so small that they are hardly seen.
-ColourField colour_field(const LinearField& values, const PlotView& view) {
-  const auto& window = view.window;
+/// The flow in a view on a grid of the half-plane, whose points are the centres of cells that are so
+/// small that they are hardly seen.
+struct ViewedFlow {
+  PlotView view;
+  Grid grid;
+  FlowOnGrid flow;
+};
+
+Grid grid_of_view(const PlotView& view) {
   // Size of a cell [pixels]. The time of gnuplot is proportional to the number of cells.
   constexpr double kCell = 1.5;
-  ColourField field{static_cast<std::size_t>(view.plot_width / kCell),
-                    static_cast<std::size_t>(view.plot_height / kCell),
-                    window.left,
-                    window.right,
-                    window.bottom,
-                    window.top,
-                    {}};
-  field.values = pixels(values, window, field.columns, field.rows);
+  const auto columns = static_cast<std::size_t>(view.plot_width / 2 / kCell);
+  const auto rows = static_cast<std::size_t>(view.plot_height / kCell);
+  const double half_width = view.window.right / static_cast<double>(columns) / 2;
+  const double half_height = view.window.height() / static_cast<double>(rows) / 2;
+  return {{half_width, view.window.right - half_width, view.window.bottom + half_height,
+           view.window.top - half_height},
+          columns,
+          rows};
+}
+
+ViewedFlow flow_in(const PlotView& view, const FlowField& flow) {
+  const auto grid = grid_of_view(view);
+  return {view, grid, flow_on_grid(flow, grid)};
+}
+
+/// The values at the points of the grid, and their mirror images.
+ColourField colour_field(std::vector<double> values, const Grid& grid, const PlotView& view) {
+  // The boundary may cross a cell whose centre is outside the fluid.
+  fill_next_to_known(values, grid.columns);
+  const auto& window = view.window;
+  ColourField field{2 * grid.columns, grid.rows,  window.left, window.right,
+                    window.bottom,    window.top, {}};
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * grid.columns);
+    const auto end = first + static_cast<std::ptrdiff_t>(grid.columns);
+    field.values.insert(field.values.end(), std::reverse_iterator(end),
+                        std::reverse_iterator(first));
+    field.values.insert(field.values.end(), first, end);
+  }
   return field;
+}
+
+/// The smallest and the largest value at the nodes in the window.
+std::pair<double, double> extremes(const QuadraticMesh& mesh, const std::vector<double>& values,
+                                   const Window& window) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (mesh.x[i] <= window.right && mesh.y[i] >= window.bottom && mesh.y[i] <= window.top) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+  return {low, high};
+}
+
+Curve streamlines(const ViewedFlow& viewed, double radius, double gap) {
+  constexpr int kLines = 14;  // on each side of the axis, about
+  const auto& grid = viewed.grid;
+  std::vector<char> is_sphere(grid.size());
+  for (std::size_t i = 0; i < is_sphere.size(); ++i)
+    is_sphere[i] =
+        std::hypot(grid.x(i % grid.columns), grid.y(i / grid.columns) - gap - radius) < radius ? 1
+                                                                                               : 0;
+  const auto [lines, step] = StreamLines(grid, true).of(viewed.flow, is_sphere, kLines);
+  if (lines.empty()) return {};
+  std::vector<Polyline> drawn;
+  for (const auto& line : lines) drawn.push_back(line.points);
+  return mirrored(fmt::format("streamlines; flow rate between neighbouring ones: {:.3g} (unit: "
+                              "length^3 / time)",
+                              2 * std::numbers::pi * step),
+                  "lines linewidth 1 linecolor rgb '#202020'", thinned(drawn, viewed.view));
 }
 
 std::string plot_pressure_and_streamlines(const std::string& what,
                                           const freefem_axi::RowPicture& picture,
                                           const freefem_axi::Tabulation& tabulation,
-                                          const PlotView& view, const ColourField& pressure,
+                                          const ViewedFlow& viewed, const ColourField& pressure,
                                           const PressureColours& colours, const StopToken& stop) {
+  const auto& view = viewed.view;
   Panel panel = empty_panel(what, picture, tabulation, view);
   panel.field = pressure;
   for (double& value : panel.field->values) value = colours.at(value);
   panel.settings = colours.settings();
-  panel.curves.push_back(streamlines(picture.flow, view));
-  std::ranges::move(outlines(picture.flow.mesh, view, tabulation.radius, picture.gap),
-                    std::back_inserter(panel.curves));
+  panel.curves.push_back(streamlines(viewed, tabulation.radius, picture.gap));
+  std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
   panel.settings.push_back(velocity_arrow(picture, tabulation.radius, view.window));
   return draw(panel, view, kColourBar, stop);
 }
 
 /// Arrows of the velocity in the plane of motion. Where phi = pi, on the left, cos phi changes the
 /// sign of u_z; the component along x is the same, because e_rho changes its sign, too.
-Curve velocity_arrows(const freefem_axi::Flow& flow, const PlotView& view, double fastest) {
+Curve velocity_arrows(const ViewedFlow& viewed, double fastest) {
+  const auto& view = viewed.view;
   constexpr std::size_t kColumns = 24;
   constexpr double kHead = 0.35, kAngle = 0.45;  // of an arrow's length, radians
   const auto rows = static_cast<std::size_t>(
       std::lround(std::max(2.0, kColumns * view.plot_height / view.plot_width)));
   const auto& window = view.window;
-  std::vector<double> radial, axial;
-  for (const auto& velocity : flow.velocity) {
-    radial.push_back(velocity[0]);
-    axial.push_back(velocity[1]);
-  }
-  // Values at the pixels, of which only those next to the fluid are known beyond it.
-  const auto at_pixels = [&](const std::vector<double>& values) {
-    return colour_field(straightened(flow.mesh, values, window), view);
-  };
-  const auto u_field = at_pixels(radial), w_field = at_pixels(axial);
+  const auto u_field = colour_field(viewed.flow.velocity_x, viewed.grid, view);
+  const auto w_field = colour_field(viewed.flow.velocity_y, viewed.grid, view);
   const double cell_x = window.width() / kColumns,
                cell_y = window.height() / static_cast<double>(rows);
   std::vector<Polyline> arrows;
@@ -182,24 +403,23 @@ std::string plot_motion(const freefem_axi::RowPicture& picture,
                         const freefem_axi::Tabulation& tabulation, bool in_gap,
                         const StopToken& stop) {
   const auto& flow = picture.flow;
-  const auto view = in_gap ? gap_view(flow.mesh, tabulation.radius, picture.gap)
-                           : surroundings(flow.mesh, tabulation.radius, picture.gap);
+  const auto view = in_gap ? gap_view(flow, tabulation.radius, picture.gap)
+                           : surroundings(flow, tabulation.radius, picture.gap);
   const bool spins = picture.motion == lubrication::MotionKind::kSpin;
   std::vector<double> speed;
-  for (std::size_t i = 0; i < flow.velocity.size(); ++i)
-    speed.push_back(spins ? std::abs(flow.azimuthal_velocity[i])
-                          : std::hypot(flow.velocity[i][0], flow.velocity[i][1]));
-  const auto field = straightened(flow.mesh, speed, view.window);
-  const double fastest = extremes(field, view.window).second;
+  for (std::size_t i = 0; i < flow.x.size(); ++i)
+    speed.push_back(spins ? std::abs(picture.azimuthal_velocity[i])
+                          : std::hypot(flow.velocity_x[i], flow.velocity_y[i]));
+  const double fastest = extremes(flow, speed, view.window).second;
+  const auto viewed = flow_in(view, flow);
   Panel panel = empty_panel(in_gap ? "Flow in the gap" : "Flow at gap", picture, tabulation, view);
-  panel.field = colour_field(field, view);
+  panel.field = colour_field(field_on_grid(flow, speed, viewed.grid), viewed.grid, view);
   panel.settings = {"set palette defined (0 'white', 0.35 '#9ecae1', 0.7 '#4292c6', 1 '#08519c')",
                     fmt::format("set cbrange [0:{:.9g}]", fastest),
                     fmt::format("set cblabel '{}'",
                                 spins ? "azimuthal velocity" : "speed in the plane of motion")};
-  if (!spins) panel.curves.push_back(velocity_arrows(flow, view, fastest));
-  std::ranges::move(outlines(flow.mesh, view, tabulation.radius, picture.gap),
-                    std::back_inserter(panel.curves));
+  if (!spins) panel.curves.push_back(velocity_arrows(viewed, fastest));
+  std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
   return draw(panel, view, kColourBar, stop);
 }
 
@@ -210,51 +430,50 @@ std::string plot_mesh(const freefem_axi::RowPicture& picture,
   constexpr int kPieces = 8;
   constexpr std::size_t kMostSides = 3500;  // with more sides, the view is made narrower
   double reach = kGapReach;
-  auto view = gap_view(picture.flow.mesh, tabulation.radius, picture.gap);
-  auto fine = sides(picture.flow.mesh, view.window, kPieces / 4);
+  auto view = gap_view(picture.flow, tabulation.radius, picture.gap);
+  auto fine = sides(picture.flow, view.window, kPieces / 4);
   while (fine.size() > kMostSides) {
     reach /= 2;
     const double right = view.window.right;
-    view = gap_view(picture.flow.mesh, tabulation.radius, picture.gap, reach);
+    view = gap_view(picture.flow, tabulation.radius, picture.gap, reach);
     if (!(view.window.right < right)) break;  // the height of a wide gap limits the view
-    fine = sides(picture.flow.mesh, view.window, kPieces / 4);
+    fine = sides(picture.flow, view.window, kPieces / 4);
   }
   Panel panel = empty_panel("Mesh in the gap", picture, tabulation, view);
   // A white field shows where the fluid is.
-  const std::vector<double> white(picture.flow.mesh.nodes.size(), 0.0);
-  panel.field = colour_field(straightened(picture.flow.mesh, white, view.window), view);
+  const std::vector<double> white(picture.flow.x.size(), 0.0);
+  const auto grid = grid_of_view(view);
+  panel.field = colour_field(field_on_grid(picture.flow, white, grid), grid, view);
   panel.settings = {"set palette defined (0 'white', 1 'white')", "set cbrange [0:1]",
                     "unset colorbox"};
   panel.curves.push_back(
       mirrored("finest mesh", "lines linewidth 0.5 linecolor rgb '#56B4E9'", fine));
   panel.curves.push_back(mirrored("coarsest mesh", "lines linewidth 1.4 linecolor rgb '#0072B2'",
                                   sides(picture.coarsest, view.window, kPieces)));
-  std::ranges::move(outlines(picture.flow.mesh, view, tabulation.radius, picture.gap),
-                    std::back_inserter(panel.curves));
+  std::ranges::move(outlines(picture, view, tabulation.radius), std::back_inserter(panel.curves));
   return draw(panel, view, kNoColourBar, stop);
 }
 
 std::string plot_flow(const freefem_axi::RowPicture& picture,
                       const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
   const auto& flow = picture.flow;
-  const auto view = surroundings(flow.mesh, tabulation.radius, picture.gap);
-  const auto field = straightened(flow.mesh, flow.pressure, view.window);
-  const auto pressure = colour_field(field, view);
+  const auto view = surroundings(flow, tabulation.radius, picture.gap);
+  const auto viewed = flow_in(view, flow);
+  const auto pressure = colour_field(viewed.flow.pressure, viewed.grid, view);
   const double usual =
       tabulation.viscosity * std::abs(picture.reference_velocity) / tabulation.radius;
   auto colours = robust_colours(pressure.values, usual);
-  // A thin film may have no pixels, so the extremes are those of the triangles.
-  std::tie(colours.smallest, colours.largest) = extremes(field, view.window);
-  return plot_pressure_and_streamlines("Flow at gap", picture, tabulation, view, pressure, colours,
-                                       stop);
+  // A thin film may have no cells, so the extremes are those of the nodes.
+  std::tie(colours.smallest, colours.largest) = extremes(flow, flow.pressure, view.window);
+  return plot_pressure_and_streamlines("Flow at gap", picture, tabulation, viewed, pressure,
+                                       colours, stop);
 }
 
 std::string plot_gap_flow(const freefem_axi::RowPicture& picture,
                           const freefem_axi::Tabulation& tabulation, const StopToken& stop) {
-  const auto& flow = picture.flow;
-  const auto view = gap_view(flow.mesh, tabulation.radius, picture.gap);
-  const auto pressure = colour_field(straightened(flow.mesh, flow.pressure, view.window), view);
-  return plot_pressure_and_streamlines("Flow in the gap", picture, tabulation, view, pressure,
+  const auto viewed = flow_in(gap_view(picture.flow, tabulation.radius, picture.gap), picture.flow);
+  const auto pressure = colour_field(viewed.flow.pressure, viewed.grid, viewed.view);
+  return plot_pressure_and_streamlines("Flow in the gap", picture, tabulation, viewed, pressure,
                                        proportional_colours(pressure.values), stop);
 }
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "viscontact/report/particles/view_box.hpp"
+#include "viscontact/report/particles/scene.hpp"
 
 namespace viscontact::report {
 
@@ -27,13 +27,10 @@ Projection view_of(int dimension);
 
 /// Settings that all panels of a picture share.
 struct PanelSettings {
-  const particles::Playback& playback;
-  ViewBox box;
+  const Scene& scene;
   Projection view;
   double width = 0, height = 0;  ///< size of a panel in page units
-  double lowest = 0;             ///< lowest gamma of the motion, in the unit of Pair::gamma
   std::size_t every = 1;         ///< one particle in `every` is drawn
-  bool is_in_fluid = false;      ///< colours that are seen before the flow
 };
 
 inline constexpr int kContactColours = 20;  ///< for gamma < 0

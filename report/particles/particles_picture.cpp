@@ -10,13 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/report/html/html.hpp"
-#include "viscontact/report/particles/film_colours.hpp"
-#include "viscontact/report/particles/flow/flow_frames.hpp"
-#include "viscontact/report/particles/flow/flow_picture.hpp"
-#include "viscontact/report/particles/flow/speed_colours.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/report/particles/frame_picture.hpp"
-#include "viscontact/report/particles/view_box.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -66,33 +61,7 @@ int columns_for(int panels, double width_over_height) {
   return best;
 }
 
-/// A scale of colours with its numbers below.
-struct ColourBar {
-  std::vector<std::string> colours;                   ///< from left to right
-  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, and texts
-  std::string words;
-};
-
-ColourBar film_bar(double lowest, const std::string& words, bool touching) {
-  ColourBar bar;
-  for (int c = kContactColours; c-- > 0;) bar.colours.push_back(film_colour(c, kContactColours));
-  for (const double tick : film_ticks(lowest))
-    bar.ticks.emplace_back(1 - tick / lowest, film_tick_text(tick));
-  bar.words = words + std::string(touching ? "; thin and grey: touching, no film" : "");
-  return bar;
-}
-
-ColourBar speed_bar(double top) {
-  constexpr int kColours = 20;
-  ColourBar bar;
-  for (int c = 0; c < kColours; ++c)
-    bar.colours.push_back(speed_colour(static_cast<double>(c) / (kColours - 1)));
-  for (const auto& [speed, text] : speed_ticks(top)) bar.ticks.emplace_back(speed / top, text);
-  bar.words = std::string(kSpeedWords) + "; equal flow between streamlines";
-  return bar;
-}
-
-std::string picture_of(const ColourBar& bar, double left, double top, double width) {
+std::string picture_of(const ColourScale& bar, double left, double top, double width) {
   constexpr int kHeight = 12;  // [page units]
   std::string text;
   const double step = width / static_cast<double>(bar.colours.size());
@@ -109,6 +78,103 @@ std::string picture_of(const ColourBar& bar, double left, double top, double wid
         left + width * share, top + kHeight, top + kHeight + 16, number);
   return text + fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text></g>\n", left + width / 2,
                             top + kHeight + 34, bar.words);
+}
+
+constexpr int kBands = 20;  // colours of the speed
+
+/// The speed on a grid with one more ring of points, which are at the places of the outermost
+/// points and slower than all others. Therefore all level lines are closed.
+LinearField closed_field(const Grid& grid, const FlowFrame& frame) {
+  std::vector<double> speeds(frame.speed.begin(), frame.speed.end());
+  // Regions without flow take the speed at their boundary; a solid is drawn over them.
+  const auto is_unknown = [](double v) { return std::isnan(v); };
+  for (auto layer = std::max(grid.columns, grid.rows);
+       layer > 0 && std::ranges::any_of(speeds, is_unknown); --layer)
+    fill_next_to_known(speeds, grid.columns);
+  LinearField field;
+  const auto columns = grid.columns + 2, rows = grid.rows + 2;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const auto i = std::clamp<std::size_t>(column, 1, grid.columns) - 1;
+      const auto j = std::clamp<std::size_t>(row, 1, grid.rows) - 1;
+      const bool is_added = i + 1 != column || j + 1 != row;
+      field.points.push_back({grid.x(i), grid.y(j)});
+      field.values.push_back(is_added ? -1 : speeds[j * grid.columns + i]);
+    }
+  for (std::size_t row = 0; row + 1 < rows; ++row)
+    for (std::size_t column = 0; column + 1 < columns; ++column) {
+      const auto a = static_cast<std::uint32_t>(row * columns + column);
+      const auto c = static_cast<std::uint32_t>(a + columns);
+      field.triangles.push_back({a, a + 1, c + 1});
+      field.triangles.push_back({a, c + 1, c});
+    }
+  return field;
+}
+
+/// Appends a line as a path of SVG, without points less than half a page unit away from the one
+/// before.
+void append_path(std::string& path, const Polyline& line, const Projection& view) {
+  constexpr double kNear = 0.5;
+  double last_x = 0, last_y = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const particles::Vector at = {line[i].first, line[i].second, 0};
+    const double x = view.x(at), y = view.y(at);
+    if (i > 0 && i + 1 < line.size() && std::hypot(x - last_x, y - last_y) < kNear) continue;
+    path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x, y);
+    last_x = x;
+    last_y = y;
+  }
+}
+
+/// A head at point `at` of the line, in its direction.
+std::string arrow_head(const Polyline& line, std::size_t at, const Projection& view) {
+  constexpr double kLength = 5, kHalfWidth = 2.2;  // [page units]
+  const particles::Vector tip = {line[at].first, line[at].second, 0};
+  const particles::Vector tail = {line[at - 1].first, line[at - 1].second, 0};
+  const double x = view.x(tip), y = view.y(tip), dx = x - view.x(tail), dy = y - view.y(tail);
+  const double length = std::hypot(dx, dy);
+  if (!(length > 0)) return "";
+  const double a = kLength * dx / length, b = kLength * dy / length;
+  const double c = -kHalfWidth * dy / length, d = kHalfWidth * dx / length;
+  return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z", x, y, x - a + c, y - b + d,
+                     x - a - c, y - b - d);
+}
+
+std::string half_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
+  const auto& window = flows.grid.window;
+  const double left = view.x({window.left, 0, 0}), top = view.y({0, window.top, 0});
+  auto text = fmt::format(
+      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", left,
+      top, view.scale * window.width(), view.scale * window.height(), speed_colour(0));
+  const auto speed = closed_field(flows.grid, frame);
+  if (flows.top_speed > 0)
+    for (int band = 1; band < kBands; ++band) {
+      std::string path;
+      for (const auto& line : level_lines(speed, flows.top_speed * band / kBands))
+        append_path(path, line, view);
+      if (!path.empty())
+        text += fmt::format("<path fill=\"{}\" fill-rule=\"evenodd\" d=\"{}\"/>\n",
+                            speed_colour(static_cast<double>(band) / (kBands - 1)), path);
+    }
+  std::string lines, arrows;
+  for (const auto& line : frame.lines) {
+    append_path(lines, line.points, view);
+    if (line.arrow > 0)
+      arrows += arrow_head(line.points, static_cast<std::size_t>(line.arrow), view);
+  }
+  return text + fmt::format(
+                    "<path fill=\"none\" stroke=\"{0}\" stroke-opacity=\".6\" "
+                    "stroke-width=\".7\" d=\"{1}\"/>\n<path fill=\"{0}\" fill-opacity=\".75\" "
+                    "d=\"{2}\"/>\n",
+                    kStreamLineColour, lines, arrows);
+}
+
+/// The speed as coloured bands, and the streamlines with arrows.
+std::string flow_picture(const FlowFrames& flows, const FlowFrame& frame, const Projection& view) {
+  auto half = half_picture(flows, frame, view);
+  if (!flows.has_axis) return half;
+  return half + fmt::format("<g transform=\"translate({:.4f} 0) scale(-1 1)\">\n{}</g>\n",
+                            2 * view.x({0, 0, 0}), half);
 }
 
 /// The flow behind the particles of frame `f`; empty if there is none.
@@ -133,37 +199,39 @@ std::pair<double, double> show_box(Projection& view, const ViewBox& box) {
   return {x.high - x.low, y.high - y.low};
 }
 
+/// The gradient with which spheres are filled.
+std::string gradient(const char* id, const std::array<SceneStyle::Colour, 4>& colours) {
+  return fmt::format(
+      "<radialGradient id=\"{}\" cx=\".36\" cy=\".32\" r=\".72\">"
+      "<stop offset=\"0\" stop-color=\"{}\"/><stop offset=\".5\" stop-color=\"{}\"/>"
+      "<stop offset=\"1\" stop-color=\"{}\"/></radialGradient>",
+      id, colours[0], colours[1], colours[2]);
+}
+
 /// The beginning of the SVG, with the title.
 std::string opening(const std::string& title, double height, bool has_bodies) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" fill=\"#1a1a1a\">\n"
-      "<title>{2}</title>\n"
-      "<defs><radialGradient id=\"ball\" cx=\".36\" cy=\".32\" r=\".72\">"
-      "<stop offset=\"0\" stop-color=\"#e3eef7\"/><stop offset=\".5\" stop-color=\"#a3bfd8\"/>"
-      "<stop offset=\"1\" stop-color=\"#5b7f9f\"/></radialGradient>{5}</defs>\n"
+      "<title>{2}</title>\n<defs>{5}{6}</defs>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"{3:.0f}\" y=\"29\" font-size=\"{4:.1f}\" text-anchor=\"middle\">{2}</text>\n",
       kPictureWidth, height, escaped(title), kPictureWidth / 2,
       // A character is on average about half as wide as high.
       std::min(20.0, 2 * (kPictureWidth - 2 * kEdge) / static_cast<double>(title.size() + 1)),
-      has_bodies ? "<radialGradient id=\"body\" cx=\".36\" cy=\".32\" r=\".72\">"
-                   "<stop offset=\"0\" stop-color=\"#f6ead0\"/><stop offset=\".5\" "
-                   "stop-color=\"#dcc79c\"/><stop offset=\"1\" stop-color=\"#a98d55\"/>"
-                   "</radialGradient>"
-                 : "");
+      gradient("ball", kStyle.ball), has_bodies ? gradient("body", kStyle.ball_of_body) : "");
 }
 
 /// The panels of the chosen frames with their times, in rows of `columns`.
-std::string panels_of(const PanelSettings& panel, const FlowFrames& flows,
-                      const std::vector<std::size_t>& chosen, int columns) {
+std::string panels_of(const PanelSettings& panel, const std::vector<std::size_t>& chosen,
+                      int columns) {
   std::string text;
   // If the height limits the scale, the panels are spread over the width.
   const double place = kPictureWidth / columns;
   for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
     const auto f = chosen[static_cast<std::size_t>(i)];
-    const auto& frame = panel.playback.frames[f];
+    const auto& frame = panel.scene.playback.frames[f];
     const int row = i / columns;
     const double left = place * (i % columns) + (place - panel.width) / 2;
     const double top = kTitle + row * (panel.height + kCaption);
@@ -173,8 +241,8 @@ std::string panels_of(const PanelSettings& panel, const FlowFrames& flows,
         "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"14\" text-anchor=\"middle\">t = "
         "{:.4g}</text>\n",
         left, top, panel.width, panel.height,
-        frame_picture(panel, frame, flow_behind(flows, f, panel.view)), left + panel.width / 2,
-        top + panel.height + 20, frame.time);
+        frame_picture(panel, frame, flow_behind(panel.scene.flows, f, panel.view)),
+        left + panel.width / 2, top + panel.height + 20, frame.time);
   }
   return text;
 }
@@ -184,21 +252,13 @@ std::string panels_of(const PanelSettings& panel, const FlowFrames& flows,
 std::string particles_picture(const Playback& original, const std::string& title, int panels) {
   // More than 20000 particles in a panel could not be told apart, nor more points of a flow.
   constexpr std::size_t kMostInPanel = 20000, kPointsOfFlow = 50000;
-  const auto playback = in_plane(original);
-  const bool has_axis = original.dimension == 1;
-  const auto chosen = chosen_frames(playback, panels);
+  const auto chosen = chosen_frames(original, panels);
   const int count = static_cast<int>(chosen.size());
-  const auto extent = flow_extent(playback, has_axis);
-  PanelSettings panel{.playback = playback,
-                      .box = view_box_of(playback, chosen, box_of(extent)),
-                      .view = view_of(playback.dimension),
-                      .lowest = lowest_gamma(playback),
-                      .every = playback.radii.size() / (kMostInPanel + 1) + 1,
-                      .is_in_fluid = extent.has_value()};
-  FlowFrames flows;
-  if (extent)
-    flows = read_flows(playback, has_axis, common_part(*extent, panel.box), chosen, kPointsOfFlow);
-  const auto [wide, high] = show_box(panel.view, panel.box);
+  const auto scene = scene_of(original, chosen, chosen, kPointsOfFlow);
+  PanelSettings panel{.scene = scene,
+                      .view = view_of(scene.playback.dimension),
+                      .every = scene.playback.radii.size() / (kMostInPanel + 1) + 1};
+  const auto [wide, high] = show_box(panel.view, scene.box);
   const int columns = columns_for(std::max(count, 1), wide / high);
   const int rows = (count + columns - 1) / columns;
   auto& scale = panel.view.scale;
@@ -207,18 +267,19 @@ std::string particles_picture(const Playback& original, const std::string& title
   panel.width = scale * wide;
   panel.height = scale * high;
   const double bottom = kTitle + rows * (panel.height + kCaption) + 6;
-  std::vector<ColourBar> bars;
-  if (flows.top_speed > 0) bars.push_back(speed_bar(flows.top_speed));
-  if (panel.lowest < 0)
-    bars.push_back(film_bar(panel.lowest, film_words(original),
-                            std::ranges::any_of(chosen, [&](std::size_t f) {
-                              return has_contact_without_film(playback.frames[f]);
-                            })));
-  const bool slides = std::ranges::any_of(
-      chosen, [&](std::size_t f) { return has_sliding_contact(playback.frames[f]); });
-  auto svg =
-      opening(title, bottom + (bars.empty() ? (slides ? 12 : 0) : 60), !playback.bodies.empty());
-  svg += panels_of(panel, flows, chosen, columns);
+  std::vector<ColourScale> bars;
+  if (scene.flows.top_speed > 0) {
+    bars.push_back(speed_scale(scene.flows.top_speed, kBands));
+    bars.back().words += "; equal flow between streamlines";
+  }
+  if (scene.lowest_gamma < 0) {
+    bars.push_back(film_scale(scene.lowest_gamma, kContactColours, scene.film_words));
+    if (scene.touches) bars.back().words += "; thin and grey: touching, no film";
+  }
+  const bool slides = scene.slides;
+  auto svg = opening(title, bottom + (bars.empty() ? (slides ? 12 : 0) : 60),
+                     !scene.playback.bodies.empty());
+  svg += panels_of(panel, chosen, columns);
   if (panel.every > 1)
     svg += fmt::format(
         "<text x=\"{:.0f}\" y=\"{:.2f}\" font-size=\"11\" text-anchor=\"end\">one particle in {} "

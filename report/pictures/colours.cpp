@@ -1,14 +1,28 @@
-// Interpolates red, green and blue linearly between the nodes of a colour scale (colours.hpp).
+// Interpolates colours between the nodes of a scale, and chooses the ends, numbers and words of
+// scales (colours.hpp). gnuplot gets PressureColours::at(pressure) and not the pressure, so
+// settings() and at() must agree.
 #include "viscontact/report/pictures/colours.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 namespace viscontact::report {
+namespace {
 
-std::string colour_between(std::span<const ColourNode> nodes, double place) {
+struct ColourNode {
+  double place;               ///< position on the scale, in any unit
+  std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
+};
+
+/// The colour "#rrggbb" at a place of a scale, whose nodes, at least two, have increasing places.
+/// Red, green and blue are linear between the nodes. A place before the first node or after the last
+/// one has the colour of that node.
+std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   std::size_t i = 1;
   while (i + 1 < nodes.size() && nodes[i].place < place) ++i;
   const auto &a = nodes[i - 1], &b = nodes[i];
@@ -17,6 +31,210 @@ std::string colour_between(std::span<const ColourNode> nodes, double place) {
   for (std::size_t c = 0; c < rgb.size(); ++c)
     rgb[c] = std::lround(std::lerp(a.rgb[c], b.rgb[c], share));
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
+/// `colours` evenly spaced colours; `colour` gives that of a share from 0 to 1.
+template <class Colour>
+std::vector<std::string> evenly_spaced(int colours, const Colour& colour) {
+  std::vector<std::string> all;
+  for (int c = 0; c < colours; ++c) all.push_back(colour(static_cast<double>(c) / (colours - 1)));
+  return all;
+}
+
+/// Round numbers from 0 to `top` > 0, about four intervals, by their shares of `top`.
+std::vector<std::pair<double, std::string>> round_ticks(double top) {
+  const double rough = top / 4, decade = std::pow(10, std::floor(std::log10(rough)));
+  const double step = decade * (rough < 1.5 * decade ? 1
+                                : rough < 3 * decade ? 2
+                                : rough < 7 * decade ? 5
+                                                     : 10);
+  std::vector<std::pair<double, std::string>> ticks;
+  for (int i = 0; i * step <= top * (1 + 1e-9); ++i)
+    ticks.emplace_back(i * step / top, fmt::format("{:.3g}", i * step));
+  return ticks;
+}
+
+/// The colour at a place from -1 to 1, by ColorBrewer's scale RdBu, whose colours colour-blind
+/// readers can tell apart. It is linear between its nodes.
+std::string red_blue(double place) {
+  static const std::vector<ColourNode> kRedBlue = {
+      {-1, {33, 102, 172}}, {-0.66, {103, 169, 207}}, {-0.3, {209, 229, 240}},
+      {0, {250, 250, 250}}, {0.3, {253, 219, 199}},   {0.66, {239, 138, 98}},
+      {1, {178, 24, 43}}};
+  return colour_between(kRedBlue, place);
+}
+
+/// A number with three digits and a short exponent: 1e6 in place of 1e+06.
+std::string short_number(double value) {
+  std::string text = fmt::format("{:.3g}", value);
+  if (const auto e = text.find("e+"); e != std::string::npos)
+    text.erase(e + 1, text[e + 2] == '0' ? 2 : 1);
+  return text;
+}
+
+/// The smallest number >= value that is 1, 2 or 5 times a power of ten.
+double rounded_up(double value) {
+  const double decade = std::pow(10, std::floor(std::log10(value)));
+  for (const double mantissa : {1.0, 2.0, 5.0})
+    if (value <= mantissa * decade) return mantissa * decade;
+  return 10 * decade;
+}
+
+std::vector<double> sorted_finite(const std::vector<double>& values) {
+  std::vector<double> sorted;
+  std::ranges::copy_if(values, std::back_inserter(sorted),
+                       [](double v) { return std::isfinite(v); });
+  std::ranges::sort(sorted);
+  if (sorted.empty()) sorted.push_back(0);
+  return sorted;
+}
+
+/// The colours, with the ends of the bar made different, because gnuplot needs low < high.
+PressureColours widened(PressureColours colours) {
+  if (colours.high > colours.low) return colours;
+  const double half = colours.high == 0 ? 1 : std::abs(colours.high);
+  colours.low -= half;
+  colours.high += half;
+  return colours;
+}
+
+}  // namespace
+
+std::string film_colour(double share) {
+  // Colour-blind readers can tell the colours of the scale viridis apart, and so can readers of a
+  // print in grey.
+  static const std::vector<ColourNode> kViridis = {
+      {0, {253, 231, 37}},     {0.125, {173, 220, 48}}, {0.25, {94, 201, 98}},
+      {0.375, {40, 174, 128}}, {0.5, {33, 145, 140}},   {0.625, {44, 114, 142}},
+      {0.75, {59, 82, 139}},   {0.875, {71, 45, 123}},  {1, {68, 1, 84}}};
+  return colour_between(kViridis, share);
+}
+
+ColourScale film_scale(double lowest, int colours, const std::string& words) {
+  ColourScale scale{words, evenly_spaced(colours, film_colour), {}};
+  std::ranges::reverse(scale.colours);
+  for (const auto& [share, text] : round_ticks(-lowest))
+    scale.ticks.emplace_back(1 - share, share > 0 ? "−" + text : text);
+  return scale;
+}
+
+std::string speed_colour(double share) {
+  // Lightness falls evenly from 0.985 to 0.6 in OKLab (Ottosson 2020), whose differences are about
+  // those that the eye sees; the hue goes from 205 to 254 degrees.
+  static const std::vector<ColourNode> kBlues = {{0, {243, 252, 253}},   {0.2, {182, 235, 248}},
+                                                 {0.4, {128, 212, 245}}, {0.6, {88, 186, 238}},
+                                                 {0.8, {67, 157, 226}},  {1, {64, 128, 206}}};
+  return colour_between(kBlues, share);
+}
+
+ColourScale speed_scale(double top, int colours) {
+  return {"speed of the fluid [length/time]", evenly_spaced(colours, speed_colour),
+          round_ticks(top)};
+}
+
+double PressureColours::at(double pressure) const {
+  return linear_below > 0 ? std::asinh(pressure / linear_below) / std::numbers::ln10 : pressure;
+}
+
+std::string PressureColours::colour_at(double place) const {
+  return red_blue(place / std::max(std::abs(at(low)), std::abs(at(high))));
+}
+
+std::vector<std::pair<double, std::string>> PressureColours::ticks() const {
+  std::vector<std::pair<double, std::string>> ticks;
+  if (!(linear_below > 0)) {
+    constexpr double kAbout = 5;  // approximate number of intervals
+    const double step = rounded_up((high - low) / kAbout);
+    for (double n = std::ceil(low / step - 1e-9); n <= high / step + 1e-9; ++n)
+      ticks.emplace_back(n * step, short_number(n == 0 ? 0 : n * step));
+    return ticks;
+  }
+  constexpr int kMost = 4;  // numbers of each sign at the bar, about
+  const int decades = static_cast<int>(
+      std::floor(std::log10(std::max(std::abs(low), std::abs(high)) / linear_below)));
+  const int every = decades / (kMost + 1) + 1;
+  ticks.emplace_back(0, "0");
+  for (int i = 0; i <= decades; i += every) {
+    const double pressure = linear_below * std::pow(10, i);
+    ticks.emplace_back(pressure, short_number(pressure));
+    ticks.emplace_back(-pressure, "-" + short_number(pressure));
+  }
+  return ticks;
+}
+
+double PressureColours::share_of(double pressure) const {
+  return (at(pressure) - at(low)) / (at(high) - at(low));
+}
+
+ColourScale PressureColours::scale(int colours) const {
+  ColourScale scale{
+      "pressure less its mean [viscosity/time]",
+      evenly_spaced(colours,
+                    [&](double share) { return colour_at(std::lerp(at(low), at(high), share)); }),
+      {}};
+  if (linear_below > 0) scale.words += fmt::format(", logarithmic beyond {:.3g}", linear_below);
+  constexpr double kApart = 0.11;  // of the width of the scale
+  for (auto [pressure, text] : ticks()) {
+    const double share = share_of(pressure);
+    if (share < 0 || share > 1 || std::ranges::any_of(scale.ticks, [&](const auto& other) {
+          return std::abs(other.first - share) < kApart;
+        }))
+      continue;
+    if (text.starts_with("-")) text.replace(0, 1, "−");
+    scale.ticks.emplace_back(share, text);
+  }
+  return scale;
+}
+
+std::vector<std::string> PressureColours::settings() const {
+  constexpr int kSteps = 40;  // intervals of gnuplot's palette, which is linear in each
+  const double from = at(low), to = at(high);
+  std::string palette;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double place = std::lerp(from, to, static_cast<double>(i) / kSteps);
+    palette += fmt::format("{}{:.9g} '{}'", i == 0 ? "" : ", ", place, colour_at(place));
+  }
+  std::string words = "pressure (unit: viscosity x velocity / length)";
+  std::string ticks = "set cbtics autofreq format '%.3g'";
+  if (linear_below > 0) {
+    std::string places;
+    for (const auto& [pressure, text] : this->ticks())
+      places += fmt::format("{}'{}' {:.6g}", places.empty() ? "" : ", ", text, at(pressure));
+    ticks = "set cbtics (" + places + ")";
+    words += fmt::format("\\nlogarithmic beyond {}", short_number(linear_below));
+  }
+  // Pressures beyond 1.2 times the end of the bar are mentioned in words.
+  constexpr double kWorthAWord = 1.2;
+  if (largest > kWorthAWord * high && largest > 0)
+    words += fmt::format("{} above {} one colour (largest {})", linear_below > 0 ? ";" : "\\n",
+                         short_number(high), short_number(largest));
+  if (smallest < kWorthAWord * low && smallest < 0)
+    words += fmt::format("\\nbelow {} one colour (smallest {})", short_number(low),
+                         short_number(smallest));
+  return {"set palette defined (" + palette + ")",
+          fmt::format("set cbrange [{:.9g}:{:.9g}]", from, to), ticks,
+          "set cblabel \"" + words + "\" offset 1.2"};
+}
+
+PressureColours proportional_colours(const std::vector<double>& pressures) {
+  const auto sorted = sorted_finite(pressures);
+  return widened({sorted.front(), sorted.back(), sorted.front(), sorted.back(), 0});
+}
+
+PressureColours robust_colours(const std::vector<double>& pixels, double usual) {
+  constexpr double kBeyond = 0.005;    // share of the pixels that may be beyond each end
+  constexpr double kMuchFarther = 3;   // ratio of extreme to rest, above which the bar is cut
+  constexpr double kLogarithmic = 10;  // ratio of end to `usual`, above which it is logarithmic
+  const auto sorted = sorted_finite(pixels);
+  const auto few = static_cast<std::size_t>(kBeyond * static_cast<double>(sorted.size()));
+  auto colours = proportional_colours(sorted);
+  const double low = sorted[few], high = sorted[sorted.size() - 1 - few];
+  if (high > 0 && colours.high > kMuchFarther * high) colours.high = rounded_up(high);
+  if (low < 0 && colours.low < kMuchFarther * low) colours.low = -rounded_up(-low);
+  const bool cut = colours.high < sorted.back() || colours.low > sorted.front();
+  if (cut || std::max(std::abs(colours.low), std::abs(colours.high)) > kLogarithmic * usual)
+    colours.linear_below = std::pow(10, std::round(std::log10(usual)));
+  return widened(colours);
 }
 
 }  // namespace viscontact::report

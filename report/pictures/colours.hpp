@@ -1,10 +1,12 @@
-// The colours of curves, and colour scales. A scale is given by nodes and is linear between them.
+// The colours of curves, and scales of colours for gamma, speeds and pressures. gamma is minus the
+// impulse that a film has absorbed [M L/T], of discs in a fluid per length [M/T].
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace viscontact::report {
 
@@ -31,15 +33,67 @@ constexpr const char* curve_colour(std::size_t place) {
   return kCurveColours[place % kCurveColours.size()];
 }
 
-struct ColourNode {
-  double place;               ///< position on the scale, in any unit
-  std::array<double, 3> rgb;  ///< red, green, blue from 0 to 255
+/// A scale of colours with the numbers beside it, for a still picture or a page.
+struct ColourScale {
+  std::string words;                                  ///< what is shown, with its dimension
+  std::vector<std::string> colours;                   ///< "#rrggbb", from left to right
+  std::vector<std::pair<double, std::string>> ticks;  ///< shares of the width, and their texts
 };
 
-/// The colour "#rrggbb" at a place of the scale. Red, green and blue are interpolated linearly
-/// between the two nodes around the place. A place before the first node has the colour of the
-/// first node, and a place after the last node that of the last. There must be at least two nodes,
-/// with increasing places.
-std::string colour_between(std::span<const ColourNode> nodes, double place);
+/// The colour "#rrggbb" for share = gamma/lowest from 0 (light) to 1 (dark).
+std::string film_colour(double share);
+
+/// The scale of gamma from `lowest` < 0 to 0 with so many colours.
+ColourScale film_scale(double lowest, int colours, const std::string& words);
+
+inline constexpr const char* kTouchingColour = "#5a5a5a";  ///< for contacts with gamma = 0
+inline constexpr const char* kSlidingColour = "#d55e00";   ///< for contacts that slide
+
+/// The colour "#rrggbb" for share = speed / top speed from 0 (nearly white) to 1 (blue). The
+/// colours are evenly spaced in lightness, and dark lines can be seen on all of them.
+std::string speed_colour(double share);
+
+/// The scale of the speed of a fluid from 0 to `top` > 0 [L/T] with so many colours.
+ColourScale speed_scale(double top, int colours);
+
+inline constexpr const char* kStreamLineColour = "#12233f";
+
+/// A scale that is blue below 0, white at 0 and red above 0. It is proportional to the pressure, or
+/// to asinh(pressure / linear_below), which is linear for small and logarithmic for large
+/// pressures. Pressures beyond an end of the bar have the colour of that end.
+struct PressureColours {
+  double low = 0, high = 0;          ///< the ends of the bar [M/(L T^2)], low < high
+  double smallest = 0, largest = 0;  ///< extremes of the pressures [M/(L T^2)]
+  double linear_below = 0;           ///< [M/(L T^2)]; 0: proportional to the pressure
+
+  /// The position of a pressure on the scale, which gnuplot gets as the value.
+  double at(double pressure) const;
+
+  /// The colour "#rrggbb" at a position on the scale.
+  std::string colour_at(double place) const;
+
+  /// Round pressures in the bar with their texts, which should stand beside it.
+  std::vector<std::pair<double, std::string>> ticks() const;
+
+  /// The scale from `low` to `high` with so many colours, without numbers that would touch another
+  /// one, for a pressure less its mean.
+  ColourScale scale(int colours) const;
+
+  /// The place of a pressure on that scale, from 0 to 1.
+  double share_of(double pressure) const;
+
+  /// Commands of gnuplot for palette, range, numbers and words of the bar.
+  std::vector<std::string> settings() const;
+};
+
+/// A proportional scale from the smallest to the largest of the pressures.
+PressureColours proportional_colours(const std::vector<double>& pressures);
+
+/// A scale for pixels of which a few may have a much larger pressure than all others. If the
+/// largest of all is more than three times the largest that remains without the highest 0.5 %, the
+/// bar ends at the latter, rounded up; and likewise for the lowest. In this case, and also if an
+/// end of the bar is more than ten times the pressure `usual` (> 0), the scale is logarithmic above
+/// about `usual`.
+PressureColours robust_colours(const std::vector<double>& pixels, double usual);
 
 }  // namespace viscontact::report

@@ -6,16 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <exception>
 
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/report/html/figures.hpp"
-#include "viscontact/report/html/html.hpp"
+#include "viscontact/report/page.hpp"
 #include "viscontact/report/pictures/colours.hpp"
-#include "viscontact/results/foreign_files.hpp"
-#include "viscontact/results/run_folder.hpp"
-#include "viscontact/terminal/progress.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -76,16 +69,7 @@ std::string end_table(const RollingResults& results) {
   for (const auto& model : results.failed)
     rows += fmt::format("<tr><td>{}</td><td colspan=5>failed: {}</td></tr>\n", model.model,
                         escaped(model.reason));
-  return "<div class=scroll><table>\n" + rows + "</table></div>\n";
-}
-
-/// What a reader of the numbers must know, as a section, or nothing.
-std::string warnings_of(const RollingResults& results) {
-  std::string items;
-  for (const auto& warning : rolling_warnings(results))
-    items += "<li>" + escaped(warning) + "</li>\n";
-  if (items.empty()) return "";
-  return "<section class=warnings>\n<h2>Warnings</h2>\n<ul>\n" + items + "</ul></section>\n";
+  return table_of(rows);
 }
 
 std::string parameters_of_rolling(const RollingResults& results) {
@@ -93,31 +77,33 @@ std::string parameters_of_rolling(const RollingResults& results) {
   const auto row = [](const char* name, double value) {
     return table_row(name, fmt::format("{:g}", value));
   };
-  return "<div class=scroll><table>\n" + row("viscosity [M/(L T)]", results.c.viscosity) +
-         row("radius [L]", results.c.radius) + row("mass [M]", m.mass) +
-         row("moment of inertia [M L<sup>2</sup>]", m.moment_of_inertia) +
-         row("force along the plane [M L/T<sup>2</sup>]", m.force) +
-         row("force away from the plane [M L/T<sup>2</sup>]", m.normal_force) +
-         row("torque [M L<sup>2</sup>/T<sup>2</sup>]", m.torque) +
-         row("velocity of the plane [L/T]", m.plane_velocity) + row("roughness [L]", m.roughness) +
-         row("coefficient of friction", m.friction) + "</table></div>\n";
+  return table_of(row("viscosity [M/(L T)]", results.c.viscosity) +
+                  row("radius [L]", results.c.radius) + row("mass [M]", m.mass) +
+                  row("moment of inertia [M L<sup>2</sup>]", m.moment_of_inertia) +
+                  row("force along the plane [M L/T<sup>2</sup>]", m.force) +
+                  row("force away from the plane [M L/T<sup>2</sup>]", m.normal_force) +
+                  row("torque [M L<sup>2</sup>/T<sup>2</sup>]", m.torque) +
+                  row("velocity of the plane [L/T]", m.plane_velocity) +
+                  row("roughness [L]", m.roughness) + row("coefficient of friction", m.friction));
 }
 
-std::string page_of_rolling(const RollingResults& results, const std::vector<Picture>& pictures) {
-  std::string page =
-      page_head(results.c.title.empty() ? std::string("Rolling sphere") : results.c.title);
-  page += "<p class=summary>A sphere that moves along a plane in a viscous fluid and turns</p>\n";
-  page += warnings_of(results);
-  page += hints_about(pictures);
-  std::string models;
-  for (const auto& model : reduced_model::rolling_models())
-    models += fmt::format("<li>{}: {}</li>\n", model.name, model.description);
-  page += section("At the end", end_table(results) + "<ul>\n" + models + "</ul>\n");
-  std::string figures;
-  for (const auto& picture : pictures) figures += figure(picture);
-  page += section("Motion", figures);
-  page += section("Parameters", parameters_of_rolling(results));
-  return page + page_foot();
+/// Gap, velocities and slip over time, with a curve for each model.
+std::vector<Plot> rolling_plots(const RollingResults& results) {
+  const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
+  std::vector<Plot> plots = {
+      plot_of(results, "gap", "Gap", "gap", true, [](const RollingRow& row) { return row.gap; }),
+      plot_of(results, "velocity", "Velocity along the plane", "velocity", false,
+              [](const RollingRow& row) { return row.velocity; }),
+      plot_of(results, "rotation", "Angular velocity times radius", "velocity", false,
+              [=](const RollingRow& row) { return radius * row.angular_velocity; }),
+      plot_of(results, "slip", "Slip of the lowest point", "velocity", false,
+              [=](const RollingRow& row) {
+                return row.velocity - plane - radius * row.angular_velocity;
+              })};
+  if (results.c.motion.friction > 0)
+    plots.push_back(plot_of(results, "friction", "Friction of the solids", "force", false,
+                            [](const RollingRow& row) { return row.friction_force; }));
+  return plots;
 }
 
 }  // namespace
@@ -137,48 +123,27 @@ std::vector<std::string> rolling_warnings(const RollingResults& results) {
   return warnings;
 }
 
-std::vector<Plot> rolling_plots(const RollingResults& results) {
-  const double radius = results.c.radius, plane = results.c.motion.plane_velocity;
-  std::vector<Plot> plots = {
-      plot_of(results, "gap", "Gap", "gap", true, [](const RollingRow& row) { return row.gap; }),
-      plot_of(results, "velocity", "Velocity along the plane", "velocity", false,
-              [](const RollingRow& row) { return row.velocity; }),
-      plot_of(results, "rotation", "Angular velocity times radius", "velocity", false,
-              [=](const RollingRow& row) { return radius * row.angular_velocity; }),
-      plot_of(results, "slip", "Slip of the lowest point", "velocity", false,
-              [=](const RollingRow& row) {
-                return row.velocity - plane - radius * row.angular_velocity;
-              })};
-  if (results.c.motion.friction > 0)
-    plots.push_back(plot_of(results, "friction", "Friction of the solids", "force", false,
-                            [](const RollingRow& row) { return row.friction_force; }));
-  return plots;
-}
-
 void check_rolling_report(const std::filesystem::path& folder) {
-  const results::RunFolder run{folder};
-  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
-  for (const auto name : kRollingPictures)
-    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
+  (void)Report(folder, kRollingPictures);
 }
 
 void write_rolling_report(const RollingResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
-  const results::RunFolder run{folder};
-  std::exception_ptr failure;
-  auto pictures = draw_pictures(rolling_plots(results), failure, stop);
-  const auto page = page_of_rolling(results, pictures);
-  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
-  for (const auto& [plot, svg] : pictures)
-    results::write_output(run.plot(plot.name), TextKind::kSvg, svg, provenance);
-  results::write_output(run.report(), TextKind::kHtml, page, provenance);
-  // Pictures of an earlier report that this report does not have are removed.
-  for (const auto name : kRollingPictures)
-    if (std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
-        pictures.end())
-      remove_file(run.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run.report().string()));
-  if (failure) warn_of_missing_pictures(failure);
+  Report report(folder, kRollingPictures);
+  report.draw(rolling_plots(results), stop);
+  std::string opening =
+      "<p class=summary>A sphere that moves along a plane in a viscous fluid and turns</p>\n";
+  std::vector<std::string> warnings;
+  for (const auto& warning : rolling_warnings(results)) warnings.push_back(escaped(warning));
+  std::string models;
+  for (const auto& model : reduced_model::rolling_models())
+    models += fmt::format("<li>{}: {}</li>\n", model.name, model.description);
+  report.write(results.c.title.empty() ? "Rolling sphere" : results.c.title,
+               opening + warnings_box(warnings),
+               section("At the end", end_table(results) + "<ul>\n" + models + "</ul>\n") +
+                   section("Motion", report.figures()) +
+                   section("Parameters", parameters_of_rolling(results)),
+               provenance);
 }
 
 }  // namespace viscontact::report

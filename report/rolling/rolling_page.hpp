@@ -9,7 +9,6 @@
 #include "viscontact/case_file/rolling/rolling_case.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/lubrication/motions/pair_fit.hpp"
-#include "viscontact/report/report_plot.hpp"
 #include "viscontact/results/failed_models.hpp"
 #include "viscontact/results/provenance.hpp"
 
@@ -27,9 +26,6 @@ struct RollingResults {
 /// A sentence for each model that gets below the smallest gap of the fit, where the formula of the
 /// fit is continued.
 std::vector<std::string> rolling_warnings(const RollingResults& results);
-
-/// Gap, velocities and slip over time, with a curve for each model.
-std::vector<Plot> rolling_plots(const RollingResults& results);
 
 /// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
 /// write.

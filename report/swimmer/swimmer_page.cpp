@@ -1,21 +1,20 @@
-// Writes the page of a swimmer (swimmer_page.hpp). kPictureNames must contain the name of every
-// picture, because it decides which files in plots/ may be replaced or removed.
+// The page of a swimmer: tables, curves over time, and loops over the map of the displacement per
+// area. kPictureNames must contain the name of every picture, because it decides which files in
+// plots/ may be replaced or removed.
 #include "viscontact/report/swimmer/swimmer_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <exception>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 
-#include "viscontact/common/error.hpp"
-#include "viscontact/common/files/file.hpp"
-#include "viscontact/report/html/figures.hpp"
-#include "viscontact/report/html/html.hpp"
-#include "viscontact/report/swimmer/swimmer_plots.hpp"
-#include "viscontact/results/foreign_files.hpp"
-#include "viscontact/terminal/progress.hpp"
+#include "viscontact/report/page.hpp"
+#include "viscontact/report/pictures/colours.hpp"
+#include "viscontact/report/pictures/gnuplot.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -23,11 +22,183 @@ namespace {
 constexpr auto kPictureNames = std::to_array<std::string_view>(
     {"loops", "position", "power", "arms", "forces", "convergence"});
 
-std::string table(const std::string& rows) {
-  return "<div class=scroll><table>\n" + rows + "</table></div>\n";
+using Points = std::vector<std::pair<double, double>>;
+
+// Places of the curves of the page in kCurveColours: the two strokes, the arms, the spheres, and
+// what belongs to none of them. There is one arm less than spheres.
+constexpr std::size_t kStroke = 0, kOptimalStroke = 1, kFirstArm = 2;
+std::size_t first_sphere(const SwimmerResults& results) {
+  return kFirstArm + results.c.spheres.radii.size() - 1;
+}
+std::size_t place_after_spheres(const SwimmerResults& results) {
+  return first_sphere(results) + results.c.spheres.radii.size();
 }
 
-std::string number(double value) { return fmt::format("{:.7g}", value); }
+/// log10 of the displacement per area on the whole table.
+ColourField curl_field(const reduced_model::Swimmer& swimmer) {
+  constexpr std::size_t kPixels = 200;  // each way; finer than the eye sees in a smooth field
+  const auto [left, right] = swimmer.arm_interval(0);
+  const auto [bottom, top] = swimmer.arm_interval(1);
+  ColourField field{kPixels, kPixels, left, right, bottom, top, {}};
+  const auto place = [](double from, double to, std::size_t i) {
+    return std::lerp(from, to, (static_cast<double>(i) + 0.5) / kPixels);
+  };
+  for (std::size_t row = 0; row < kPixels; ++row)
+    for (std::size_t column = 0; column < kPixels; ++column)
+      field.values.push_back(std::log10(std::abs(displacement_curl(
+          swimmer, Eigen::Vector2d(place(left, right, column), place(bottom, top, row))))));
+  return field;
+}
+
+Points loop_of(const StrokeResult& stroke) {
+  Points points;
+  for (const auto& row : stroke.rows) points.emplace_back(row.arms[0], row.arms[1]);
+  return points;
+}
+
+/// A stroke as the page shows it.
+struct ShownStroke {
+  std::string name;
+  const char* colour;
+  const StrokeResult* result;
+};
+
+std::vector<ShownStroke> strokes_of(const SwimmerResults& results) {
+  std::vector<ShownStroke> strokes;
+  if (results.stroke) strokes.push_back({"stroke", curve_colour(kStroke), &*results.stroke});
+  if (results.optimal)
+    strokes.push_back({"optimal stroke", curve_colour(kOptimalStroke), &*results.optimal});
+  return strokes;
+}
+
+/// A curve over time for each stroke: the time is in periods, so that strokes can be compared.
+template <class Value>
+PlotPanel panel_of_strokes(const SwimmerResults& results, const std::string& title,
+                           const std::string& label, const Value& value) {
+  PlotPanel panel{title, {"time / period"}, {label}, {}};
+  for (const auto& [name, colour, stroke] : strokes_of(results)) {
+    PlotCurve curve{name, {colour}, {}};
+    for (const auto& row : stroke->rows)
+      curve.points.emplace_back(row.time / stroke->period, value(row));
+    panel.curves.push_back(curve);
+  }
+  return panel;
+}
+
+/// Panels with a curve for each component of a vector, one panel for each stroke. `place` is the
+/// place of the first component's colour.
+template <class Values>
+Plot plot_of_components(const SwimmerResults& results, const std::string& name,
+                        const std::string& title, const std::string& label,
+                        const std::string& component, std::size_t place, const Values& values) {
+  Plot plot{name, 360, {}};
+  for (const auto& shown : strokes_of(results)) {
+    const auto* stroke = shown.result;
+    PlotPanel panel{fmt::format("{} of the {}", title, shown.name), {"time"}, {label}, {}};
+    const auto count = values(stroke->rows.front()).size();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      PlotCurve curve{fmt::format("{} {}", component, i + 1),
+                      {curve_colour(place + static_cast<std::size_t>(i))},
+                      {}};
+      for (const auto& row : stroke->rows) curve.points.emplace_back(row.time, values(row)[i]);
+      panel.curves.push_back(curve);
+    }
+    plot.panels.push_back(panel);
+  }
+  plot.height *= static_cast<int>(plot.panels.size());
+  return plot;
+}
+
+/// What the energies with fewer polynomials exceed the last one by, and Euler and Lagrange's
+/// residuals. `place` is the place of the first curve's colour.
+Plot plot_convergence(const std::vector<reduced_model::OptimalStrokeStep>& steps,
+                      std::size_t place) {
+  PlotPanel panel{"Convergence of the optimal stroke",
+                  {"polynomials for each arm"},
+                  {"relative difference", true},
+                  {}};
+  PlotCurve energy{
+      "energy, less that with all polynomials", {curve_colour(place), 2, {}, PointKind::kDisc}, {}};
+  PlotCurve residual{"residual of Euler and Lagrange's equation",
+                     {curve_colour(place + 1), 2, {}, PointKind::kDisc},
+                     {}};
+  for (const auto& step : steps) {
+    const double excess = step.energy / steps.back().energy - 1;
+    const auto count = static_cast<double>(step.polynomials);
+    // Differences below this are round-off, which a logarithmic axis would show as noise.
+    constexpr double kRoundOff = 1e-13;
+    if (excess > kRoundOff) energy.points.emplace_back(count, excess);
+    residual.points.emplace_back(count, step.euler_lagrange_residual);
+  }
+  panel.curves = {energy, residual};
+  return {"convergence", 400, {panel}};
+}
+
+/// The distance of tics, 1, 2 or 5 times a power of ten, so that at most seven are in the range.
+/// gnuplot's own tics are so close that their numbers overlap if they have many digits.
+double tic_step(double range) {
+  const double least = range / 6;
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= least) return factor * power;
+  return 10 * power;
+}
+
+/// The loops in the plane of the two arms, over the displacement of a small loop there per area
+/// (displacement_curl), as an SVG.
+std::string draw_loops(const SwimmerResults& results, const StopToken& stop) {
+  const reduced_model::Swimmer swimmer(results.fit);
+  Panel panel{"Loops of the strokes over the displacement of a small loop per area",
+              "arm x1",
+              "arm x2",
+              false,
+              false,
+              {"set size ratio -1",
+               ("set palette defined (0 '#00224e', 0.25 '#35456c', 0.5 '#7c7b78',"
+                " 0.75 '#bcae6c', 1 '#fee838')"),
+               "set cblabel 'log10 of |dA2/dx1 - dA1/dx2|'", kLegendBelow},
+              {}};
+  panel.field = curl_field(swimmer);
+  panel.settings.push_back(
+      fmt::format("set xrange [{}:{}]", panel.field->left, panel.field->right));
+  const double step = tic_step(panel.field->right - panel.field->left);
+  panel.settings.push_back(fmt::format("set xtics {0}; set ytics {0}", step));
+  panel.settings.push_back(
+      fmt::format("set yrange [{}:{}]", panel.field->bottom, panel.field->top));
+  for (const auto& [name, colour, stroke] : strokes_of(results)) {
+    const auto style = fmt::format("lines linewidth 2.5 linecolor rgb '{}'", colour);
+    panel.curves.push_back({name, style, loop_of(*stroke)});
+    const auto start = fmt::format("points pointtype 7 pointsize 1 linecolor rgb '{}'", colour);
+    panel.curves.push_back({"", start, {loop_of(*stroke).front()}});
+  }
+  return draw_svg({panel}, 760, 700, stop);
+}
+
+/// Position of the middle sphere, arms, power and forces over time, for each stroke that there is,
+/// and the convergence of the optimal one.
+std::vector<Plot> swimmer_plots(const SwimmerResults& results) {
+  using reduced_model::SwimRow;
+  std::vector<Plot> plots;
+  if (strokes_of(results).empty()) return plots;
+  plots.push_back({"position",
+                   400,
+                   {panel_of_strokes(results, "Position of the middle sphere", "position",
+                                     [](const SwimRow& row) { return row.position; })}});
+  auto power =
+      panel_of_strokes(results, "Power", "power", [](const SwimRow& row) { return row.power; });
+  power.y.low = 0;
+  plots.push_back({"power", 400, {power}});
+  plots.push_back(plot_of_components(results, "arms", "Arms", "distance of centres", "x", kFirstArm,
+                                     [](const SwimRow& row) { return row.arms; }));
+  plots.push_back(plot_of_components(results, "forces", "Forces on the fluid", "force", "sphere",
+                                     first_sphere(results),
+                                     [](const SwimRow& row) { return row.forces; }));
+  if (!results.convergence.empty())
+    plots.push_back(plot_convergence(results.convergence, place_after_spheres(results)));
+  return plots;
+}
+
+std::string seven_digits(double value) { return fmt::format("{:.7g}", value); }
 
 std::string with_error(double value, double error) {
   return fmt::format("{:.9g} &plusmn; {:.1g}", value, error);
@@ -35,16 +206,15 @@ std::string with_error(double value, double error) {
 
 /// The sums of all strokes, one column each.
 std::string strokes_table(const SwimmerResults& results) {
-  std::vector<const StrokeResult*> strokes;
+  const auto strokes = strokes_of(results);
   std::string head = "<tr><th></th>";
-  if (results.stroke) strokes.push_back(&*results.stroke), head += "<th>stroke</th>";
-  if (results.optimal) strokes.push_back(&*results.optimal), head += "<th>optimal stroke</th>";
+  for (const auto& stroke : strokes) head += "<th>" + stroke.name + "</th>";
   const auto row = [&](const std::string& name, const auto& value) {
     std::string cells = "<tr><td>" + name + "</td>";
-    for (const auto* stroke : strokes) cells += "<td>" + value(*stroke) + "</td>";
+    for (const auto& stroke : strokes) cells += "<td>" + value(*stroke.result) + "</td>";
     return cells + "</tr>\n";
   };
-  return table(
+  return table_of(
       head + "</tr>\n" +
       row("displacement in a period [L]",
           [](const StrokeResult& s) {
@@ -53,16 +223,16 @@ std::string strokes_table(const SwimmerResults& results) {
       row("energy of a period [M L<sup>2</sup>/T<sup>2</sup>]",
           [](const StrokeResult& s) { return with_error(s.sums.energy, s.errors.energy); }) +
       row("the same at constant power",
-          [](const StrokeResult& s) { return number(s.sums.energy_at_constant_power); }) +
+          [](const StrokeResult& s) { return seven_digits(s.sums.energy_at_constant_power); }) +
       row("Lighthill's efficiency",
-          [](const StrokeResult& s) { return number(s.sums.efficiency); }) +
-      row("period [T]", [](const StrokeResult& s) { return number(s.period); }));
+          [](const StrokeResult& s) { return seven_digits(s.sums.efficiency); }) +
+      row("period [T]", [](const StrokeResult& s) { return seven_digits(s.period); }));
 }
 
 std::string search_words(const SwimmerResults& results) {
-  if (!results.search) return "";
-  const auto& last = results.search->convergence.back();
-  const auto& steps = results.search->convergence;
+  const auto& steps = results.convergence;
+  if (steps.empty()) return "";
+  const auto& last = steps.back();
   return fmt::format(
       "<p>The optimal stroke has the least energy of all loops through its first shape with this "
       "displacement. It is found with {} polynomials for each arm{}. The residual of Euler and "
@@ -80,7 +250,7 @@ std::string fit_table_of(const SwimmerResults& results) {
   double estimate = 0;
   for (const auto& row : results.table.rows)
     estimate = std::max(estimate, row.largest_error_estimate());
-  return table(
+  return table_of(
       table_row("rows of the table", std::to_string(results.table.rows.size())) +
       table_row("largest error estimate of an entry, relative", fmt::format("{:.2g}", estimate)) +
       table_row("terms of lubrication taken out", std::to_string(fit.lubrication_terms)) +
@@ -107,16 +277,7 @@ std::string parameters_of(const SwimmerResults& results) {
         fmt::format("{} values from {:g} to {:g}", results.c.gaps[k].size(),
                     results.c.gaps[k].front() + both_radii, results.c.gaps[k].back() + both_radii));
   }
-  return table(rows);
-}
-
-std::string figures_of(const std::vector<Picture>& pictures,
-                       std::initializer_list<std::string_view> names) {
-  std::string text;
-  for (const auto name : names)
-    for (const auto& picture : pictures)
-      if (picture.plot.name == name) text += figure(picture);
-  return text;
+  return table_of(rows);
 }
 
 std::string files_words(const SwimmerResults& results) {
@@ -128,62 +289,43 @@ std::string files_words(const SwimmerResults& results) {
   return text + ".</p>\n";
 }
 
-std::string page_of(const SwimmerResults& results, const std::vector<Picture>& pictures,
-                    const std::string& loops) {
-  const auto title = results.c.title.empty() ? std::string("Swimmer") : results.c.title;
-  std::string page = page_head(title);
-  page += fmt::format(
-      "<p class=summary>A swimmer of {} spheres on a line in a fluid without inertia</p>\n",
-      results.c.spheres.radii.size());
-  page += hints_about(pictures);
-  const bool has_strokes = results.stroke || results.optimal;
-  page += section("Strokes", has_strokes ? strokes_table(results) + search_words(results) : "");
-  if (!loops.empty())
-    page +=
-        section("Loops in the plane of the arms",
-                "<p>The displacement of a stroke is the integral of the coloured quantity over "
-                "the area in its loop, positive for loops run counter-clockwise.</p>\n<figure>" +
-                    loops +
-                    "<figcaption><a href=\"plots/loops.svg\">plots/loops.svg</a></figcaption>"
-                    "</figure>\n");
-  page += section("Displacement and power", figures_of(pictures, {"position", "power"}));
-  page += section("Arms and forces", figures_of(pictures, {"arms", "forces"}));
-  page += section("How the optimal stroke converges", figures_of(pictures, {"convergence"}));
-  page += section("Resistance matrices and their fit", fit_table_of(results));
-  page += section("Parameters", parameters_of(results) + files_words(results));
-  return page + page_foot();
+/// The section with the loops; empty if they are not drawn.
+std::string loops_section(const Report& report) {
+  const auto loops = report.figures({"loops"});
+  return section("Loops in the plane of the arms",
+                 loops.empty() ? ""
+                               : "<p>The displacement of a stroke is the integral of the coloured "
+                                 "quantity over the area in its loop, positive for loops run "
+                                 "counter-clockwise.</p>\n" +
+                                     loops);
 }
 
 }  // namespace
 
 void check_swimmer_report(const std::filesystem::path& folder) {
-  const results::RunFolder run{folder};
-  results::refuse_other_kind(run.report(), "id=\"provenance\"", "report");
-  for (const auto name : kPictureNames)
-    results::refuse_other_kind(run.plot(std::string(name)), "<svg", "picture");
+  (void)Report(folder, kPictureNames);
 }
 
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop) {
-  const results::RunFolder run{folder};
-  std::exception_ptr failure;
-  auto pictures = draw_pictures(swimmer_plots(results), failure, stop);
-  std::string loops;
-  if (!failure && results.c.gaps.size() == 2) loops = draw_loops(results, stop);
-  const auto page = page_of(results, pictures, loops);
-  std::erase_if(pictures, [](const Picture& picture) { return picture.svg.empty(); });
-  for (const auto& [plot, svg] : pictures)
-    results::write_output(run.plot(plot.name), TextKind::kSvg, svg, provenance);
-  if (!loops.empty()) results::write_output(run.plot("loops"), TextKind::kSvg, loops, provenance);
-  results::write_output(run.report(), TextKind::kHtml, page, provenance);
-  // Pictures of an earlier report that this report does not have are removed.
-  for (const auto name : kPictureNames)
-    if (!(name == "loops" && !loops.empty()) &&
-        std::ranges::find(pictures, name, [](const Picture& p) { return p.plot.name; }) ==
-            pictures.end())
-      remove_file(run.plot(std::string(name)));
-  terminal::say(fmt::format("report: {}", run.report().string()));
-  if (failure) warn_of_missing_pictures(failure);
+  Report report(folder, kPictureNames);
+  report.draw(swimmer_plots(results), stop);
+  if (report.is_drawn() && results.c.gaps.size() == 2)
+    report.add_picture("loops", draw_loops(results, stop));
+  report.write(
+      results.c.title.empty() ? "Swimmer" : results.c.title,
+      fmt::format(
+          "<p class=summary>A swimmer of {} spheres on a line in a fluid without inertia</p>\n",
+          results.c.spheres.radii.size()),
+      section("Strokes",
+              strokes_of(results).empty() ? "" : strokes_table(results) + search_words(results)) +
+          loops_section(report) +
+          section("Displacement and power", report.figures({"position", "power"})) +
+          section("Arms and forces", report.figures({"arms", "forces"})) +
+          section("How the optimal stroke converges", report.figures({"convergence"})) +
+          section("Resistance matrices and their fit", fit_table_of(results)) +
+          section("Parameters", parameters_of(results) + files_words(results)),
+      provenance);
 }
 
 }  // namespace viscontact::report

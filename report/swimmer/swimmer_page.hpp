@@ -1,13 +1,42 @@
-// The report of a swimmer: a page with pictures and tables.
+// The report of a swimmer: a page with pictures and tables. Lengths, masses and times are in the
+// units of the case.
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
+#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/report/swimmer/swimmer_results.hpp"
+#include "viscontact/lubrication/resistance/resistance_fit.hpp"
+#include "viscontact/lubrication/resistance/resistance_table.hpp"
+#include "viscontact/reduced_model/swimmer/optimal_stroke.hpp"
+#include "viscontact/reduced_model/swimmer/swim.hpp"
+#include "viscontact/reduced_model/swimmer/swim_errors.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact::report {
+
+/// A stroke and what it does.
+struct StrokeResult {
+  double period = 0;  ///< [T]
+  reduced_model::SwimSums sums;
+  reduced_model::SwimErrors errors;
+  std::vector<reduced_model::SwimRow> rows;
+};
+
+/// What a run of a swimmer has computed.
+struct SwimmerResults {
+  case_file::SwimmerCase c;
+  lubrication::ResistanceTable table;
+  lubrication::ResistanceFit fit;
+  std::optional<StrokeResult> stroke;   ///< of the case's section [stroke]
+  std::optional<StrokeResult> optimal;  ///< of the case's section [optimal]
+  /// How the search for the optimal stroke converged, with the energies of the case's period; empty
+  /// without an optimal stroke.
+  std::vector<reduced_model::OptimalStrokeStep> convergence;
+  double energy_per_displacement = 0;  ///< derivative of the least energy [M L/T^2]
+};
 
 /// Throws Error(kBadInput) if the report would replace a file in `folder` that Viscontact did not
 /// write.

@@ -13,7 +13,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/system/process.hpp"
-#include "viscontact/particles/io/appended_data.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
 #include "viscontact/results/provenance.hpp"
 
 namespace viscontact {
@@ -80,7 +80,7 @@ class AgeingFilm : public ::testing::Test {
     const auto path = out(name) / ("particles_" + number + ".vtp");
     const std::string text = read_file(path);
     const auto values =
-        particles::AppendedReader(text, path.string(), "frame").array<double>("CellData", array);
+        AppendedReader(text, path.string(), "frame").array<double>("CellData", array);
     EXPECT_LE(values.size(), 1U);
     return values.empty() ? std::numeric_limits<double>::quiet_NaN() : values.front();
   }

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
+#include "tests/common/temporary_folder.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/freefem_axi/freefem.hpp"
 
 namespace viscontact::freefem_axi {
@@ -29,12 +29,12 @@ Tabulation tabulation_of_radius(double radius) {
 TEST(RowPicture, StreamFunctionOnTheSphereIsThatOfItsTranslation) {
   for (const double gap : {0.01, 1.0}) {
     const auto picture = solve_row_for_picture(default_freefem(), tabulation_of_radius(1), gap, -2);
-    const auto& mesh = picture.flow.mesh;
+    const auto& flow = picture.flow;
     int nodes = 0;
-    for (const auto& edge : mesh.boundary)
+    for (const auto& edge : picture.boundary)
       for (const auto node : edge.nodes) {
-        const auto [rho, z] = mesh.nodes[node];
-        const double psi = picture.flow.stream_function[node];
+        const double rho = flow.x[node], z = flow.y[node];
+        const double psi = picture.stream_function[node];
         if (edge.kind == BoundaryKind::kAxis) {
           EXPECT_NEAR(psi, 0, 1e-20);
         }
@@ -45,8 +45,8 @@ TEST(RowPicture, StreamFunctionOnTheSphereIsThatOfItsTranslation) {
         // near the axis rather less.
         EXPECT_NEAR(psi, -2 * rho * rho / 2, 1e-3 * rho * rho + 1e-4);
         // Imposed, but for the round-off of passing from one mesh to a part of it.
-        EXPECT_NEAR(picture.flow.velocity[node][0], 0, 1e-12);
-        EXPECT_NEAR(picture.flow.velocity[node][1], -2, 1e-12);
+        EXPECT_NEAR(flow.velocity_x[node], 0, 1e-12);
+        EXPECT_NEAR(flow.velocity_y[node], -2, 1e-12);
       }
     EXPECT_GT(nodes, 100);
   }
@@ -58,67 +58,48 @@ TEST(RowPicture, PressureVelocityAndLengthsAreInTheCasesUnits) {
   // that of a linear system of condition 1e6 or so.
   const auto one = solve_row_for_picture(default_freefem(), tabulation_of_radius(1), 0.01, -1);
   const auto two = solve_row_for_picture(default_freefem(), tabulation_of_radius(2), 0.02, -1);
-  ASSERT_EQ(one.flow.mesh.nodes.size(), two.flow.mesh.nodes.size());
+  ASSERT_EQ(one.flow.x.size(), two.flow.x.size());
   double largest = 0;
   for (const double pressure : one.flow.pressure) largest = std::max(largest, pressure);
-  for (std::size_t i = 0; i < one.flow.mesh.nodes.size(); ++i) {
-    EXPECT_NEAR(two.flow.mesh.nodes[i][0], 2 * one.flow.mesh.nodes[i][0], 1e-9);
-    EXPECT_NEAR(two.flow.mesh.nodes[i][1], 2 * one.flow.mesh.nodes[i][1], 1e-9);
-    EXPECT_NEAR(two.flow.velocity[i][1], one.flow.velocity[i][1], 1e-7);
+  for (std::size_t i = 0; i < one.flow.x.size(); ++i) {
+    EXPECT_NEAR(two.flow.x[i], 2 * one.flow.x[i], 1e-9);
+    EXPECT_NEAR(two.flow.y[i], 2 * one.flow.y[i], 1e-9);
+    EXPECT_NEAR(two.flow.velocity_y[i], one.flow.velocity_y[i], 1e-7);
     EXPECT_NEAR(two.flow.pressure[i], one.flow.pressure[i] / 2, 1e-7 * largest);
-    EXPECT_NEAR(two.flow.stream_function[i], 4 * one.flow.stream_function[i], 1e-7);
+    EXPECT_NEAR(two.stream_function[i], 4 * one.stream_function[i], 1e-7);
   }
   // Reynolds' film: 3 mu |u0| r / q^2 under the sphere, up to terms of relative order q ln q =
   // 0.05.
   EXPECT_NEAR(largest / (3 * 3 * 1 / (0.01 * 0.01)), 1, 0.05);
-  EXPECT_EQ(one.coarsest.triangles.size() * 16, one.flow.mesh.triangles.size());
+  EXPECT_EQ(one.coarsest.triangles.size() * 16, one.flow.triangles.size());
 }
 
-/// The numbers of a VTK data array whose start tag contains `attribute`.
-std::vector<double> data_array(const std::string& vtu, const std::string& attribute) {
-  const auto place = vtu.find(attribute);
-  if (place == std::string::npos) throw std::invalid_argument("no " + attribute);
-  const auto start = vtu.find('>', place + attribute.size()) + 1;
-  std::istringstream text(vtu.substr(start, vtu.find('<', start) - start));
-  std::vector<double> numbers;
-  for (double number = 0; text >> number;) numbers.push_back(number);
-  return numbers;
-}
-
-TEST(RowPicture, VtkTextHasPointsTrianglesAndFields) {
-  const auto vtu =
-      write_vtu(solve_row_for_picture(default_freefem(), tabulation_of_radius(1), 1, -1).flow);
-  const auto count = [&](const std::string& name) {
-    return std::stoul(vtu.substr(vtu.find(name + "=\"") + name.size() + 2));
-  };
-  const auto points = count("NumberOfPoints"), cells = count("NumberOfCells");
-  EXPECT_EQ(data_array(vtu, "Name=\"velocity\"").size(), 3 * points);
-  EXPECT_EQ(data_array(vtu, "Name=\"pressure\"").size(), points);
-  EXPECT_EQ(data_array(vtu, "Name=\"stream_function\"").size(), points);
-  EXPECT_EQ(data_array(vtu, "Name=\"offsets\"").size(), cells);
-  EXPECT_EQ(data_array(vtu, "Name=\"types\""),
-            std::vector<double>(cells, 22));  // quadratic triangle
-  const auto place = data_array(vtu, "<Points>\n<DataArray");
-  const auto nodes = data_array(vtu, "Name=\"connectivity\"");
-  ASSERT_EQ(place.size(), 3 * points);
-  ASSERT_EQ(nodes.size(), 6 * cells);
-  // The middles follow their sides: they are near the means of the ends. The triangles fill the
-  // container's half-plane less half a disc; the sphere's sides are curved, and by the vertices
-  // alone the area errs by 1e-3 at this mesh.
+TEST(RowPicture, VtkFileHasTheFlowOnTrianglesWhoseMiddlesFollowTheirSides) {
+  const auto picture = solve_row_for_picture(default_freefem(), tabulation_of_radius(1), 1, -1);
+  const auto text = write_vtu(picture);
+  const TemporaryFolder folder;
+  const auto read = read_flow(folder.file("flow.vtu", text));
+  EXPECT_EQ(read.velocity_x, picture.flow.velocity_x);
+  EXPECT_EQ(read.pressure, picture.flow.pressure);
+  EXPECT_EQ(AppendedReader(text, "flow.vtu", "flow").array<double>("PointData", "stream_function"),
+            picture.stream_function);
+  ASSERT_EQ(read.triangles, picture.flow.triangles);
+  // The middles are near the means of the ends. The triangles fill the container's half-plane less
+  // half a disc; the sphere's sides are curved, and by the vertices alone the area errs by 1e-3 at
+  // this mesh.
   double area = 0;
-  for (std::size_t c = 0; c < cells; ++c) {
-    const auto at = [&](std::size_t i, std::size_t axis) {
-      return place[3 * static_cast<std::size_t>(nodes[6 * c + i]) + axis];
+  for (const auto& nodes : read.triangles) {
+    const auto at = [&](std::size_t i) {
+      const auto node = static_cast<std::size_t>(nodes.at(i));
+      return std::array<double, 2>{read.x[node], read.y[node]};
     };
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const double length = std::hypot(at(i, 0) - at(j, 0), at(i, 1) - at(j, 1));
-      EXPECT_LT(std::hypot((at(i, 0) + at(j, 0)) / 2 - at(3 + i, 0),
-                           (at(i, 1) + at(j, 1)) / 2 - at(3 + i, 1)),
-                0.2 * length);
+      const auto from = at(i), to = at((i + 1) % 3), middle = at(3 + i);
+      EXPECT_LT(std::hypot((from[0] + to[0]) / 2 - middle[0], (from[1] + to[1]) / 2 - middle[1]),
+                0.2 * std::hypot(from[0] - to[0], from[1] - to[1]));
     }
-    const double twice = (at(1, 0) - at(0, 0)) * (at(2, 1) - at(0, 1)) -
-                         (at(2, 0) - at(0, 0)) * (at(1, 1) - at(0, 1));
+    const double twice = (at(1)[0] - at(0)[0]) * (at(2)[1] - at(0)[1]) -
+                         (at(2)[0] - at(0)[0]) * (at(1)[1] - at(0)[1]);
     EXPECT_GT(twice, 0);
     area += twice / 2;
   }

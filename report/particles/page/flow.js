@@ -1,5 +1,5 @@
 // Draws the flow behind the particles: speed or pressure as an image of a grid, and streamlines.
-// report/particles/flow/flow_page.cpp writes the data; their layout must be changed there and here
+// report/particles/particles_page.cpp writes the data; their layout must be changed there and here
 // together. report/particles/page/picture.js calls viscontactFlow.
 'use strict';
 const viscontactFlow = (() => {

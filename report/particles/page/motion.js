@@ -1,7 +1,7 @@
 // Reads the motion of particles from the page, and gives positions, obstacles and contacts at any
-// time. report/particles/particles_page.cpp writes the settings, and report/particles/page_data.cpp
-// the blocks of numbers; their layout must be changed there and here together. This file and those
-// that report/CMakeLists.txt lists after it are one script, so each may use the names of all.
+// time. report/particles/particles_page.cpp writes the settings and the blocks of numbers; their
+// layout must be changed there and here together. This file and those that report/CMakeLists.txt
+// lists after it are one script, so each may use the names of all.
 
 const text = id => document.getElementById(id).textContent;
 function bytes(id) {
@@ -11,6 +11,7 @@ function bytes(id) {
 }
 const motion = JSON.parse(text('motion'));
 const dim = motion.dimension, flat = dim === 2;
+const style = motion.style;  // SceneStyle of report/particles/scene.hpp
 // Lower left corner and lengths of the cell; a length is 0 where the motion has no period.
 const [cellX, cellY, periodX, periodY] = motion.cell;
 const radii = new Float32Array(bytes('radii')), times = new Float64Array(bytes('times'));

@@ -10,7 +10,7 @@
 
 #include "tests/program/particles/particles_command.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/particles/io/flow_vtk.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/io/particle_file.hpp"
 
 namespace viscontact {
@@ -131,7 +131,7 @@ mass = 0.0
 velocity_given = { value = [1.0, 0.0] }
 )"),
                   out()));
-  const auto flow = particles::read_flow(out() / "flow_00000.vtu");
+  const auto flow = read_flow(out() / "flow_00000.vtu");
   const auto read = read_by_vtk(out() / "flow_00000.vtu");
   const auto nodes = flow.x.size();
   ASSERT_EQ(read.at("points").size(), 3 * nodes);

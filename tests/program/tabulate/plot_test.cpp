@@ -11,6 +11,7 @@
 #include "tests/program/program.hpp"
 #include "tests/program/sample_files.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
 
 namespace viscontact {
 namespace {
@@ -62,7 +63,7 @@ TEST_F(Plot, WritesPicturesOfTheAskedGapsAndDoesNotTabulateAgain) {
   EXPECT_EQ(read_file(path("table.csv")), table);
   for (const auto* name : {"gap_0.01.vtu", "gap_1.vtu"}) {
     EXPECT_TRUE(pictures().contains(name)) << name;
-    expect_well_formed(read_file(path("table.plots/" + std::string(name))));
+    EXPECT_FALSE(read_flow(path("table.plots/" + std::string(name))).triangles.empty());
   }
 
   constexpr std::size_t kMegabyte = 1'000'000;

@@ -9,9 +9,7 @@
 #include "tests/common/well_formed_xml.hpp"
 #include "tests/report/particles/flow/flows.hpp"
 #include "tests/report/particles/playbacks.hpp"
-#include "viscontact/report/particles/film_colours.hpp"
-#include "viscontact/report/particles/flow/speed_colours.hpp"
-#include "viscontact/report/particles/view_box.hpp"
+#include "viscontact/report/particles/scene.hpp"
 
 namespace viscontact::report {
 namespace {
@@ -81,9 +79,9 @@ TEST(ParticlesPicture, StaysSmall) {
 
 TEST(ParticlesPicture, OneThatHasFlownAwayDoesNotShrinkTheOthers) {
   auto playback = falling_row(2, 300, 3);
-  const auto room = view_box_of(playback, {0, 1, 2});
+  const auto room = scene_of(playback, {0, 1, 2}, {}, 2).box;
   playback.frames[2].positions[1] = 1e6F;
-  const auto with_flown = view_box_of(playback, {0, 1, 2});
+  const auto with_flown = scene_of(playback, {0, 1, 2}, {}, 2).box;
   EXPECT_DOUBLE_EQ(with_flown.high[1], room.high[1]);
   // The floor is next to the row, and seen.
   EXPECT_LT(room.low[1], 0);
@@ -98,7 +96,7 @@ particles::Playback discs_in_a_circle(double radius) {
 
 TEST(ParticlesPicture, ShowsARoundWallAroundTheParticles) {
   const auto playback = discs_in_a_circle(4);
-  const auto box = view_box_of(playback, {0});
+  const auto box = scene_of(playback, {0}, {}, 2).box;
   EXPECT_LT(box.low[0], -2);
   EXPECT_GT(box.high[0], 6);
   EXPECT_LT(box.low[1], -3);
@@ -109,7 +107,7 @@ TEST(ParticlesPicture, ShowsARoundWallAroundTheParticles) {
   EXPECT_EQ(count_of("fill-rule=\"evenodd\"", svg), 1U);
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   // A wall far away does not make the particles small.
-  const auto far = view_box_of(discs_in_a_circle(1000), {0});
+  const auto far = scene_of(discs_in_a_circle(1000), {0}, {}, 2).box;
   EXPECT_GT(far.low[0], -3);
 }
 
@@ -132,15 +130,15 @@ TEST(ParticlesPicture, ShowsTheFlowBehindTheDiscs) {
   playback.frames[1].flow.clear();
   const auto svg = particles_picture(playback, "Flow", 3);
   expect_well_formed_picture(svg);
-  EXPECT_THAT(svg, HasSubstr(kSpeedWords));
+  EXPECT_THAT(svg, HasSubstr("speed of the fluid [length/time]"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  EXPECT_THAT(film_words(playback), HasSubstr("impulse per length"));
+  EXPECT_THAT(scene_of(playback, {0}, {}, 2).film_words, HasSubstr("impulse per length"));
   // The panel without a flow has a disc with its mark, and no streamlines.
   EXPECT_EQ(count_of("stroke-opacity=\".6\"", svg), 2U);
   EXPECT_EQ(count_of("<circle ", svg), 6U);
   EXPECT_LT(svg.find("stroke-opacity=\".6\""), svg.find("<circle "));
   // The whole box is shown, although the disc stays near its middle.
-  const auto box = view_box_of(playback, {0, 1, 2}, ViewBox{{0, 0, 0}, {4, 2, 0}});
+  const auto box = scene_of(playback, {0, 1, 2}, {}, 2).box;
   EXPECT_LE(box.low[0], 0);
   EXPECT_GE(box.high[0], 4);
 }
@@ -153,7 +151,7 @@ TEST(ParticlesPicture, MirrorsTheFlowAtTheAxis) {
   playback.frames[0].angles.clear();
   const auto svg = particles_picture(playback, "Axis", 1);
   expect_well_formed_picture(svg);
-  EXPECT_THAT(film_words(playback), HasSubstr("[mass × length/time]"));
+  EXPECT_THAT(scene_of(playback, {0}, {}, 2).film_words, HasSubstr("[mass × length/time]"));
   EXPECT_EQ(count_of("scale(-1 1)", svg), 1U);
   EXPECT_EQ(count_of("stroke-opacity=\".6\"", svg), 2U);
   EXPECT_EQ(count_of("<circle ", svg), 1U);
@@ -162,7 +160,7 @@ TEST(ParticlesPicture, MirrorsTheFlowAtTheAxis) {
 TEST(ParticlesPicture, ShowsTheCellWithImagesOfDiscsAtItsSides) {
   auto playback = one_particle();
   playback.cell = {{3, 0}, {10, 8}};
-  const auto box = view_box_of(playback, {0});
+  const auto box = scene_of(playback, {0}, {}, 2).box;
   EXPECT_EQ(box.low[0], 3);
   EXPECT_EQ(box.high[0], 13);
   EXPECT_EQ(box.high[1], 8);
@@ -184,8 +182,13 @@ TEST(ParticlesPicture, FilmsDarkenWithWhatTheyRemember) {
   EXPECT_EQ(film_colour(1), "#440154");
   EXPECT_GT(lightness(film_colour(0)), lightness(film_colour(0.5)));
   EXPECT_GT(lightness(film_colour(0.5)), lightness(film_colour(1)));
-  EXPECT_THAT(film_ticks(-8.9), ::testing::ElementsAre(0, -2, -4, -6, -8));
-  EXPECT_THAT(film_ticks(-2), ::testing::ElementsAre(0, -0.5, -1, -1.5, -2));
+  const auto texts = [](double lowest) {
+    std::string text;
+    for (const auto& [share, number] : film_scale(lowest, 2, "").ticks) text += number + " ";
+    return text;
+  };
+  EXPECT_EQ(texts(-8.9), "0 −2 −4 −6 −8 ");
+  EXPECT_EQ(texts(-2), "0 −0.5 −1 −1.5 −2 ");
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 // The flow in the page that plays a motion of particles, in a browser (chromium) and as text.
-#include "viscontact/report/particles/flow/flow_page.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/report/particles/flow/flows.hpp"
 #include "tests/report/particles/page_reader.hpp"
 #include "tests/report/particles/playbacks.hpp"
+#include "viscontact/report/particles/particles_page.hpp"
 
 namespace viscontact::report {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "tests/common/temporary_folder.hpp"
 #include "tests/report/particles/playbacks.hpp"
-#include "viscontact/particles/io/flow_vtk.hpp"
-#include "viscontact/report/flow/triangle_fields.hpp"
+#include "viscontact/common/vtk/flow_vtk.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
 
 namespace viscontact::report {
 
@@ -18,8 +18,8 @@ using FlowAt = std::function<std::array<double, 3>(double x, double y)>;
 
 /// The flow at the nodes of a window that is divided into `parts` x `parts` rectangles of two
 /// triangles each.
-inline particles::FlowField mesh_of(const Window& window, int parts, const FlowAt& at) {
-  particles::FlowField flow;
+inline FlowField mesh_of(const Window& window, int parts, const FlowAt& at) {
+  FlowField flow;
   const int side = 2 * parts + 1;  // nodes along a side, with the middles
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i) {
@@ -49,7 +49,7 @@ inline particles::Playback disc_in_flow(const TemporaryFolder& folder, int frame
                                         const FlowAt& at) {
   particles::Playback playback;
   playback.radii = {0.5F};
-  const auto file = folder.file("flow.vtu", particles::write_flow(mesh_of({0, 4, 0, 2}, 16, at)));
+  const auto file = folder.file("flow.vtu", write_flow(mesh_of({0, 4, 0, 2}, 16, at)));
   for (int f = 0; f < frames; ++f) {
     particles::Frame frame;
     frame.time = f;

@@ -1,0 +1,103 @@
+// Writes and reads flows as VTK files (flow_vtk.hpp). The names of the arrays
+// must be kept, because the reader and users' pictures refer to them.
+#include "viscontact/common/vtk/flow_vtk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/vtk/appended_data.hpp"
+
+namespace viscontact {
+namespace {
+
+// A quadratic triangle: the number of its nodes, and VTK's number of this type of cell.
+constexpr std::size_t kNodes = 6;
+constexpr std::uint8_t kQuadraticTriangle = 22;
+
+/// Three numbers for each node: (a, b, 0) in the plane, (a, 0, b) in a half-plane through the axis.
+std::vector<double> vectors_of(const std::vector<double>& a, const std::vector<double>& b,
+                               bool on_axis) {
+  std::vector<double> vectors;
+  vectors.reserve(3 * a.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    vectors.insert(vectors.end(), {a[k], on_axis ? 0 : b[k], on_axis ? b[k] : 0});
+  return vectors;
+}
+
+std::vector<double> component(const std::vector<double>& vectors, std::size_t d) {
+  std::vector<double> values;
+  values.reserve(vectors.size() / 3);
+  for (std::size_t i = d; i < vectors.size(); i += 3) values.push_back(vectors[i]);
+  return values;
+}
+
+}  // namespace
+
+std::string write_flow(const FlowField& flow, bool on_axis, std::string_view more_name,
+                       const std::vector<double>& more) {
+  std::vector<double> speeds;
+  speeds.reserve(flow.x.size());
+  for (std::size_t k = 0; k < flow.x.size(); ++k)
+    speeds.push_back(std::hypot(flow.velocity_x[k], flow.velocity_y[k]));
+  std::vector<std::int64_t> nodes, ends;
+  for (const auto& triangle : flow.triangles) {
+    nodes.insert(nodes.end(), triangle.begin(), triangle.end());
+    ends.push_back(std::ssize(nodes));
+  }
+  const std::vector<std::uint8_t> types(flow.triangles.size(), kQuadraticTriangle);
+  AppendedData data;
+  auto text = AppendedData::opening("UnstructuredGrid");
+  text += "<UnstructuredGrid>\n";
+  if (on_axis)
+    text +=
+        "<FieldData>\n<DataArray type=\"Int32\" Name=\"axisymmetric\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">1</DataArray>\n</FieldData>\n";
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", flow.x.size(),
+                      flow.triangles.size());
+  text += "<PointData Scalars=\"speed\" Vectors=\"velocity\">\n";
+  text +=
+      data.array("Float64", "velocity", 3, vectors_of(flow.velocity_x, flow.velocity_y, on_axis));
+  text += data.array("Float64", "pressure", 1, flow.pressure);
+  text += data.array("Float64", "speed", 1, speeds);
+  if (!more.empty()) text += data.array("Float64", more_name, 1, more);
+  text += "</PointData>\n<Points>\n";
+  text += data.array("Float64", "Points", 3, vectors_of(flow.x, flow.y, on_axis));
+  text += "</Points>\n<Cells>\n";
+  text += data.array("Int64", "connectivity", 1, nodes);
+  text += data.array("Int64", "offsets", 1, ends);
+  text += data.array("UInt8", "types", 1, types);
+  text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+  return text + data.closing();
+}
+
+FlowField read_flow(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  const AppendedReader reader(text, path.string(), "flow");
+  const std::size_t second = reader.has_array("FieldData", "axisymmetric") ? 2 : 1;
+  const auto points = reader.array<double>("Points>", "Points");
+  const auto velocities = reader.array<double>("PointData", "velocity");
+  FlowField flow;
+  flow.pressure = reader.array<double>("PointData", "pressure");
+  if (points.size() != 3 * flow.pressure.size() || velocities.size() != points.size())
+    reader.refuse();
+  flow.x = component(points, 0);
+  flow.y = component(points, second);
+  flow.velocity_x = component(velocities, 0);
+  flow.velocity_y = component(velocities, second);
+  const auto nodes = reader.array<std::int64_t>("Cells", "connectivity");
+  const auto types = reader.array<std::uint8_t>("Cells", "types");
+  if (nodes.size() != kNodes * types.size() ||
+      std::ranges::any_of(types, [](auto type) { return type != kQuadraticTriangle; }))
+    reader.refuse();
+  flow.triangles.resize(nodes.size() / kNodes);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n] < 0 || nodes[n] >= std::ssize(flow.x)) reader.refuse();
+    flow.triangles[n / kNodes][n % kNodes] = static_cast<std::int32_t>(nodes[n]);
+  }
+  return flow;
+}
+
+}  // namespace viscontact

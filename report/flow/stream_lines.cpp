@@ -1,0 +1,299 @@
+// Solves for the stream function on a grid, follows its level lines, and simplifies them
+// (stream_lines.hpp). Points without fluid take part with a small weight, so that the matrix is
+// never singular and the fluid may consist of several regions.
+#include "viscontact/report/flow/stream_lines.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+namespace viscontact::report {
+namespace {
+
+using Index = std::uint32_t;
+
+/// A key for a pair of points, which does not depend on their order.
+std::uint64_t pair_key(Index a, Index b) {
+  constexpr int kHalf = 32;
+  return (static_cast<std::uint64_t>(std::min(a, b)) << kHalf) | std::max(a, b);
+}
+
+/// Distance of a point from the line through two others; from the first if they are the same.
+double distance(const Polyline::value_type& p, const Polyline::value_type& a,
+                const Polyline::value_type& b) {
+  const double x = b.first - a.first, y = b.second - a.second, length = std::hypot(x, y);
+  const double px = p.first - a.first, py = p.second - a.second;
+  return length > 0 ? std::abs(x * py - y * px) / length : std::hypot(px, py);
+}
+
+/// The line without the points that are less than `tolerance` away from it (Douglas & Peucker
+/// 1973).
+Polyline simplified(const Polyline& line, double tolerance) {
+  if (line.size() < 3) return line;
+  std::vector<char> is_kept(line.size(), 0);
+  is_kept.front() = is_kept.back() = 1;
+  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, line.size() - 1}};
+  while (!parts.empty()) {
+    const auto [first, last] = parts.back();
+    parts.pop_back();
+    double farthest = 0;
+    std::size_t at = first;
+    for (auto i = first + 1; i < last; ++i)
+      if (const double far = distance(line[i], line[first], line[last]); far > farthest) {
+        farthest = far;
+        at = i;
+      }
+    if (!(farthest > tolerance)) continue;
+    is_kept[at] = 1;
+    parts.insert(parts.end(), {{first, at}, {at, last}});
+  }
+  Polyline kept;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (is_kept[i] != 0) kept.push_back(line[i]);
+  return kept;
+}
+
+/// The field on the triangles of those squares of the grid of which all corners are known.
+LinearField field_on(const Grid& grid, const std::vector<double>& values) {
+  LinearField field;
+  field.values = values;
+  for (std::size_t row = 0; row < grid.rows; ++row)
+    for (std::size_t column = 0; column < grid.columns; ++column)
+      field.points.push_back({grid.x(column), grid.y(row)});
+  for (std::size_t row = 0; row + 1 < grid.rows; ++row)
+    for (std::size_t column = 0; column + 1 < grid.columns; ++column) {
+      const auto a = static_cast<Index>(row * grid.columns + column), b = a + 1;
+      const auto c = static_cast<Index>(a + grid.columns), d = c + 1;
+      if (std::isnan(values[a] + values[b] + values[c] + values[d])) continue;
+      field.triangles.push_back({a, b, d});
+      field.triangles.push_back({a, d, c});
+    }
+  return field;
+}
+
+std::size_t nearest_point(const Grid& grid, const Polyline::value_type& place) {
+  const auto nearest = [](double steps, std::size_t count) {
+    return static_cast<std::size_t>(
+        std::clamp(std::round(steps), 0.0, static_cast<double>(count - 1)));
+  };
+  return nearest((place.second - grid.window.bottom) / grid.step_y(), grid.rows) * grid.columns +
+         nearest((place.first - grid.window.left) / grid.step_x(), grid.columns);
+}
+
+double length_of(const Polyline& line) {
+  double length = 0;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    length += std::hypot(line[i].first - line[i - 1].first, line[i].second - line[i - 1].second);
+  return length;
+}
+
+/// Gives the line its direction, and an arrow if it is long enough and there is a place for it away
+/// from the other `arrows`.
+StreamLine directed(Polyline line, const Grid& grid, const FlowOnGrid& flow,
+                    const std::vector<char>& is_body, Polyline& arrows) {
+  // Shorter lines have no arrow, and arrows have this distance: shares of the larger side.
+  constexpr double kShort = 0.12, kApart = 0.14;
+  // Where an arrow is tried: shares of the number of points.
+  constexpr std::array<double, 9> kPlaces = {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
+  const auto at = [&](double share) {
+    return static_cast<std::size_t>(share * static_cast<double>(line.size() - 1));
+  };
+  double along = 0;
+  for (const double share : kPlaces) {
+    const auto i = std::min(at(share), line.size() - 2);
+    const auto point = nearest_point(grid, line[i]);
+    const double u = flow.velocity_x[point], v = flow.velocity_y[point];
+    if (std::isfinite(u) && std::isfinite(v))
+      along += u * (line[i + 1].first - line[i].first) + v * (line[i + 1].second - line[i].second);
+  }
+  if (along < 0) std::ranges::reverse(line);
+  StreamLine result;
+  const double larger = std::max(grid.window.width(), grid.window.height());
+  std::size_t arrow = 0;
+  const auto is_free = [&](const Polyline::value_type& place) {
+    return is_body[nearest_point(grid, place)] == 0 &&
+           std::ranges::none_of(arrows, [&](const auto& other) {
+             return std::hypot(place.first - other.first, place.second - other.second) <
+                    kApart * larger;
+           });
+  };
+  if (length_of(line) > kShort * larger)
+    for (const double share : kPlaces)
+      if (const auto i = at(share); i > 0 && is_free(line[i])) {
+        arrow = i;
+        arrows.push_back(line[i]);
+        break;
+      }
+  // Simplified part by part, so that the place of the arrow stays a point of the line.
+  const double tolerance = 0.1 * std::min(grid.step_x(), grid.step_y());
+  const auto middle = line.begin() + static_cast<std::ptrdiff_t>(arrow);
+  result.points = simplified({line.begin(), middle + 1}, tolerance);
+  if (arrow > 0) result.arrow = static_cast<int>(result.points.size()) - 1;
+  const auto rest = simplified({middle, line.end()}, tolerance);
+  result.points.insert(result.points.end(), rest.begin() + 1, rest.end());
+  return result;
+}
+
+}  // namespace
+
+std::vector<Polyline> level_lines(const LinearField& field, double level) {
+  // The points of a level line are its crossings with sides of triangles. Each crossing has at most
+  // two neighbours along the line, one in each triangle at the side.
+  struct Crossing {
+    std::pair<double, double> point;
+    std::array<std::uint64_t, 2> next{};
+    int neighbours = 0;
+    bool drawn = false;
+  };
+  std::unordered_map<std::uint64_t, Crossing> crossings;
+  const auto above = [&](Index i) { return field.values[i] >= level; };
+  for (const auto& triangle : field.triangles) {
+    std::array<std::uint64_t, 2> keys{};
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = std::min(triangle[i], triangle[(i + 1) % 3]);
+      const Index b = std::max(triangle[i], triangle[(i + 1) % 3]);
+      if (above(a) == above(b)) continue;
+      const double w = (level - field.values[a]) / (field.values[b] - field.values[a]);
+      const auto key = pair_key(a, b);
+      crossings[key].point = {std::lerp(field.points[a][0], field.points[b][0], w),
+                              std::lerp(field.points[a][1], field.points[b][1], w)};
+      keys[found++] = key;
+    }
+    if (found != 2) continue;
+    for (std::size_t i = 0; i < 2; ++i) {
+      auto& crossing = crossings[keys[i]];
+      if (crossing.neighbours < 2)
+        crossing.next[static_cast<std::size_t>(crossing.neighbours++)] = keys[1 - i];
+    }
+  }
+  std::vector<Polyline> lines;
+  const auto follow = [&](std::uint64_t key) {
+    Polyline line;
+    for (bool more = true; more;) {
+      auto& crossing = crossings.at(key);
+      crossing.drawn = true;
+      line.push_back(crossing.point);
+      more = false;
+      for (int i = 0; i < crossing.neighbours && !more; ++i)
+        if (const auto next = crossing.next[static_cast<std::size_t>(i)];
+            !crossings.at(next).drawn) {
+          key = next;
+          more = true;
+        }
+    }
+    return line;
+  };
+  for (auto& [key, crossing] : crossings)
+    if (!crossing.drawn && crossing.neighbours == 1) lines.push_back(follow(key));
+  for (auto& [key, crossing] : crossings)  // the lines that are left are closed
+    if (!crossing.drawn) {
+      lines.push_back(follow(key));
+      lines.back().push_back(lines.back().front());
+    }
+  return lines;
+}
+
+/// The normal equations, and for which points they were factorised.
+struct StreamLines::Equations {
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  std::vector<char> is_fluid;
+  bool is_analysed = false;
+
+  static double weight(bool both_in_fluid) { return both_in_fluid ? 1 : 1e-5; }
+
+  /// Factorises the matrix for the points in the fluid, unless it was factorised for nearly the
+  /// same points; then these stay.
+  void prepare(const Grid& grid, std::vector<char> points) {
+    constexpr double kNearly = 0.005;  // share of points that may differ
+    if (is_fluid.size() == points.size()) {
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) different += points[i] != is_fluid[i] ? 1 : 0;
+      if (static_cast<double>(different) <= kNearly * static_cast<double>(points.size())) return;
+    }
+    is_fluid = std::move(points);
+    using Entry = Eigen::Triplet<double>;
+    std::vector<Entry> entries;
+    entries.emplace_back(0, 0, 1);  // psi is known up to a constant
+    for_each_side(grid, [&](std::size_t a, std::size_t b, bool) {
+      const double w = weight(is_fluid[a] != 0 && is_fluid[b] != 0);
+      const auto i = static_cast<int>(a), j = static_cast<int>(b);
+      entries.insert(entries.end(), {{i, i, w}, {j, j, w}, {i, j, -w}, {j, i, -w}});
+    });
+    const auto size = static_cast<Eigen::Index>(grid.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (!is_analysed) factor.analyzePattern(matrix);
+    is_analysed = true;
+    factor.factorize(matrix);
+  }
+
+  /// Calls visit(a, b, is_horizontal) for each pair of points that are beside each other.
+  template <class Visit>
+  static void for_each_side(const Grid& grid, const Visit& visit) {
+    for (std::size_t row = 0; row < grid.rows; ++row)
+      for (std::size_t column = 0; column < grid.columns; ++column) {
+        const auto a = row * grid.columns + column;
+        if (column + 1 < grid.columns) visit(a, a + 1, true);
+        if (row + 1 < grid.rows) visit(a, a + grid.columns, false);
+      }
+  }
+};
+
+StreamLines::StreamLines(const Grid& grid, bool has_axis)
+    : grid_(grid), has_axis_(has_axis), equations_(std::make_unique<Equations>()) {}
+StreamLines::~StreamLines() = default;
+StreamLines::StreamLines(StreamLines&&) noexcept = default;
+
+std::vector<double> StreamLines::stream_function(const FlowOnGrid& flow) {
+  auto u = flow.velocity_x, v = flow.velocity_y;
+  std::vector<char> points(u.size());
+  for (std::size_t i = 0; i < u.size(); ++i) points[i] = std::isnan(u[i]) ? 0 : 1;
+  equations_->prepare(grid_, std::move(points));
+  // A point that left the fluid since the matrix was factorised is at its boundary.
+  fill_next_to_known(u, grid_.columns);
+  fill_next_to_known(v, grid_.columns);
+  const auto& is_fluid = equations_->is_fluid;
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(u.size()));
+  Equations::for_each_side(grid_, [&](std::size_t a, std::size_t b, bool is_horizontal) {
+    double difference =
+        is_horizontal ? -grid_.step_x() * (v[a] + v[b]) / 2 : grid_.step_y() * (u[a] + u[b]) / 2;
+    if (has_axis_) difference *= (grid_.x(a % grid_.columns) + grid_.x(b % grid_.columns)) / 2;
+    const bool both = is_fluid[a] != 0 && is_fluid[b] != 0;
+    if (!both || std::isnan(difference)) return;
+    right_side[static_cast<Eigen::Index>(a)] -= difference * Equations::weight(both);
+    right_side[static_cast<Eigen::Index>(b)] += difference * Equations::weight(both);
+  });
+  const Eigen::VectorXd psi = equations_->factor.solve(right_side);
+  std::vector<double> values(psi.data(), psi.data() + psi.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(u[i])) values[i] = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+StreamLineSet StreamLines::of(const FlowOnGrid& flow, const std::vector<char>& is_body, int count) {
+  const auto psi = stream_function(flow);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < psi.size(); ++i)
+    if (std::isfinite(psi[i]) && is_body[i] == 0) {
+      low = std::min(low, psi[i]);
+      high = std::max(high, psi[i]);
+    }
+  StreamLineSet set;
+  if (!(high > low)) return set;
+  set.step = (high - low) / count;
+  const auto field = field_on(grid_, psi);
+  Polyline arrows;
+  for (int n = 0; n < count; ++n) {
+    const double level = std::lerp(low, high, (n + 0.5) / count);
+    for (auto& line : level_lines(field, level))
+      if (line.size() > 2)
+        set.lines.push_back(directed(std::move(line), grid_, flow, is_body, arrows));
+  }
+  return set;
+}
+
+}  // namespace viscontact::report

@@ -1,0 +1,115 @@
+// `viscontact report DIR` makes the pages of every kind of folder again from its other files: they
+// are those of the run, apart from the line that says how they were made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "tests/program/particles/particles_command.hpp"
+#include "tests/program/sample_files.hpp"
+#include "tests/program/undisturbed.hpp"
+
+namespace viscontact {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kData = VISCONTACT_SOURCE_FOLDER "/data/";
+
+class PagesAgain : public ParticlesCommand {
+ protected:
+  /// The pages and pictures of out(), by their names.
+  std::map<std::string, std::string> pages() const {
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, text] : files_below(out()))
+      if (const auto kind = fs::path(name).extension(); kind == ".html" || kind == ".svg")
+        texts[fs::path(name).lexically_relative(out())] = rest_of(name);
+    return texts;
+  }
+  ProgramResult report() const { return run_viscontact({"report", path("out")}); }
+
+  /// Expects that `report` makes so many pages and pictures again, and changes no other file.
+  void expect_same_again(std::size_t count) const {
+    const auto made = pages();
+    EXPECT_EQ(made.size(), count);
+    for (const auto& [name, text] : made) fs::remove(out() / name);
+    const auto others = files_below(out());
+    expect_done(report());
+    EXPECT_EQ(pages(), made);
+    for (const auto& [name, text] : others) EXPECT_EQ(files_below(out()).at(name), text) << name;
+  }
+};
+
+TEST_F(PagesAgain, OfARollingSphere) {
+  expect_done(run_viscontact({"rolling", kData + "cases/rolling/incline.toml", "-o", path("out")}));
+  expect_same_again(6);
+}
+
+TEST_F(PagesAgain, OfARollingSphereOfWhichAModelFailed) {
+  const auto text =
+      replaced(read_file(kData + "cases/rolling/incline.toml"), "../../fits", kData + "fits");
+  put_case(replaced(text, "initial_gap = 0.5", "initial_gap = 2.0"));
+  EXPECT_NE(run_viscontact({"rolling", path("case.toml"), "-o", path("out")}).exit_status, 0);
+  EXPECT_THAT(read_file(out() / "report.html"), HasSubstr("failed: the sphere rises"));
+  expect_same_again(6);
+}
+
+TEST_F(PagesAgain, OfASwimmer) {
+  fs::create_directory(out());
+  fs::copy_file(kData + "tables/three_spheres.csv", out() / "table.csv");
+  const auto text = read_file(kData + "cases/swimmer/three_spheres.toml");
+  put_case(replaced(text, "period = 1.0", "period = 3.0"));
+  expect_done(run_viscontact({"swimmer", path("case.toml"), "-o", path("out")}));
+  expect_same_again(7);
+  put_text(out() / "swimmer.json", replaced(read_file(out() / "swimmer.json"), "efficiency", "e"));
+  expect_refusal(report(), ErrorKind::kBadInput,
+                 HasSubstr("swimmer.json: is not complete (key 'efficiency' not found)"));
+}
+
+TEST_F(PagesAgain, OfParticles) {
+  // The last frame is after the last multiple of `every`.
+  put_case(replaced(kCase, "every = 0.5", "every = 0.7"));
+  expect_done(run(out("case.toml"), out()));
+  expect_same_again(2);
+  put_text(out() / "particles.svg", "<svg>mine</svg>\n");
+  expect_refusal(report(), ErrorKind::kBadInput, HasSubstr("particles.svg"));
+}
+
+TEST_F(PagesAgain, OfParticlesInAFluid) {
+  auto text = read_file(kData + "cases/fluid/one_disc.toml");
+  text = replaced_matches(text, "\\[output\\]\nevery = [^\n]*\n", "");
+  text = replaced_matches(text, "end_time = [^\n]*\n", "end_time = 0.5\n");
+  expect_done(run(put_case(text), out()));
+  EXPECT_THAT(read_file(out() / "particles.html"), HasSubstr("id=\"flow-speed\""));
+  expect_same_again(2);
+}
+
+// The page says what the case says, so that it would not belong to the frames of another case.
+TEST_F(PagesAgain, NotOfACaseThatHasChanged) {
+  expect_done(run(put_case(kCase), out()));
+  put_case(replaced(kCase, "Three discs", "Other discs"));
+  expect_refusal(report(), ErrorKind::kBadInput,
+                 HasSubstr("particles.pvd: was made from other inputs: " + path("case.toml") +
+                           " has changed"));
+  fs::remove(path("case.toml"));
+  expect_refusal(report(), ErrorKind::kBadInput, HasSubstr("case.toml no longer exists"));
+}
+
+// A project that is moved, with its cases and results at the same places in it.
+TEST_F(PagesAgain, InAFolderThatWasMovedWithItsCase) {
+  put_case(kCase);
+  const std::string enter = "cd '" + folder_.path().string() + "';";
+  expect_done(run_viscontact({"particles", "case.toml", "-o", "out"}, {}, enter));
+  const auto made = pages();
+  fs::create_directory(path("moved"));
+  for (const char* name : {"case.toml", "discs.csv", "out"})
+    fs::rename(out(name), out("moved") / name);
+  for (const auto& [name, text] : made) fs::remove(out("moved") / "out" / name);
+  expect_done(run_viscontact({"report", path("moved/out")}));
+  for (const auto& [name, text] : made) EXPECT_EQ(rest_of(out("moved") / "out" / name), text);
+}
+
+}  // namespace
+}  // namespace viscontact
