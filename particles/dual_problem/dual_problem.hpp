@@ -60,6 +60,7 @@ class DualProblem {
   double impulse(std::size_t c) const { return z[c] == bound[c] ? lowest_[c] : z[c] / scale[c]; }
 
  protected:
+  /// Makes room for this number of contacts, each of which set() must set.
   explicit DualProblem(std::size_t contacts)
       : z(contacts),
         bound(contacts),
