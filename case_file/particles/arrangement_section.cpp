@@ -9,7 +9,7 @@
 #include <string_view>
 #include <variant>
 
-#include "viscontact/case_file/sections.hpp"
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::case_file {
