@@ -53,13 +53,13 @@ std::vector<double> read_arm_gaps(const TomlSection& section, const std::vector<
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kSmallestGap = 1e-6;  // over the smaller radius; as far as tests go
-  const double least = kSmallestGap * std::min(radii[k], radii[k + 1]);
+  constexpr double kLeastGap = 1e-6;  // over the smaller radius; as far as tests go
+  const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(
       from - both_radii >= least, "from",
       "is {}, a gap of {:.3g}; a gap must be at least {} of the smaller radius, so from "
       "must be at least {}",
-      from, from - both_radii, kSmallestGap, both_radii + least);
+      from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
   constexpr double kLargestArm = 1e4;  // over both radii
   section.require(to <= kLargestArm * both_radii, "to",

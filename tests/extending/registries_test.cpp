@@ -67,10 +67,9 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // sections of a case of particles
                   Found("case_file/particles/particles_case.cpp", "viscous_contact"),
                   Found("case_file/particles/particles_case.cpp", "plane"),
-                  Found("case_file/fluid/fluid_start.cpp", "viscous_contact"),
+                  Found("case_file/particles/start_checks.cpp", "viscous_contact"),
                   // obstacles in words
-                  Found("case_file/particles/particles_start.cpp", "plane"),
-                  Found("case_file/fluid/fluid_start.cpp", "plane"),
+                  Found("case_file/particles/start_checks.cpp", "plane"),
                   Found("particles/simulation_errors.cpp", "plane"),
                   // a key in the head of a file of a sweep
                   Found("sweep/sweep.cpp", "reference"),
