@@ -1,0 +1,79 @@
+// The tables of docs/case-file.md are those that the declarations of the keys make.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
+#include "viscontact/case_file/rolling/rolling_case.hpp"
+#include "viscontact/case_file/swimmer/swimmer_case.hpp"
+#include "viscontact/common/files/file.hpp"
+
+namespace viscontact::case_file {
+namespace {
+
+std::vector<KeyTable> all_tables() {
+  std::vector<KeyTable> all;
+  for (const auto& tables : {tables_of_sphere_case(), tables_of_particles_case(),
+                             tables_of_rolling_case(), tables_of_swimmer_case()})
+    all.insert(all.end(), tables.begin(), tables.end());
+  return all;
+}
+
+/// The page with these tables between their markers. A table without a marker is a failure.
+std::string with_tables(std::string page, const std::vector<KeyTable>& tables) {
+  const std::string end = "<!-- end of keys -->";
+  for (const auto& table : tables) {
+    const auto marker = "<!-- keys of " + table.section + ", made from the declarations -->\n";
+    const auto begin = page.find(marker);
+    const auto stop = page.find(end, begin);
+    if (begin == std::string::npos || stop == std::string::npos) {
+      ADD_FAILURE() << "docs/case-file.md has no place for a table between " << marker << end;
+      continue;
+    }
+    const auto from = begin + marker.size();
+    page.replace(from, stop - from, table.markdown());
+  }
+  return page;
+}
+
+TEST(CaseFilePage, HasTheTablesThatTheDeclarationsMake) {
+  const auto page =
+      read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs/case-file.md");
+  const auto made = with_tables(page, all_tables());
+  if (made == page) return;
+  const auto file = std::filesystem::absolute("case-file.md");
+  write_file(file, made);
+  FAIL() << "docs/case-file.md is not up to date; copy " << file << " to its place";
+}
+
+TEST(CaseFilePage, HasNoTableOfKeysThatNothingDeclares) {
+  const auto page =
+      read_file(std::filesystem::path(VISCONTACT_SOURCE_FOLDER) / "docs/case-file.md");
+  std::size_t markers = 0;
+  for (auto at = page.find("<!-- keys of "); at != std::string::npos;
+       at = page.find("<!-- keys of ", at + 1))
+    ++markers;
+  EXPECT_EQ(markers, all_tables().size());
+}
+
+TEST(KeyTables, SayOfEachKeyWhatItsDeclarationSays) {
+  double length = 0.5;
+  int tries = 3;
+  const auto table = describe_keys("[section]", [&](Keys& keys) {
+    keys.required("length", number(length, kPositive), {"of the rod"});
+    keys.optional("tries", count(tries, 1, 9), {"how often"});
+    keys.require(false, "tries", "is never said where nothing is read");
+  });
+  EXPECT_EQ(table.markdown(),
+            "| key | value | default | meaning |\n"
+            "| --- | --- | --- | --- |\n"
+            "| `length` | > 0 | required | of the rod |\n"
+            "| `tries` | whole number from 1 to 9 | 3 | how often |\n");
+}
+
+}  // namespace
+}  // namespace viscontact::case_file
