@@ -24,9 +24,10 @@ using reduced_model::ExternalForce;
 using reduced_model::Motion;
 
 void sphere_keys(Keys& keys, Case& c, double& mass, bool needs_mass) {
-  keys.required("radius", number(c.radius, kPositive), {"radius r of the sphere"});
+  keys.required("radius", number(c.radius, kPositive),
+                {.meaning = "radius r of the sphere", .example = "1.0"});
   keys.required_if(needs_mass, "mass", number(mass, kPositive),
-                   {"mass m of the sphere", "required with a section `[motion]`"});
+                   {"mass m of the sphere", "required with a section `[motion]`", {}, "20.0"});
 }
 
 /// The fixed coefficient of 1/q: "theory", or a number.
@@ -52,40 +53,51 @@ void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
     fit.exact = true;
   };
   auto& settings = fit.settings;
-  if (!keys.optional("file", custom("a file", read_file_name),
-                     {"fit file, which is used unchanged, in place of a fit of the table"}) &&
+  if (!keys.optional(
+          "file", custom("a file", read_file_name),
+          {.meaning = "fit file, which is used unchanged, in place of a fit of the table",
+           .example = "\"fit.json\""}) &&
       !keys.optional("exact", custom("`\"plane\"`", read_exact),
-                     {"the exact drag near a plane in a half-space, in place of a fit"})) {
+                     {.meaning = "the exact drag near a plane in a half-space, in place of a fit",
+                      .example = "\"plane\""})) {
     // The defaults are those of the command `fit`.
     const bool has_terms = keys.optional(
         "terms", parsed("such as `\"1/q, ln q, 1\"`", settings.basis, lubrication::parse_terms),
-        {"your own list of the terms that are fitted, in one text, in place of `basis`"});
+        {.meaning = "your own list of the terms that are fitted, in one text, in place of `basis`",
+         .example = "\"1/q, ln q, 1\""});
     keys.require(!(has_terms && keys.has("basis")), "basis",
                  "must be left out, because the key terms defines the basis");
     if (!has_terms)
       keys.optional(
           "basis",
           parsed("name of a [basis](theory.md#2-the-fit)", settings.basis, lubrication::find_basis),
-          {"the terms that are fitted", "`\"lecture\"`"});
+          {"the terms that are fitted; lecture is a/q + b + c q + d q² + e q³",
+           "`\"lecture\"`",
+           {},
+           "\"lecture\""});
     keys.optional(
         "weights",
         parsed("`\"relative\"`, `\"absolute\"`", settings.weights, lubrication::parse_weights),
-        {"which residuals are minimised", "`\"relative\"`"});
+        {"which residuals are minimised", "`\"relative\"`", {}, "\"relative\""});
     keys.optional(
         "loss",
         parsed("`\"none\"`, `\"huber\"`, `\"cauchy\"`", settings.loss, lubrication::parse_loss),
-        {"robust losses are for tables with wrong rows", "`\"none\"`"});
+        {"robust losses are for tables with wrong rows", "`\"none\"`", {}, "\"huber\""});
     keys.optional("fix", custom("`\"theory\"`, or a number", read_fix, settings),
                   {"fixes the coefficient of 1/q in the force at the first velocity: at theory's "
                    "value, or at the number",
-                   "it is fitted"});
+                   "it is fitted",
+                   {},
+                   "\"theory\""});
   }
-  keys.optional("below",
-                one_of(fit.outside.below, {{"lubrication_limit", BelowInterval::kLubricationLimit},
-                                           {"theory_limit", BelowInterval::kTheoryLimit}}),
-                {"the drag at gaps below the interval of the fit", "an error"});
-  keys.optional("above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
-                {"the drag at gaps above the interval of the fit", "an error"});
+  keys.optional(
+      "below",
+      one_of(fit.outside.below, {{"lubrication_limit", BelowInterval::kLubricationLimit},
+                                 {"theory_limit", BelowInterval::kTheoryLimit}}),
+      {"the drag at gaps below the interval of the fit", "an error", {}, "\"lubrication_limit\""});
+  keys.optional(
+      "above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
+      {"the drag at gaps above the interval of the fit", "an error", {}, "\"stokes_limit\""});
 }
 
 /// A piece of the force, which begins at the time at which the piece before it ends.
@@ -169,17 +181,28 @@ auto models(std::vector<std::string>& place) {
 }
 
 /// `time_scale` is 1 if it is not given.
-void motion_keys(Keys& keys, Motion& motion, double& time_scale, Case& c) {
-  keys.required("end_time", number(motion.end_time, kPositive), {"end of the motion"});
-  keys.required("initial_gap", number(motion.initial_gap, kPositive), {"gap q at time 0"});
-  keys.required("initial_velocity", number(motion.initial_velocity, kFinite),
-                {"velocity u at time 0; positive: away from the wall"});
-  keys.required("external_force", custom("a list of tables, see below", read_forces, motion, c),
-                {"the sum of these forces, which must last until `end_time`"});
+void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
+  keys.required("end_time", number(motion.end_time, kPositive),
+                {.meaning = "end of the motion", .example = "4.0"});
+  keys.required("initial_gap", number(motion.initial_gap, kPositive),
+                {.meaning = "gap q at time 0", .example = "1.0"});
+  keys.required(
+      "initial_velocity", number(motion.initial_velocity, kFinite),
+      {.meaning = "velocity u at time 0; positive: away from the wall", .example = "0.0"});
+  keys.required(
+      "external_force", custom("a list of tables", read_forces, motion, c),
+      {.meaning = "the external force is the sum of these forces, which must last until `end_time`",
+       .example = "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"});
   keys.optional("models", models(c.models),
-                {"the models that are run", "the first six of the table below"});
+                {"the models that are run",
+                 "the first six of `viscontact simulate --help`",
+                 {},
+                 "[\"inertial\", \"viscous_contact\"]"});
   keys.optional("rows", count(motion.output_rows, 2, 100'000'000),
-                {"about how many rows a trajectory file has", "[all](file-formats.md#fewer-rows)"});
+                {"about how many rows a trajectory file has",
+                 "[all](file-formats.md#fewer-rows)",
+                 {},
+                 "1000"});
   keys.optional("time_scale", number(time_scale, kPositive),
                 {"multiplies every time of `[motion]` and the time steps, and stretches the "
                  "external force with them: f_ext(t/`time_scale`). The angular frequencies, the "
@@ -203,7 +226,8 @@ void read_roughness(const TomlSection& section, std::string_view key, const doub
 
 /// The parameters of models that are in one section, and the roughness, which is a property of the
 /// surfaces and no parameter of a model. Each parameter of the motion has its default already.
-void model_keys(Keys& keys, Motion& motion, std::string_view section, double radius) {
+void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
+  const double radius = c.radius;
   for (const auto& parameter : reduced_model::model_parameters()) {
     if (parameter.section() != section) continue;
     double value = motion.parameter(parameter);
@@ -218,7 +242,9 @@ void model_keys(Keys& keys, Motion& motion, std::string_view section, double rad
     keys.optional(reduced_model::name_of(reduced_model::kRoughnessKey),
                   custom("`[r1, r2]`, two numbers >= 0", read_roughness, radius, motion.roughness),
                   {"heights of the roughness of sphere and wall; their sum is less than the radius",
-                   "`[0, 0]`, smooth"});
+                   "`[0, 0]`, smooth",
+                   {},
+                   "[0.0, 0.0]"});
   if (section == reduced_model::kRestitution.section())
     keys.require(motion.restitution() == 0 || motion.roughness[0] + motion.roughness[1] > 0,
                  reduced_model::kRestitution.name(),
@@ -260,11 +286,10 @@ Motion read_motion(const TomlSection& root, double mass, Case& c) {
   auto motion = empty_motion();
   motion.mass = mass;
   double time_scale = 1;
-  read_keys(section, motion_keys, motion, time_scale, c);
+  read_keys(section, motion_keys, c, motion, time_scale);
   set_default_parameters(motion, c.radius);
   for (const auto& name : reduced_model::model_sections())
-    if (root.has(name))
-      read_keys(root.section(name), [&](Keys& keys) { model_keys(keys, motion, name, c.radius); });
+    if (root.has(name)) read_keys(root.section(name), model_keys, c, motion, name);
   if (section.has("time_scale")) stretch(section, time_scale, motion);
   return motion;
 }
@@ -370,30 +395,24 @@ Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers)
 }
 
 std::vector<KeyTable> tables_of_sphere_case() {
+  // The examples of the parameters of models are their defaults for the other examples.
   auto motion = empty_motion();
-  set_default_parameters(motion, 0);
-  Case c;
+  motion.end_time = 4;
+  motion.initial_gap = 1;
+  set_default_parameters(motion, 1);
   double mass = 0, time_scale = 1;
-  FitRequest fit;
-  std::string file;
-  std::vector<KeyTable> tables = {
-      describe_keys("[fluid]", viscosity_keys),
-      describe_keys("[sphere]", [&](Keys& keys) { sphere_keys(keys, c, mass, true); }),
-      describe_keys("[fit]", [&](Keys& keys) { fit_keys(keys, fit, {}); }),
-      describe_keys("[motion]", [&](Keys& keys) { motion_keys(keys, motion, time_scale, c); }),
-      describe_keys("motion.external_force", [&](Keys& keys) {
-        ExternalForce::Piece piece;
-        ExternalForce::Sinusoid sinusoid;
-        piece_keys(keys, piece);
-        sinusoid_keys(keys, sinusoid);
-        force_file_keys(keys, file);
-      })};
+  std::vector<KeyTable> tables = {describe_keys("[fluid]", viscosity_keys),
+                                  describe_keys("[sphere]", sphere_keys, mass, true)};
+  for (auto& table : tables_of_tabulation()) tables.push_back(std::move(table));
+  tables.push_back(describe_keys("[fit]", fit_keys, {}));
+  tables.push_back(describe_keys("[motion]", motion_keys, motion, time_scale));
+  tables.push_back(describe_keys("motion.external_force", piece_keys));
+  for (const auto& more : {describe_keys("", sinusoid_keys), describe_keys("", force_file_keys)})
+    tables.back().rows.insert(tables.back().rows.end(), more.rows.begin(), more.rows.end());
   for (const auto& name : reduced_model::model_sections())
-    tables.push_back(describe_keys(fmt::format("[{}]", name),
-                                   [&](Keys& keys) { model_keys(keys, motion, name, 0); }));
+    tables.push_back(describe_keys(fmt::format("[{}]", name), model_keys, motion, name));
   tables.push_back(describe_keys("[sweep]", sweep_keys));
   tables.push_back(describe_keys("[published]", published_keys));
-  for (auto& table : tables_of_tabulation()) tables.push_back(std::move(table));
   return tables;
 }
 

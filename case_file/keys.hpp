@@ -1,26 +1,26 @@
 // Declarations of the keys of a case file. A function with a Keys object as its first argument
 // declares the keys of a section, each once: name, place in a struct, allowed values, default and
 // meaning. The same function reads the section of a case, with the errors of TomlSection, and
-// describes it for the tables of docs/case-file.md:
+// describes it for the tables of docs/case-file.md and for `viscontact init`:
 //
 //     void solver_keys(Keys& keys, SolverSettings& settings) {
-//       keys.optional("tolerance", number(settings.tolerance, kTolerance), "tolerance of the gaps");
+//       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the gaps"});
 //     }
 //     read_keys(root.section("solver"), solver_keys, settings);
 //     describe_keys("[solver]", solver_keys);
 //
 // Keys have the units of the case. After a change of a declaration the tables of the page must be
-// written again; the test CaseFilePage says how.
+// made again; the test CaseFilePage makes them and says where.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -50,6 +50,7 @@ struct KeyTable {
     std::string value;     ///< which values are allowed
     std::string fallback;  ///< its default, or "required"
     std::string meaning;   ///< what it does
+    std::string example;   ///< a value for `viscontact init`; empty: none
   };
   std::string section;    ///< such as "[solver]" or "[[plane]]"
   std::vector<Row> rows;  ///< in the order of the declarations
@@ -58,11 +59,26 @@ struct KeyTable {
   std::string markdown() const;
 };
 
+/// A case with these sections that explains itself: each key is an example, under a comment with its
+/// meaning. Keys with a default are commented out. Sections that lack an example of a required key
+/// are left out, and so are tables of keys within a value.
+std::string commented_case(std::span<const KeyTable> tables);
+
 /// What a declaration says about a key in words, in Markdown.
 struct Help {
   std::string_view meaning = {};   ///< what the key does
   std::string_view fallback = {};  ///< the default, if it is not that of the struct
   std::string_view value = {};     ///< the allowed values, if those of the type do not say it all
+  std::string_view example = {};   ///< for `viscontact init`, if it is not the default
+};
+
+/// The value of a key. It refers to the place into which it reads.
+struct KeyValue {
+  /// Reads the value of a key that the section has.
+  std::function<void(const TomlSection& section, std::string_view key)> read;
+  std::function<std::string()> words;  ///< which values are allowed, in Markdown
+  /// The value that the place has now, which is the default, in Markdown; empty: none.
+  std::function<std::string()> fallback = [] { return std::string(); };
 };
 
 /// The visitor of declarations. It either reads the keys of a section, or describes them.
@@ -76,33 +92,13 @@ class Keys {
   /// True if it reads and the section has the key.
   bool has(std::string_view key) const { return reads() && section_->has(key); }
 
-  /// Declares a key that a case must have. `value` is what one of the functions below returns.
-  template <class Value>
-  void required(std::string_view key, const Value& value, const Help& help) {
-    if (reads())
-      value.read(*section_, key);
-    else
-      describe(key, value.words(), "required", help);
-  }
-
+  /// Declares a key that a case must have.
+  void required(std::string_view key, const KeyValue& value, const Help& help);
   /// Declares a key that a case may have. Without it the place keeps the value that it has. Returns
   /// true if it was read.
-  template <class Value>
-  bool optional(std::string_view key, const Value& value, const Help& help) {
-    if (!reads()) describe(key, value.words(), value.fallback(), help);
-    if (!has(key)) return false;
-    value.read(*section_, key);
-    return true;
-  }
-
+  bool optional(std::string_view key, const KeyValue& value, const Help& help);
   /// Declares a key that the case must have if the condition is true.
-  template <class Value>
-  void required_if(bool condition, std::string_view key, const Value& value, const Help& help) {
-    if (condition)
-      required(key, value, help);
-    else
-      optional(key, value, help);
-  }
+  void required_if(bool condition, std::string_view key, const KeyValue& value, const Help& help);
 
   /// Throws the error of TomlSection::require, if it reads and the condition is false.
   template <class... Arguments>
@@ -112,7 +108,8 @@ class Keys {
   }
 
  private:
-  void describe(std::string_view key, std::string value, std::string fallback, const Help& help);
+  void describe(std::string_view key, const KeyValue& value, std::string fallback,
+                const Help& help);
 
   const TomlSection* section_ = nullptr;
   KeyTable* table_ = nullptr;
@@ -126,16 +123,16 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   section.finish();
 }
 
-/// Describes a section by its declaration.
-KeyTable describe_keys(std::string section, const std::function<void(Keys&)>& declaration);
-
-/// The same for a declaration with a place, whose values are the defaults.
-template <class Place>
-KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&)) {
-  return describe_keys(std::move(section), [&](Keys& keys) {
-    Place place{};
-    declaration(keys, place);
-  });
+/// Describes a section by its declaration, whose first place is new and has the defaults; `more` are
+/// its other places.
+template <class Place, class... More>
+KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
+                       std::type_identity_t<More>... more) {
+  KeyTable table{std::move(section), {}};
+  Keys keys(table);
+  Place place{};
+  declaration(keys, place, more...);
+  return table;
 }
 
 /// A whole number that may be greater than the largest int.
@@ -149,132 +146,85 @@ inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
 
-// Values of keys: each reads a value into its place and says which values are allowed.
+// Values of keys. They refer to their arguments, which must live until the declaration of the key is
+// done.
 
 /// A value with a reader and words of its own. `read` is called with the section, the key and the
 /// places.
 template <class Read, class... Places>
-auto custom(std::string_view words, Read read, Places&... places) {
-  const auto read_places = [read, &places...](const TomlSection& section, std::string_view key) {
-    read(section, key, places...);
-  };
-  struct Value {
-    std::string_view allowed;
-    decltype(read_places) on_read;
-    void read(const TomlSection& section, std::string_view key) const { on_read(section, key); }
-    std::string words() const { return std::string(allowed); }
-    std::string fallback() const { return ""; }
-  };
-  return Value{words, read_places};
+KeyValue custom(std::string_view words, Read read, Places&... places) {
+  return {[read, &places...](const TomlSection& section, std::string_view key) {
+            read(section, key, places...);
+          },
+          [words] { return std::string(words); }};
 }
 
 /// A number. `place` is a double, an optional one, which has no default, or a whole number.
 template <class Place>
-struct NumberValue {
-  Place& place;
-  const Allowed& allowed;
-  void read(const TomlSection& section, std::string_view key) const {
-    const double number = section.number(key, allowed);
-    if constexpr (std::is_integral_v<Place>)
-      place = static_cast<Place>(number);
-    else
-      place = number;
-  }
-  std::string words() const {
-    return &allowed == &kFinite ? "a number" : std::string(allowed.words);
-  }
-  std::string fallback() const {
-    if constexpr (std::is_same_v<Place, double>) return number_in_words(place);
-    return "";
-  }
-};
-template <class Place>
-NumberValue<Place> number(Place& place, const Allowed& allowed) {
-  return {place, allowed};
+KeyValue number(Place& place, const Allowed& allowed) {
+  return {[&](const TomlSection& section, std::string_view key) {
+            place = static_cast<Place>(section.number(key, allowed));
+          },
+          [&] { return &allowed == &kFinite ? "a number" : std::string(allowed.words); },
+          [&] {
+            if constexpr (std::is_arithmetic_v<Place>)
+              return number_in_words(static_cast<double>(place));
+            return std::string();
+          }};
 }
 
 /// A whole number in [least, most].
 template <class Place>
-auto count(Place& place, int least, int most) {
-  struct Value {
-    Place& place;
-    int least, most;
-    void read(const TomlSection& section, std::string_view key) const {
-      place = static_cast<Place>(section.count(key, least, most));
-    }
-    std::string words() const { return fmt::format("whole number from {} to {}", least, most); }
-    std::string fallback() const { return fmt::format("{}", place); }
-  };
-  return Value{place, least, most};
+KeyValue count(Place& place, int least, int most) {
+  return {[&place, least, most](const TomlSection& section, std::string_view key) {
+            place = static_cast<Place>(section.count(key, least, most));
+          },
+          [=] { return fmt::format("whole number from {} to {}", least, most); },
+          [&place] { return fmt::format("{}", place); }};
 }
 
-/// A text, which is assigned to `place`.
-template <class Place>
-auto text(Place& place) {
-  return custom("a text", [&place](const TomlSection& section, std::string_view key) {
-    place = section.text(key);
-  });
-}
-
+/// A text.
+KeyValue text(std::string& place);
 /// A list of at least one text.
-inline auto texts(std::vector<std::string>& place) {
-  return custom("a list of texts", [&place](const TomlSection& section, std::string_view key) {
-    place = section.texts(key);
-  });
-}
-
+KeyValue texts(std::vector<std::string>& place);
 /// A list of at least one number.
-inline auto numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words) {
-  return custom(words, [&place, &allowed](const TomlSection& section, std::string_view key) {
-    place = section.numbers(key, allowed);
-  });
-}
+KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
 
 /// A text that `parse` turns into the value, or refuses with an Error.
 template <class Place, class Parse>
-auto parsed(std::string_view words, Place& place, const Parse& parse) {
+KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
   return custom(words, [&place, parse](const TomlSection& section, std::string_view key) {
     const auto text = section.text(key);
     place = at_key(section, key, [&] { return parse(text); });
   });
 }
 
-/// A word and what it means.
-template <class Meaning>
-using Word = std::pair<std::string_view, Meaning>;
-
 /// One of some words, each with its meaning.
 template <class Meaning>
-struct WordValue {
-  Meaning& place;
-  std::span<const Word<Meaning>> allowed;
-  void read(const TomlSection& section, std::string_view key) const {
-    const auto text = section.text(key);
-    const auto found = std::ranges::find(allowed, text, &Word<Meaning>::first);
-    section.require(found != allowed.end(), key, "is '{}'; it must be {}", text, joined(" or "));
-    place = found->second;
-  }
-  std::string words() const { return "`" + joined("`, `") + "`"; }
-  std::string fallback() const {
-    const auto found = std::ranges::find(allowed, place, &Word<Meaning>::second);
-    return found == allowed.end() ? "" : fmt::format("`\"{}\"`", found->first);
-  }
-  std::string joined(std::string_view between) const {
-    std::string words;
+KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
+  using Word = std::pair<std::string_view, Meaning>;
+  const std::span<const Word> allowed(words.begin(), words.size());
+  const auto joined = [allowed](std::string_view between) {
+    std::string text;
     for (const auto& [word, meaning] : allowed)
-      words += fmt::format("{}\"{}\"", words.empty() ? "" : between, word);
-    return words;
-  }
-};
-/// The words must live until the declaration is done, as those of a braced list in its call do.
-template <class Meaning>
-WordValue<Meaning> one_of(Meaning& place, std::initializer_list<Word<Meaning>> words) {
-  return {place, {words.begin(), words.size()}};
+      text += fmt::format("{}\"{}\"", text.empty() ? "" : between, word);
+    return text;
+  };
+  return {[=, &place](const TomlSection& section, std::string_view key) {
+            const auto text = section.text(key);
+            const auto found = std::ranges::find(allowed, text, &Word::first);
+            section.require(found != allowed.end(), key, "is '{}'; it must be {}", text,
+                            joined(" or "));
+            place = found->second;
+          },
+          [=] { return "`" + joined("`, `") + "`"; },
+          [=, &place] {
+            const auto found = std::ranges::find(allowed, place, &Word::second);
+            return found == allowed.end() ? "" : fmt::format("`\"{}\"`", found->first);
+          }};
 }
 
 /// The section [fluid] of a case of spheres without other particles.
-inline void viscosity_keys(Keys& keys, double& viscosity) {
-  keys.required("viscosity", number(viscosity, kPositive), {"dynamic viscosity mu"});
-}
+void viscosity_keys(Keys& keys, double& viscosity);
 
 }  // namespace viscontact::case_file

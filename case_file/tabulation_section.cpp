@@ -152,13 +152,19 @@ void read_velocities(const TomlSection& section, std::string_view key, Tabulatio
 
 void tabulation_keys(Keys& keys, Tabulation& tabulation) {
   keys.required("gaps", custom("a list, or `{ from, to, count, spacing }`", read_gaps, tabulation),
-                {"the gaps q, at least 1e-8 r each"});
+                {.meaning = "the gaps q at which FreeFEM computes the force, at least 1e-8 r each",
+                 .example = "{ from = 1e-3, to = 2.0, count = 20, spacing = \"log\" }"});
   keys.required("reference_velocities", custom("a list, none 0", read_velocities, tabulation),
-                {"velocities u0 of the sphere; negative: approaching"});
-  keys.required("relative_accuracy", number(tabulation.relative_accuracy, kFraction),
-                {"largest relative error estimate that is asked of each row"});
-  keys.optional("geometry", custom("`{ kind, ... }`, see below", read_geometry, tabulation),
-                {"what the sphere approaches", "`{ kind = \"plane\" }`"});
+                {.meaning = "velocities u0 of the sphere; negative: approaching. One is enough, "
+                            "because Stokes flow is linear",
+                 .example = "[-1.0]"});
+  keys.required(
+      "relative_accuracy", number(tabulation.relative_accuracy, kFraction),
+      {.meaning = "largest relative error estimate that is asked of each row", .example = "1e-5"});
+  keys.optional("geometry", custom("`{ kind, ... }`", read_geometry, tabulation),
+                {.meaning = "what the sphere approaches",
+                 .fallback = "`{ kind = \"plane\" }`",
+                 .example = "{ kind = \"plane\" }"});
   keys.optional("motion",
                 custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, a list of these, or "
                        "`\"all\"`",
@@ -166,12 +172,17 @@ void tabulation_keys(Keys& keys, Tabulation& tabulation) {
                 {"[motions](motions.md) that are tabulated; `\"all\"` are those that the geometry "
                  "has. The reference velocities are those of each motion, angular ones for roll "
                  "and spin. `run` needs the approach alone",
-                 "`\"approach\"`"});
+                 "`\"approach\"`",
+                 {},
+                 "\"approach\""});
   if (keys.reads()) check_gaps(keys.section(), tabulation);
   keys.required_if(!keys.reads() || freefem_axi::find_geometry(tabulation.geometry).takes_container,
                    "container",
                    custom("`{ radius, height }` or `\"unbounded\"`", read_container, tabulation),
-                   {"a closed cylinder around the fluid, or none", "required but for a cavity"});
+                   {"a closed cylinder around the fluid, or none",
+                    "required but for a cavity",
+                    {},
+                    "{ radius = 40.0, height = 80.0 }"});
 }
 
 }  // namespace

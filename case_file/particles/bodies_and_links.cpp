@@ -397,19 +397,13 @@ void read_links(const TomlSection& root, ParticlesCase& c) {
 std::vector<KeyTable> body_and_link_tables() {
   const ParticlesCase c;
   const ParticleIds ids(c);
-  const auto table = [&]<class Place>(const char* section,
-                                      void (*declaration)(Keys&, Place&, const ParticlesCase&,
-                                                          const ParticleIds&)) {
-    return describe_keys(section, [&](Keys& keys) {
-      Place place{};
-      declaration(keys, place, c, ids);
-    });
-  };
   auto length = describe_keys("arm.length", pieces_of_length_keys);
   const auto wave = describe_keys("", wave_of_length_keys);
   length.rows.insert(length.rows.end(), wave.rows.begin(), wave.rows.end());
-  return {table("[[body]]", body_keys), table("[[hinge]]", hinge_keys),
-          table("[[spring]]", spring_keys), table("[[arm]]", arm_of_particles_keys), length};
+  return {describe_keys("[[body]]", body_keys, c, ids),
+          describe_keys("[[hinge]]", hinge_keys, c, ids),
+          describe_keys("[[spring]]", spring_keys, c, ids),
+          describe_keys("[[arm]]", arm_of_particles_keys, c, ids), length};
 }
 
 }  // namespace viscontact::case_file

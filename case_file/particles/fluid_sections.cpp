@@ -297,11 +297,7 @@ std::vector<KeyTable> domain_and_fluid_tables() {
           describe_keys("domain.disc", disc_keys),
           describe_keys("domain.box", box_keys),
           describe_keys("domain.cylinder", cylinder_keys),
-          describe_keys("[fluid] of particles",
-                        [](Keys& keys) {
-                          Fluid fluid;
-                          fluid_keys(keys, fluid, {});
-                        }),
+          describe_keys("[fluid] of particles", fluid_keys, {}),
           describe_keys("fluid.velocity", velocity_keys)};
 }
 

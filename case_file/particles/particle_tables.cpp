@@ -323,26 +323,10 @@ void read_forces_by_id(const TomlSection& root, ParticlesCase& c) {
 std::vector<KeyTable> particle_tables() {
   const ParticlesCase c;
   const ParticleIds ids(c);
-  return {describe_keys("[particles]", file_keys),
-          describe_keys("[[particle]]",
-                        [&](Keys& keys) {
-                          ParticleTable table;
-                          particle_keys(keys, table, c);
-                        }),
-          describe_keys("particle.velocity_given",
-                        [&](Keys& keys) {
-                          particles::GivenMotion motion;
-                          given_motion_keys(keys, motion, c.particles.dimension, c.end_time);
-                        }),
-          describe_keys("[[force]]",
-                        [&](Keys& keys) {
-                          ForceTable force;
-                          force_by_id_keys(keys, force, c, ids);
-                        }),
-          describe_keys("[arrangement]", [](Keys& keys) {
-            ArrangementKeys given;
-            arrangement_keys(keys, given, false);
-          })};
+  return {describe_keys("[particles]", file_keys), describe_keys("[[particle]]", particle_keys, c),
+          describe_keys("particle.velocity_given", given_motion_keys, 2, 0),
+          describe_keys("[[force]]", force_by_id_keys, c, ids),
+          describe_keys("[arrangement]", arrangement_keys, false)};
 }
 
 ParticleIds::ParticleIds(const ParticlesCase& c) : case_(c) {

@@ -71,7 +71,9 @@ constexpr const char* kNoSolidContact =
     "film), or viscosity and roughness";
 
 void contact_keys(Keys& keys, ParticlesCase& c) {
-  auto& [film, friction, restitution] = c.setting.laws;
+  auto& laws = c.setting.laws;
+  auto& film = laws.film;
+  auto& restitution = laws.restitution;
   double& step = c.setting.time_step;
   keys.required("end_time", number(c.end_time, kModeratelyPositive), {"end of the simulation"});
   keys.required("time_step", number(step, kModeratelyPositive), {"at most `end_time`"});
@@ -279,11 +281,7 @@ std::vector<KeyTable> tables_of_particles_case() {
                                   describe_keys("[friction]", friction_keys),
                                   describe_keys("[solver]", solver_keys),
                                   describe_keys("[output]", output_keys),
-                                  describe_keys("[[plane]]",
-                                                [&](Keys& keys) {
-                                                  particles::Plane plane;
-                                                  plane_keys(keys, plane, c);
-                                                }),
+                                  describe_keys("[[plane]]", plane_keys, c),
                                   describe_keys("[sweep] of particles", particles_sweep_keys)};
   for (auto& more : {domain_and_fluid_tables(), particle_tables(), body_and_link_tables()})
     tables.insert(tables.end(), more.begin(), more.end());

@@ -1,7 +1,6 @@
 // The parts of the reader of a case of many particles (particles_case.hpp), for its sources only.
 // Each function reads sections of docs/case-file.md, "Many particles", and throws Error(kBadInput)
 // with file, line, key and what is allowed. Lengths, masses and times are in the units of the case.
-// Each function that ends in `tables` describes the keys of its sections for the page.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +29,7 @@ particles::Domain read_domain(const TomlSection& section, int dimension);
 /// periodic, a net flux through walls without an open side, and any velocity of the walls of a
 /// cylinder.
 particles::Fluid read_fluid(const TomlSection& section, const particles::Domain& domain);
+/// Describes these sections.
 std::vector<KeyTable> domain_and_fluid_tables();
 
 /// The command of a user's own fluid solver, with an absolute path in place of each word that names
@@ -58,6 +58,7 @@ ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c);
 /// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
 /// been read. Also throws for an id that does not exist or has a force already.
 void read_forces_by_id(const TomlSection& root, ParticlesCase& c);
+/// Describes these sections.
 std::vector<KeyTable> particle_tables();
 
 /// Finds the numbers of particles, which count from 0 in the order of ParticlesCase::particles, by
@@ -92,6 +93,7 @@ void read_bodies(const TomlSection& root, ParticlesCase& c);
 /// the distance of its particles, is less than the sum of their radii at a later time, or breaks the
 /// triangle inequality with two other arms.
 void read_links(const TomlSection& root, ParticlesCase& c);
+/// Describes these sections.
 std::vector<KeyTable> body_and_link_tables();
 
 /// Throws the Error(kBadInput) of read_particles_case() if the solver cannot begin with this state:

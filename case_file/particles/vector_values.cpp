@@ -44,22 +44,6 @@ void read_constant_or_pieces(const TomlSection& section, std::string_view key,
       std::max(before, std::nextafter(end_time * (1 + 1e-6), kLargestNumber));
 }
 
-}  // namespace
-
-void read_vector(const TomlSection& section, std::string_view key, Vector& place, int dimension) {
-  if (dimension == 1 && section.has(key) && !section.is_array(key)) {
-    place = {section.number(key, kModerate), 0, 0};
-    return;
-  }
-  const auto numbers = section.numbers(key, kModerate);
-  section.require(numbers.size() == static_cast<std::size_t>(dimension), key,
-                  "contains {} numbers; it must contain {}", numbers.size(),
-                  dimension == 1 ? "1, along the axis"
-                                 : fmt::format("{}, one for each dimension of space", dimension));
-  place = {};
-  std::ranges::copy(numbers, place.begin());
-}
-
 void read_pieces(const TomlSection& section, std::string_view key, PiecewiseConstant& place,
                  int dimension, double end_time) {
   section.require(
@@ -82,6 +66,39 @@ void read_pieces_of_turn(const TomlSection& section, std::string_view key, Piece
     read_pieces(section, key, place, dimension, end_time);
   else
     read_constant_or_pieces(section, key, place, dimension, end_time, read_turn);
+}
+
+}  // namespace
+
+void read_vector(const TomlSection& section, std::string_view key, Vector& place, int dimension) {
+  if (dimension == 1 && section.has(key) && !section.is_array(key)) {
+    place = {section.number(key, kModerate), 0, 0};
+    return;
+  }
+  const auto numbers = section.numbers(key, kModerate);
+  section.require(numbers.size() == static_cast<std::size_t>(dimension), key,
+                  "contains {} numbers; it must contain {}", numbers.size(),
+                  dimension == 1 ? "1, along the axis"
+                                 : fmt::format("{}, one for each dimension of space", dimension));
+  place = {};
+  std::ranges::copy(numbers, place.begin());
+}
+
+KeyValue vector(Vector& place, const int& dimension) {
+  return custom("a list of numbers", read_vector, place, dimension);
+}
+
+KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time) {
+  return custom("a list of numbers, or of pieces", read_pieces, place, dimension, end_time);
+}
+
+KeyValue turn(Vector& place, const int& dimension) {
+  return custom("a number; in 3D a list", read_turn, place, dimension);
+}
+
+KeyValue pieces_of_turn(PiecewiseConstant& place, const int& dimension, const double& end_time) {
+  return custom("a number, in 3D a list; or pieces", read_pieces_of_turn, place, dimension,
+                end_time);
 }
 
 }  // namespace viscontact::case_file

@@ -30,34 +30,16 @@ inline constexpr Allowed kModeratelyPositiveOr0 = {
 void read_vector(const TomlSection& section, std::string_view key, particles::Vector& place,
                  int dimension);
 
-/// Reads a constant vector, or pieces { until, value } that must last until `end_time` [T].
-void read_pieces(const TomlSection& section, std::string_view key,
-                 particles::PiecewiseConstant& place, int dimension, double end_time);
+// Values of keys (keys.hpp). They refer to their arguments.
 
-/// Reads what turns: for discs a number, which becomes component 2, for spheres a vector.
-void read_turn(const TomlSection& section, std::string_view key, particles::Vector& place,
-               int dimension);
-
-/// Reads a constant such value, or pieces of them.
-void read_pieces_of_turn(const TomlSection& section, std::string_view key,
-                         particles::PiecewiseConstant& place, int dimension, double end_time);
-
-// Values of keys (keys.hpp), which refer to their arguments.
-
-inline auto vector(particles::Vector& place, const int& dimension) {
-  return custom("a list of numbers", read_vector, place, dimension);
-}
-inline auto pieces(particles::PiecewiseConstant& place, const int& dimension,
-                   const double& end_time) {
-  return custom("a list of numbers, or of pieces", read_pieces, place, dimension, end_time);
-}
-inline auto turn(particles::Vector& place, const int& dimension) {
-  return custom("a number; in 3D a list", read_turn, place, dimension);
-}
-inline auto pieces_of_turn(particles::PiecewiseConstant& place, const int& dimension,
-                           const double& end_time) {
-  return custom("a number, in 3D a list; or pieces", read_pieces_of_turn, place, dimension,
-                end_time);
-}
+/// A vector, read by read_vector().
+KeyValue vector(particles::Vector& place, const int& dimension);
+/// A constant vector, or pieces { until, value } that must last until `end_time` [T].
+KeyValue pieces(particles::PiecewiseConstant& place, const int& dimension, const double& end_time);
+/// What turns: for discs a number, which becomes component 2, for spheres a vector.
+KeyValue turn(particles::Vector& place, const int& dimension);
+/// The same, or pieces of it.
+KeyValue pieces_of_turn(particles::PiecewiseConstant& place, const int& dimension,
+                        const double& end_time);
 
 }  // namespace viscontact::case_file

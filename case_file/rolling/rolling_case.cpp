@@ -152,7 +152,8 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
 }
 
 std::vector<KeyTable> tables_of_rolling_case() {
-  return {describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys), describe_keys("[rolling]", rolling_keys),
+  return {describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys),
+          describe_keys("[rolling]", rolling_keys),
           describe_keys("[fit] of a rolling sphere", pair_fit_keys)};
 }
 

@@ -353,13 +353,11 @@ SwimmerCase read_case_of(const TomlSection& root, const std::string& text,
 }  // namespace
 
 std::vector<KeyTable> tables_of_swimmer_case() {
-  Ellipse ellipse;
-  const SwimmerCase c;
   return {describe_keys("[swimmer]", swimmer_keys),
           describe_keys("swimmer.arms", arm_keys),
           describe_keys("swimmer.container", tube_keys),
           describe_keys("[stroke]", stroke_keys),
-          describe_keys("stroke.ellipse", [&](Keys& keys) { ellipse_keys(keys, ellipse, c); }),
+          describe_keys("stroke.ellipse", ellipse_keys, SwimmerCase{}),
           describe_keys("[optimal]", optimal_keys)};
 }
 

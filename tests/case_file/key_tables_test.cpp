@@ -60,19 +60,31 @@ TEST(CaseFilePage, HasNoTableOfKeysThatNothingDeclares) {
   EXPECT_EQ(markers, all_tables().size());
 }
 
-TEST(KeyTables, SayOfEachKeyWhatItsDeclarationSays) {
+struct Rod {
   double length = 0.5;
   int tries = 3;
-  const auto table = describe_keys("[section]", [&](Keys& keys) {
-    keys.required("length", number(length, kPositive), {"of the rod"});
-    keys.optional("tries", count(tries, 1, 9), {"how often"});
-    keys.require(false, "tries", "is never said where nothing is read");
-  });
+};
+
+void rod_keys(Keys& keys, Rod& rod) {
+  keys.required("length", number(rod.length, kPositive), {.meaning = "of the rod", .example = "2"});
+  keys.optional("tries", count(rod.tries, 1, 9), {"how [often](page.md)"});
+  keys.require(false, "tries", "is never said where nothing is read");
+}
+
+TEST(KeyTables, SayOfEachKeyWhatItsDeclarationSays) {
+  const auto table = describe_keys("[rod]", rod_keys);
   EXPECT_EQ(table.markdown(),
             "| key | value | default | meaning |\n"
             "| --- | --- | --- | --- |\n"
             "| `length` | > 0 | required | of the rod |\n"
-            "| `tries` | whole number from 1 to 9 | 3 | how often |\n");
+            "| `tries` | whole number from 1 to 9 | 3 | how [often](page.md) |\n");
+}
+
+TEST(KeyTables, MakeACaseOfExamplesWithOptionalKeysCommentedOut) {
+  const std::vector tables = {describe_keys("[rod]", rod_keys)};
+  EXPECT_EQ(commented_case(tables),
+            "\n[rod]\n# of the rod (> 0)\nlength = 2\n"
+            "# how often (whole number from 1 to 9; default: 3)\n# tries = 3\n");
 }
 
 }  // namespace

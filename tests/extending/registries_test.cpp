@@ -70,7 +70,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   Found("case_file/particles/start_checks.cpp", "viscous_contact"),
                   // obstacles in words
                   Found("case_file/particles/start_checks.cpp", "plane"),
-                  Found("particles/simulation_errors.cpp", "plane"),
+                  Found("particles/step_residuals.cpp", "plane"),
                   // a key in the head of a file of a sweep
                   Found("sweep/sweep.cpp", "reference"),
                   // a part of the boundary, which FreeFEM's scripts print
