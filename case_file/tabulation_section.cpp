@@ -80,7 +80,7 @@ void read_geometry(const TomlSection& parent, std::string_view key, Tabulation& 
 }
 
 void container_keys(Keys& keys, Container& container) {
-  keys.required("radius", number(container.radius, kPositive), {"of the cylinder"});
+  keys.required("radius", number(container.radius, kPositive), {"radius of the cylinder"});
   keys.required("height", number(container.height, kPositive), {"distance of its ends"});
 }
 

@@ -187,7 +187,8 @@ void spring_keys(Keys& keys, particles::Spring& spring, const ParticlesCase& c,
   std::array<std::int32_t, 2> ends{};
   keys.required("between", custom("ids of two particles", read_ends, ends, c, ids),
                 {"whose centres the spring joins; not of one body"});
-  keys.required("stiffness", number(spring.stiffness, kModeratelyPositive), {"of the spring"});
+  keys.required("stiffness", number(spring.stiffness, kModeratelyPositive),
+                {"stiffness of the spring"});
   spring.first = ends[0];
   spring.second = ends[1];
   if (keys.reads()) spring.length = distance_at_start(c, ends[0], ends[1]);

@@ -18,8 +18,8 @@ using particles::WallVelocity;
 namespace {
 
 void disc_keys(Keys& keys, DiscDomain& disc) {
-  keys.optional("centre", vector(disc.centre, 2), {"of the circle", "`[0.0, 0.0]`"});
-  keys.required("radius", number(disc.radius, kModeratelyPositive), {"of the circle"});
+  keys.optional("centre", vector(disc.centre, 2), {"centre of the circle", "`[0.0, 0.0]`"});
+  keys.required("radius", number(disc.radius, kModeratelyPositive), {"radius of the circle"});
 }
 
 void box_keys(Keys& keys, BoxDomain& box) {
@@ -43,9 +43,9 @@ void box_keys(Keys& keys, BoxDomain& box) {
 }
 
 void cylinder_keys(Keys& keys, CylinderDomain& cylinder) {
-  keys.required("radius", number(cylinder.radius, kModeratelyPositive), {"of the cylinder"});
+  keys.required("radius", number(cylinder.radius, kModeratelyPositive), {"radius of the cylinder"});
   keys.required("height", number(cylinder.height, kModeratelyPositive),
-                {"of the lid; the floor is at z = 0"});
+                {"height of the lid; the floor is at z = 0"});
 }
 
 /// Reads the table of a shape by its declaration.

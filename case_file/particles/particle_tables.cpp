@@ -103,10 +103,10 @@ void particle_keys(Keys& keys, ParticleTable& p, const ParticlesCase& c) {
   keys.optional("angular_velocity", turn(p.angular_velocity, dimension),
                 {"at time 0, in 2D counter-clockwise", "0"});
   keys.required("centre", vector(p.centre, dimension), {"at time 0"});
-  keys.required("radius", number(p.radius, kModeratelyPositive), {"of the disc or sphere"});
+  keys.required("radius", number(p.radius, kModeratelyPositive), {"radius of the disc or sphere"});
   keys.required_if(!in_fluid, "mass",
                    number(p.mass, in_fluid ? kModeratelyPositiveOr0 : kMassWithoutFluid),
-                   {"of the disc or sphere", "required; in a fluid 0",
+                   {"mass of the disc or sphere", "required; in a fluid 0",
                     "from 1e-100 to 1e100, in a fluid also 0"});
   keys.optional("angle", number(p.angle, kModerate), {"at time 0, in 2D only"});
   keys.optional(
@@ -199,7 +199,7 @@ constexpr int kMostDiscs = 1000000;
 
 void arrangement_keys(Keys& keys, ArrangementKeys& given, bool has_fluid) {
   auto& asked = given.asked;
-  keys.required("radius", number(asked.radius, kModeratelyPositive), {"of each disc"});
+  keys.required("radius", number(asked.radius, kModeratelyPositive), {"radius of each disc"});
   keys.require(!(keys.has("count") && keys.has("area_fraction")), "count",
                "must be left out, because area_fraction is given");
   keys.required_if(!keys.has("area_fraction"), "count", count(asked.count, 1, kMostDiscs),
@@ -217,7 +217,7 @@ void arrangement_keys(Keys& keys, ArrangementKeys& given, bool has_fluid) {
   keys.required_if(
       !has_fluid, "mass",
       number(given.mass, has_fluid ? kModeratelyPositiveOr0 : kModeratelyPositive),
-      {"of each disc", "required; in a fluid 0", "from 1e-100 to 1e100, in a fluid also 0"});
+      {"mass of each disc", "required; in a fluid 0", "from 1e-100 to 1e100, in a fluid also 0"});
 }
 
 /// Reads [arrangement] and adds its discs, which are at rest, to the particles, which keep their

@@ -48,7 +48,8 @@ struct ParticlesCase {
 /// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
 /// if a radius is less than a hundred times that length; if a particle is further from the origin
 /// than particles::largest_resolved_distance; or if a particle is outside the domain or touches its
-/// own image in a periodic one. A case with a fluid has further conditions (check_fluid_start() in particles_sections.hpp).
+/// own image in a periodic one. A case with a fluid has further conditions (check_fluid_start() in
+/// particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 /// The same for a file that is already parsed: `root` is its root table and `text` its content.

@@ -95,9 +95,9 @@ void read_grid(const TomlSection& section, std::string_view key, SwimmerCase& c)
 }
 
 void tube_keys(Keys& keys, freefem_axi::Tube& tube) {
-  keys.required("radius", number(tube.radius, kPositive), {"of the tube"});
+  keys.required("radius", number(tube.radius, kPositive), {"radius of the tube"});
   keys.optional("height", number(tube.height, kPositive),
-                {"of a closed cylinder with the swimmer in the middle", "a long tube"});
+                {"height of a closed cylinder with the swimmer in the middle", "a long tube"});
 }
 
 /// Reads `container`: "unbounded" or { radius, height }; without a height it is a long tube.
