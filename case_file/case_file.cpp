@@ -1,17 +1,14 @@
-// Reads the case file of one sphere (case_file.hpp); sections.hpp declares the readers of its long
-// sections. Lengths, masses and times are in the units of the case. A change must keep the keys and
-// their defaults, because users have written cases with them.
+// Reads the case file of one sphere (case_file.hpp). Lengths, masses and times are in the units of the
+// case. A change must keep the keys and their defaults, because users have written cases with them. A
+// new parameter of a model needs no change here, because the registry of models names them.
 #include "viscontact/case_file/case_file.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <initializer_list>
+#include <system_error>
 #include <utility>
 
-#include "viscontact/case_file/sections.hpp"
-#include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/common/error.hpp"
+#include "viscontact/case_file/keys.hpp"
+#include "viscontact/case_file/tabulation_section.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/terms.hpp"
@@ -20,71 +17,340 @@
 namespace viscontact::case_file {
 namespace {
 
-/// Returns the value of a key that must be one of the given words, each of which has a value.
-template <class Value>
-Value one_of(const TomlSection& section, std::string_view key,
-             std::initializer_list<std::pair<std::string_view, Value>> words) {
-  const std::string word = section.text(key);
-  std::string allowed;
-  for (const auto& [name, value] : words) {
-    if (name == word) return value;
-    allowed += fmt::format("{}\"{}\"", allowed.empty() ? "" : " or ", name);
-  }
-  section.fail(key, fmt::format("is '{}'; it must be {}", word, allowed));
+namespace fs = std::filesystem;
+using lubrication::AboveInterval;
+using lubrication::BelowInterval;
+using reduced_model::ExternalForce;
+using reduced_model::Motion;
+
+void sphere_keys(Keys& keys, Case& c, double& mass, bool needs_mass) {
+  keys.required("radius", number(c.radius, kPositive),
+                {.meaning = "radius r of the sphere", .example = "1.0"});
+  keys.required_if(needs_mass, "mass", number(mass, kPositive),
+                   {"mass m of the sphere", "required with a section `[motion]`", {}, "20.0"});
 }
 
-FitRequest read_fit_request(const TomlSection& section, const std::filesystem::path& case_folder) {
-  FitRequest fit;
-  if (section.has("file")) {
-    fit.file = case_folder / section.text("file");
-  } else if (section.has("exact")) {
+/// The fixed coefficient of 1/q: "theory", or a number.
+void read_fix(const TomlSection& section, std::string_view key, fitting::FitSettings& settings) {
+  settings.fix_leading = true;
+  if (!section.is_text(key))
+    settings.leading_value = section.number(key, kFinite);
+  else
+    section.require(section.text(key) == "theory", key,
+                    "is '{}'; it must be \"theory\" or a number, the coefficient of 1/q",
+                    section.text(key));
+}
+
+void fit_keys(Keys& keys, FitRequest& fit, const fs::path& folder) {
+  const auto read_file_name = [&](const TomlSection& section, std::string_view key) {
+    fit.file = folder / section.text(key);
+  };
+  const auto read_exact = [&](const TomlSection& section, std::string_view key) {
     const auto walls = freefem_axi::geometries_with_exact_drag();
-    if (const auto wall = section.text("exact"); find_named(walls, wall) == nullptr)
-      section.fail("exact",
-                   fmt::format("is '{}'; it must be \"{}\"", wall, names_of(walls, "\" or \"")));
+    const auto wall = section.text(key);
+    section.require(find_named(walls, wall) != nullptr, key, "is '{}'; it must be \"{}\"", wall,
+                    names_of(walls, "\" or \""));
     fit.exact = true;
-  } else {
-    auto& settings = fit.settings;
-    const std::string basis_key = section.has("terms") ? "terms" : "basis";
+  };
+  auto& settings = fit.settings;
+  if (!keys.optional(
+          "file", custom("a file", read_file_name),
+          {.meaning = "fit file, which is used unchanged, in place of a fit of the table",
+           .example = "\"fit.json\""}) &&
+      !keys.optional("exact", custom("`\"plane\"`", read_exact),
+                     {.meaning = "the exact drag near a plane in a half-space, in place of a fit",
+                      .example = "\"plane\""})) {
     // The defaults are those of the command `fit`.
-    const std::string basis = section.has(basis_key)
-                                  ? section.text(basis_key)
-                                  : std::string(lubrication::default_basis().name);
-    if (basis_key == "terms" && section.has("basis"))
-      section.fail("basis", "must be left out, because the key terms defines the basis");
-    settings.basis = at_key(section, basis_key, [&] {
-      return basis_key == "terms" ? lubrication::parse_terms(basis)
-                                  : lubrication::find_basis(basis);
-    });
-    if (section.has("weights")) {
-      const std::string weights = section.text("weights");
-      settings.weights =
-          at_key(section, "weights", [&] { return lubrication::parse_weights(weights); });
-    }
-    if (section.has("loss")) {
-      const std::string loss = section.text("loss");
-      settings.loss = at_key(section, "loss", [&] { return lubrication::parse_loss(loss); });
-    }
-    if (section.has("fix")) {
-      settings.fix_leading = true;
-      if (!section.is_text("fix"))
-        settings.leading_value = section.number("fix", kFinite);
-      else if (section.text("fix") != "theory")
-        section.fail(
-            "fix", fmt::format("is '{}'; it must be \"theory\" or a number, the coefficient of 1/q",
-                               section.text("fix")));
+    const bool has_terms = keys.optional(
+        "terms", parsed("such as `\"1/q, ln q, 1\"`", settings.basis, lubrication::parse_terms),
+        {.meaning = "your own list of the terms that are fitted, in one text, in place of `basis`",
+         .example = "\"1/q, ln q, 1\""});
+    keys.require(!(has_terms && keys.has("basis")), "basis",
+                 "must be left out, because the key terms defines the basis");
+    if (!has_terms)
+      keys.optional(
+          "basis",
+          parsed("name of a [basis](theory.md#2-the-fit)", settings.basis, lubrication::find_basis),
+          {"the terms that are fitted; lecture is a/q + b + c q + d q² + e q³",
+           "`\"lecture\"`",
+           {},
+           "\"lecture\""});
+    keys.optional(
+        "weights",
+        parsed("`\"relative\"`, `\"absolute\"`", settings.weights, lubrication::parse_weights),
+        {"which residuals are minimised", "`\"relative\"`", {}, "\"relative\""});
+    keys.optional(
+        "loss",
+        parsed("`\"none\"`, `\"huber\"`, `\"cauchy\"`", settings.loss, lubrication::parse_loss),
+        {"robust losses are for tables with wrong rows", "`\"none\"`", {}, "\"huber\""});
+    keys.optional("fix", custom("`\"theory\"`, or a number", read_fix, settings),
+                  {"fixes the coefficient of 1/q in the force at the first velocity: at theory's "
+                   "value, or at the number",
+                   "it is fitted",
+                   {},
+                   "\"theory\""});
+  }
+  keys.optional(
+      "below",
+      one_of(fit.outside.below, {{"lubrication_limit", BelowInterval::kLubricationLimit},
+                                 {"theory_limit", BelowInterval::kTheoryLimit}}),
+      {"the drag at gaps below the interval of the fit", "an error", {}, "\"lubrication_limit\""});
+  keys.optional(
+      "above", one_of(fit.outside.above, {{"stokes_limit", AboveInterval::kStokesLimit}}),
+      {"the drag at gaps above the interval of the fit", "an error", {}, "\"stokes_limit\""});
+}
+
+/// A piece of the force, which begins at the time at which the piece before it ends.
+void piece_keys(Keys& keys, ExternalForce::Piece& piece) {
+  keys.required("until", number(piece.until, kPositive),
+                {"end of a piece of the force; the pieces follow each other from time 0"});
+  const auto read_polynomial = [&](const TomlSection& section, std::string_view key) {
+    const auto coefficients = section.numbers(key, kFinite);
+    piece.value = coefficients.front();
+    piece.higher.assign(coefficients.begin() + 1, coefficients.end());
+  };
+  const bool is_polynomial =
+      keys.optional("polynomial", custom("`[c0, c1, ...]`", read_polynomial),
+                    {"the piece is c0 + c1 tau + c2 tau² + ..., where tau is the time since it "
+                     "began"});
+  keys.require(!(is_polynomial && keys.has("value")), "value",
+               "must be left out, because the first coefficient of polynomial gives it");
+  if (!is_polynomial)
+    keys.required("value", number(piece.value, kFinite),
+                  {"the constant force of the piece", "required without `polynomial`"});
+}
+
+void sinusoid_keys(Keys& keys, ExternalForce::Sinusoid& sinusoid) {
+  keys.required("amplitude", number(sinusoid.amplitude, kFinite),
+                {"the force is `amplitude` sin(`angular_frequency` t + `phase`)"});
+  keys.required("angular_frequency", number(sinusoid.angular_frequency, kPositive),
+                {"belongs to `amplitude`"});
+  keys.optional("phase", number(sinusoid.phase, kFinite), {"belongs to `amplitude`, in radians"});
+}
+
+void force_file_keys(Keys& keys, std::string& file) {
+  keys.required("file", text(file), {"CSV file with the columns `time,force`"});
+}
+
+/// The path of a file that the case names relative to its folder. If there is no such file, but the
+/// folder of the case itself has a file of this name, the path of that file: a run keeps copies of
+/// the case and of the files that it names side by side.
+fs::path force_file(const fs::path& folder, const fs::path& file) {
+  const auto copy = folder / file.filename();
+  // An error means that no file can have this name; reading the file reports it.
+  std::error_code ignored;
+  return !fs::exists(folder / file, ignored) && fs::exists(copy, ignored) ? copy : folder / file;
+}
+
+/// Reads `external_force` [M L/T^2]. The entries with `until` follow each other and make one force.
+/// Every other entry, a sinusoid or a file, is added to this force.
+void read_forces(const TomlSection& section, std::string_view key, Motion& motion, Case& c) {
+  const double end_time = motion.end_time;
+  std::vector<ExternalForce::Piece> pieces;
+  std::vector<ExternalForce> summands;
+  for (const auto& entry : section.sections(key)) {
+    if (entry.has("file")) {
+      std::string file;
+      read_keys(entry, force_file_keys, file);
+      c.force_files.push_back(force_file(c.path.parent_path(), file));
+      summands.push_back(reduced_model::read_external_force(c.force_files.back(), end_time));
+    } else if (entry.has("amplitude")) {
+      ExternalForce::Sinusoid sinusoid;
+      read_keys(entry, sinusoid_keys, sinusoid);
+      summands.push_back(ExternalForce::sinusoidal(sinusoid));
+    } else {
+      read_keys(entry, piece_keys, pieces.emplace_back());
     }
   }
-  if (section.has("below"))
-    fit.outside.below = one_of<lubrication::BelowInterval>(
-        section, "below",
-        {{"lubrication_limit", lubrication::BelowInterval::kLubricationLimit},
-         {"theory_limit", lubrication::BelowInterval::kTheoryLimit}});
-  if (section.has("above"))
-    fit.outside.above = one_of<lubrication::AboveInterval>(
-        section, "above", {{"stokes_limit", lubrication::AboveInterval::kStokesLimit}});
-  section.finish();
-  return fit;
+  if (!pieces.empty()) {
+    summands.push_back(at_key(section, key, [&] { return ExternalForce(pieces); }));
+    section.require(pieces.back().until >= end_time, key,
+                    "ends at {}; it must reach motion.end_time, {}", pieces.back().until, end_time);
+  }
+  motion.external_force = summands.front();
+  for (std::size_t i = 1; i < summands.size(); ++i) motion.external_force += summands[i];
+}
+
+/// Names of models.
+auto models(std::vector<std::string>& place) {
+  return custom("a list of names", [&](const TomlSection& section, std::string_view key) {
+    place = section.texts(key);
+    for (const auto& model : place)
+      at_key(section, key, [&] { return reduced_model::find_model(model); });
+  });
+}
+
+/// `time_scale` is 1 if it is not given.
+void motion_keys(Keys& keys, Case& c, Motion& motion, double& time_scale) {
+  keys.required("end_time", number(motion.end_time, kPositive),
+                {.meaning = "end of the motion", .example = "4.0"});
+  keys.required("initial_gap", number(motion.initial_gap, kPositive),
+                {.meaning = "gap q at time 0", .example = "1.0"});
+  keys.required(
+      "initial_velocity", number(motion.initial_velocity, kFinite),
+      {.meaning = "velocity u at time 0; positive: away from the wall", .example = "0.0"});
+  keys.required(
+      "external_force", custom("a list of tables", read_forces, motion, c),
+      {.meaning = "the external force is the sum of these forces, which must last until `end_time`",
+       .example = "[ { until = 2.0, value = -200.0 }, { until = 4.0, value = 200.0 } ]"});
+  keys.optional("models", models(c.models),
+                {"the models that are run",
+                 "the first six of `viscontact simulate --help`",
+                 {},
+                 "[\"inertial\", \"viscous_contact\"]"});
+  keys.optional("rows", count(motion.output_rows, 2, 100'000'000),
+                {"about how many rows a trajectory file has",
+                 "[all](file-formats.md#fewer-rows)",
+                 {},
+                 "1000"});
+  keys.optional("time_scale", number(time_scale, kPositive),
+                {"multiplies every time of `[motion]` and the time steps, and stretches the "
+                 "external force with them: f_ext(t/`time_scale`). The angular frequencies, the "
+                 "coefficients of polynomials and the times of files are those of the unscaled "
+                 "time"});
+}
+
+/// Heights of the roughness of sphere and plane [L], whose sum must be less than the radius.
+void read_roughness(const TomlSection& section, std::string_view key, const double& radius,
+                    std::array<double, 2>& place) {
+  const auto heights = section.numbers(key, kNotNegative);
+  section.require(heights.size() == 2, key,
+                  "contains {} number(s); it must be two numbers >= 0, the heights on the sphere "
+                  "and on the plane",
+                  heights.size());
+  section.require(heights[0] + heights[1] < radius, key,
+                  "adds up to {}; it must be less than the sphere's radius, {}",
+                  heights[0] + heights[1], radius);
+  place = {heights[0], heights[1]};
+}
+
+/// The parameters of models that are in one section, and the roughness, which is a property of the
+/// surfaces and no parameter of a model. Each parameter of the motion has its default already.
+void model_keys(Keys& keys, Case& c, Motion& motion, std::string_view section) {
+  const double radius = c.radius;
+  for (const auto& parameter : reduced_model::model_parameters()) {
+    if (parameter.section() != section) continue;
+    double value = motion.parameter(parameter);
+    const bool is_given = keys.optional(parameter.name(), number(value, parameter.allowed),
+                                        {parameter.description, parameter.fallback_words});
+    keys.require(!is_given || !parameter.is_time_step || value <= motion.end_time, parameter.name(),
+                 "is {}; it must be a number > 0 and at most motion.end_time, {}", value,
+                 motion.end_time);
+    motion.set(parameter, value);
+  }
+  if (section == reduced_model::section_of(reduced_model::kRoughnessKey))
+    keys.optional(reduced_model::name_of(reduced_model::kRoughnessKey),
+                  custom("`[r1, r2]`, two numbers >= 0", read_roughness, radius, motion.roughness),
+                  {"heights of the roughness of sphere and wall; their sum is less than the radius",
+                   "`[0, 0]`, smooth",
+                   {},
+                   "[0.0, 0.0]"});
+  if (section == reduced_model::kRestitution.section())
+    keys.require(motion.restitution() == 0 || motion.roughness[0] + motion.roughness[1] > 0,
+                 reduced_model::kRestitution.name(),
+                 "is {}; it is the coefficient of solids that touch, which needs a roughness whose "
+                 "heights together are > 0",
+                 motion.restitution());
+}
+
+void set_default_parameters(Motion& motion, double radius) {
+  const auto parameters = reduced_model::model_parameters();
+  std::vector<double> values;
+  for (const auto& parameter : parameters) values.push_back(parameter.fallback(motion, radius));
+  for (std::size_t i = 0; i < values.size(); ++i) motion.set(parameters[i], values[i]);
+}
+
+/// Multiplies all times of the motion by a factor.
+void stretch(const TomlSection& section, double scale, Motion& motion) {
+  bool representable = std::isnormal(motion.end_time);
+  const auto stretched = [&](double time) {
+    representable = representable && std::isnormal(time * scale);
+    return time * scale;
+  };
+  motion.external_force = motion.external_force.stretched(scale);
+  motion.end_time = stretched(motion.end_time);
+  for (const auto& parameter : reduced_model::model_parameters())
+    if (parameter.is_time_step) motion.set(parameter, stretched(motion.parameter(parameter)));
+  section.require(representable, "time_scale",
+                  "is {}; every time multiplied by it must stay within the range of a double",
+                  scale);
+}
+
+/// A motion without a force, whose other values are read or described.
+Motion empty_motion() { return {0, 0, 0, 0, ExternalForce({{1, 0}})}; }
+
+/// Reads [motion] and the sections with parameters of models. A section that exists is checked even
+/// if no model uses it.
+Motion read_motion(const TomlSection& root, double mass, Case& c) {
+  const auto section = root.section("motion");
+  auto motion = empty_motion();
+  motion.mass = mass;
+  double time_scale = 1;
+  read_keys(section, motion_keys, c, motion, time_scale);
+  set_default_parameters(motion, c.radius);
+  for (const auto& name : reduced_model::model_sections())
+    if (root.has(name)) read_keys(root.section(name), model_keys, c, motion, name);
+  if (section.has("time_scale")) stretch(section, time_scale, motion);
+  return motion;
+}
+
+void published_keys(Keys& keys, PublishedGap& published) {
+  keys.required("minimal_gap", number(published.minimal_gap, kPositive),
+                {"a published value, for the report"});
+  keys.required("source", text(published.source), {"where it was published"});
+}
+
+void sweep_keys(Keys& keys, SweepRequest& sweep) {
+  keys.required("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
+  keys.optional("models", models(sweep.models), {"the models that are run", "that of the command"});
+  keys.optional("reference", text(sweep.reference),
+                {"the model that others are compared with", "that of the command"});
+  keys.optional("samples", number(sweep.samples, kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("x", text(sweep.x),
+                {"key of the horizontal axis of the plot", "the first varied key"});
+  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
+  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
+}
+
+/// Checks that nothing uses the exact drag near a plane if the tabulation is that of another
+/// geometry.
+void check_exact_drag(const TomlSection& root, const Case& c) {
+  if (!c.tabulation || freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag) return;
+  if (c.fit)
+    root.section("fit").require(!c.fit->exact, "exact",
+                                "is the drag near a plane; tabulation.geometry is {}, for which "
+                                "the exact drag is not known",
+                                c.tabulation->geometry);
+  for (const auto& model : c.models)
+    root.section("motion").require(!reduced_model::find_model(model).exact_drag, "models",
+                                   "contains {}, which runs with the exact drag near a plane; "
+                                   "tabulation.geometry is {}",
+                                   model, c.tabulation->geometry);
+}
+
+Case read_case(const TomlSection& root, std::string text, const fs::path& path) {
+  Case c;
+  c.path = path;
+  c.text = std::move(text);
+  c.title = root.text("title");
+  read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
+  double mass = 1;  // only the motion depends on it
+  const bool needs_mass = root.has("motion");
+  read_keys(root.section("sphere"), sphere_keys, c, mass, needs_mass);
+  if (root.has("tabulation"))
+    c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
+  if (root.has("fit"))
+    read_keys(root.section("fit"), fit_keys, c.fit.emplace(), path.parent_path());
+  if (root.has("motion")) c.motion = read_motion(root, mass, c);
+  if (root.has("published"))
+    read_keys(root.section("published"), published_keys, c.published.emplace());
+  check_exact_drag(root, c);
+  if (root.has("sweep")) read_keys(root.section("sweep"), sweep_keys, c.sweep.emplace());
+  // Without [motion] these sections are not read, but they are allowed.
+  for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
+  root.finish();
+  return c;
 }
 
 template <class Part>
@@ -95,88 +361,9 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
   return *part;
 }
 
-/// Reads `models`: names of models; empty if the section has no such key.
-std::vector<std::string> read_models(const TomlSection& section) {
-  if (!section.has("models")) return {};
-  auto models = section.texts("models");
-  for (const auto& model : models)
-    at_key(section, "models", [&] { return reduced_model::find_model(model); });
-  return models;
-}
-
-SweepRequest read_sweep(const TomlSection& section) {
-  SweepRequest sweep;
-  sweep.vary = section.texts("vary");
-  sweep.models = read_models(section);
-  const auto optional_text = [&](std::string_view key) {
-    return section.has(key) ? section.text(key) : "";
-  };
-  sweep.reference = optional_text("reference");
-  sweep.x = optional_text("x");
-  sweep.y = optional_text("y");
-  if (section.has("plot")) sweep.plot = section.texts("plot");
-  constexpr Allowed kSamples = {[](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
-                                "from 1 to 1e12 without a fraction"};
-  if (section.has("samples"))
-    sweep.samples = static_cast<std::uint64_t>(section.number("samples", kSamples));
-  section.finish();
-  return sweep;
-}
-
-Case read_case(const TomlSection& root, std::string text, const std::filesystem::path& path) {
-  Case c;
-  c.path = path;
-  c.text = std::move(text);
-  c.title = root.text("title");
-
-  const auto fluid = root.section("fluid");
-  c.viscosity = fluid.number("viscosity", kPositive);
-  fluid.finish();
-  const auto sphere = root.section("sphere");
-  c.radius = sphere.number("radius", kPositive);
-  // Only the motion depends on the mass.
-  const double mass =
-      root.has("motion") || sphere.has("mass") ? sphere.number("mass", kPositive) : 1;
-  sphere.finish();
-
-  if (root.has("tabulation"))
-    c.tabulation = read_tabulation(root.section("tabulation"), c.viscosity, c.radius);
-  if (root.has("fit")) c.fit = read_fit_request(root.section("fit"), path.parent_path());
-  if (root.has("motion")) {
-    const auto section = root.section("motion");
-    c.motion = read_motion(root, section, mass, c.radius, path.parent_path(), c.force_files);
-    c.models = read_models(section);
-    section.finish();
-  }
-  if (root.has("published")) {
-    const auto published = root.section("published");
-    c.published =
-        PublishedGap{published.number("minimal_gap", kPositive), published.text("source")};
-    published.finish();
-  }
-  const bool other_wall =
-      c.tabulation && !freefem_axi::find_geometry(c.tabulation->geometry).has_exact_drag;
-  if (other_wall && c.fit && c.fit->exact)
-    root.section("fit").fail(
-        "exact", fmt::format("is the drag near a plane; tabulation.geometry is {}, for which "
-                             "the exact drag is not known",
-                             c.tabulation->geometry));
-  for (const auto& model : c.models)
-    if (other_wall && reduced_model::find_model(model).exact_drag)
-      root.section("motion").fail(
-          "models", fmt::format("contains {}, which runs with the exact drag near a plane; "
-                                "tabulation.geometry is {}",
-                                model, c.tabulation->geometry));
-  if (root.has("sweep")) c.sweep = read_sweep(root.section("sweep"));
-  // Without [motion] these sections are not read, but they are allowed.
-  for (const auto& name : reduced_model::model_sections()) (void)root.has(name);
-  root.finish();
-  return c;
-}
-
 /// The text of a case, with an empty section for each section of models that it lacks, so that a
 /// sweep can set the keys of these sections.
-std::string with_model_sections(std::string text, const std::filesystem::path& path) {
+std::string with_model_sections(std::string text, const fs::path& path) {
   const auto root = TomlSection::parse(text, path.string());
   for (const auto& name : reduced_model::model_sections())
     if (!root.has(name)) text += fmt::format("\n[{}]\n", name);
@@ -185,19 +372,48 @@ std::string with_model_sections(std::string text, const std::filesystem::path& p
 
 }  // namespace
 
-Case read_case(const std::filesystem::path& path) {
+CaseKind kind_of_case(const fs::path& path) {
+  const auto root = TomlSection::parse(read_file(path), path.string());
+  if (root.has("space")) return CaseKind::kParticles;
+  if (root.has("swimmer")) return CaseKind::kSwimmer;
+  return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
+}
+
+Case read_case(const fs::path& path) {
   std::string text = read_file(path);
   const auto root = TomlSection::parse(text, path.string());
   return read_case(root, std::move(text), path);
 }
 
-CaseTemplate::CaseTemplate(const std::filesystem::path& path)
+CaseTemplate::CaseTemplate(const fs::path& path)
     : path_(path),
       text_(read_file(path)),
       root_(TomlSection::parse(with_model_sections(text_, path), path.string())) {}
 
 Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers) const {
   return read_case(root_.with_numbers(numbers), text_, path_);
+}
+
+std::vector<KeyTable> tables_of_sphere_case() {
+  // The examples of the parameters of models are their defaults for the other examples.
+  auto motion = empty_motion();
+  motion.end_time = 4;
+  motion.initial_gap = 1;
+  set_default_parameters(motion, 1);
+  double mass = 0, time_scale = 1;
+  std::vector<KeyTable> tables = {describe_keys("[fluid]", viscosity_keys),
+                                  describe_keys("[sphere]", sphere_keys, mass, true)};
+  for (auto& table : tables_of_tabulation()) tables.push_back(std::move(table));
+  tables.push_back(describe_keys("[fit]", fit_keys, {}));
+  tables.push_back(describe_keys("[motion]", motion_keys, motion, time_scale));
+  tables.push_back(describe_keys("motion.external_force", piece_keys));
+  for (const auto& more : {describe_keys("", sinusoid_keys), describe_keys("", force_file_keys)})
+    tables.back().rows.insert(tables.back().rows.end(), more.rows.begin(), more.rows.end());
+  for (const auto& name : reduced_model::model_sections())
+    tables.push_back(describe_keys(fmt::format("[{}]", name), model_keys, motion, name));
+  tables.push_back(describe_keys("[sweep]", sweep_keys));
+  tables.push_back(describe_keys("[published]", published_keys));
+  return tables;
 }
 
 const freefem_axi::Tabulation& required_tabulation(const Case& c) {

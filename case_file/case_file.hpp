@@ -1,6 +1,6 @@
 // A case file (TOML, docs/case-file.md): one sphere in a fluid, and what is to be computed for it.
-// Lengths, masses and times are in any one consistent system of units. A new key needs an entry in
-// docs/case-file.md.
+// Lengths, masses and times are in any one consistent system of units. Keys are declared in
+// case_file.cpp (keys.hpp).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/lubrication/fit/fit.hpp"
@@ -19,6 +19,17 @@
 #include "viscontact/reduced_model/motion.hpp"
 
 namespace viscontact::case_file {
+
+/// The kinds of cases, for commands that take several of them.
+enum class CaseKind {
+  kSphere,     ///< one sphere, read_case()
+  kParticles,  ///< has the section [space], read_particles_case()
+  kRolling,    ///< has the section [rolling], read_rolling_case()
+  kSwimmer     ///< has the section [swimmer], read_swimmer_case()
+};
+
+/// The kind of a case. Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
+CaseKind kind_of_case(const std::filesystem::path& path);
 
 /// How the drag is fitted, or what replaces tabulation and fit.
 struct FitRequest {
@@ -87,6 +98,9 @@ class CaseTemplate {
   std::string text_;
   TomlSection root_;
 };
+
+/// What docs/case-file.md says about the keys of each section.
+std::vector<KeyTable> tables_of_sphere_case();
 
 /// The tabulation of a case. Throws Error(kBadInput), which names the missing section, if there is
 /// none; so do the functions below.

@@ -1,162 +1,204 @@
 // Reads the section [tabulation]: gaps, velocities, geometry and container. Lengths are in the unit
 // of the case. A change must keep the gaps of a grid bit for bit, because finished rows and tables
 // are found again by their gaps.
-#include <fmt/format.h>
+#include "viscontact/case_file/tabulation_section.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
-#include <vector>
 
-#include "viscontact/case_file/sections.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 
 namespace viscontact::case_file {
 namespace {
 
-constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
+using freefem_axi::Container;
+using freefem_axi::Tabulation;
 
-/// Reads `gaps` [L]: a list, or { from, to, count, spacing }. Returns them in rising order.
-std::vector<double> read_gaps(const TomlSection& tabulation) {
-  if (tabulation.is_array("gaps")) {
-    auto gaps = tabulation.numbers("gaps", kPositive);
-    std::ranges::sort(gaps);
-    if (std::ranges::adjacent_find(gaps) != gaps.end())
-      tabulation.fail("gaps", "contains the same gap twice; each gap must be given once");
-    return gaps;
-  }
-  const auto grid = tabulation.section("gaps");
-  const double from = grid.number("from", kPositive);
-  const double to = grid.number("to", kPositive);
-  const int count = grid.count("count", 2, 100000);
-  const std::string spacing = grid.text("spacing");
-  grid.finish();
-  if (!(to > from))
-    grid.fail("to", fmt::format("is {}; it must be greater than from, {}", to, from));
-  if (spacing != "log" && spacing != "linear")
-    grid.fail("spacing", fmt::format("is '{}'; it must be \"log\" or \"linear\"", spacing));
-  std::vector<double> gaps;
-  for (int i = 0; i < count; ++i) {
-    const double w = static_cast<double>(i) / (count - 1);
-    gaps.push_back(spacing == "log" ? from * std::pow(to / from, w) : std::lerp(from, to, w));
-  }
-  gaps.back() = to;
-  if (std::ranges::adjacent_find(gaps, std::greater_equal()) != gaps.end())
-    grid.fail("count", fmt::format("is {}; there are not so many different numbers of double "
-                                   "precision from {} to {}",
-                                   count, from, to));
-  return gaps;
+// At smaller gaps the matrices are too ill-conditioned for double precision.
+constexpr double kSmallestGap = 1e-8;
+
+/// Gaps from `from` to `to` [L], with equal ratios or equal differences.
+struct GapGrid {
+  double from = 0, to = 0;
+  int count = 0;
+  bool is_logarithmic = true;
+};
+
+void grid_keys(Keys& keys, GapGrid& grid) {
+  keys.required("from", number(grid.from, kPositive), {"the smallest gap"});
+  keys.required("to", number(grid.to, kPositive), {"the largest gap, greater than `from`"});
+  keys.required("count", count(grid.count, 2, 100000), {"the number of gaps"});
+  keys.required("spacing", one_of(grid.is_logarithmic, {{"log", true}, {"linear", false}}),
+                {"equal ratios of neighbours, or equal differences"});
 }
 
-void read_geometry(const TomlSection& tabulation_section, freefem_axi::Tabulation& tabulation) {
-  if (!tabulation_section.has("geometry")) return;  // the default geometry is a plane
-  const auto section = tabulation_section.section("geometry");
+/// A list of gaps [L], or a grid. They are put into rising order.
+void read_gaps(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
+  auto& gaps = tabulation.gaps;
+  if (section.is_array(key)) {
+    gaps = section.numbers(key, kPositive);
+    std::ranges::sort(gaps);
+    section.require(std::ranges::adjacent_find(gaps) == gaps.end(), key,
+                    "contains the same gap twice; each gap must be given once");
+    return;
+  }
+  const auto table = section.section(key);
+  GapGrid grid;
+  read_keys(table, grid_keys, grid);
+  const auto [from, to, count, is_logarithmic] = grid;
+  table.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
+  for (int i = 0; i < count; ++i) {
+    const double w = static_cast<double>(i) / (count - 1);
+    gaps.push_back(is_logarithmic ? from * std::pow(to / from, w) : std::lerp(from, to, w));
+  }
+  gaps.back() = to;
+  table.require(std::ranges::adjacent_find(gaps, std::greater_equal()) == gaps.end(), "count",
+                "is {}; there are not so many different numbers of double precision from {} to "
+                "{}",
+                count, from, to);
+}
+
+/// The keys that are parameters of a geometry.
+void geometry_keys(Keys& keys, Tabulation& tabulation, const freefem_axi::Geometry& geometry) {
+  for (const auto& parameter : geometry.parameters) {
+    double& value = tabulation.geometry_parameters.emplace_back(parameter.fallback.value_or(0));
+    if (parameter.fallback)
+      keys.optional(parameter.key, number(value, parameter.allowed), {});
+    else
+      keys.required(parameter.key, number(value, parameter.allowed), {});
+  }
+}
+
+void read_geometry(const TomlSection& parent, std::string_view key, Tabulation& tabulation) {
+  const auto section = parent.section(key);
   tabulation.geometry = section.text("kind");
   const auto& geometry = at_key(
       section, "kind", [&]() -> auto& { return freefem_axi::find_geometry(tabulation.geometry); });
-  for (const auto& parameter : geometry.parameters) {
-    const std::string key(parameter.key);
-    tabulation.geometry_parameters.push_back(parameter.fallback && !section.has(key)
-                                                 ? *parameter.fallback
-                                                 : section.number(key, parameter.allowed));
-  }
-  section.finish();
+  read_keys(section, [&](Keys& keys) { geometry_keys(keys, tabulation, geometry); });
 }
 
-/// Reads `container`: { radius, height } [L], which must contain the sphere and its neighbour at
-/// every gap, or "unbounded".
-void read_container(const TomlSection& section, const freefem_axi::RequiredSpace& space,
-                    freefem_axi::Tabulation& tabulation) {
-  if (!freefem_axi::find_geometry(tabulation.geometry).takes_container) {
-    if (section.has("container"))
-      section.fail("container", fmt::format("must be left out, because a {} is its own container",
-                                            tabulation.geometry));
+void container_keys(Keys& keys, Container& container) {
+  keys.required("radius", number(container.radius, kPositive), {"radius of the cylinder"});
+  keys.required("height", number(container.height, kPositive), {"distance of its ends"});
+}
+
+/// Reads a container, which must contain the sphere and its neighbour at every gap.
+void read_container(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
+  const auto& geometry = freefem_axi::find_geometry(tabulation.geometry);
+  section.require(geometry.takes_container, key,
+                  "must be left out, because a {} is its own container", tabulation.geometry);
+  if (section.is_text(key)) {
+    section.require(section.text(key) == "unbounded", key,
+                    "is '{}'; it must be \"unbounded\" or a table {{ radius = ..., height = ... }}",
+                    section.text(key));
     return;
   }
-  if (section.is_text("container")) {
-    if (const auto text = section.text("container"); text != "unbounded")
-      section.fail(
-          "container",
-          fmt::format(
-              "is '{}'; it must be \"unbounded\" or a table {{ radius = ..., height = ... }}",
-              text));
-    return;
-  }
-  const auto table = section.section("container");
-  const freefem_axi::Container container{table.number("radius", kPositive),
-                                         table.number("height", kPositive)};
-  table.finish();
-  if (!(container.radius > space.container_radius))
-    table.fail("radius",
-               fmt::format("is {}; it must be greater than {}, the radius of sphere and neighbour",
-                           container.radius, space.container_radius));
-  if (!(container.height > space.container_height))
-    table.fail(
-        "height",
-        fmt::format("is {}; it must be greater than {}, what the largest gap, the sphere and "
-                    "its neighbour need",
-                    container.height, space.container_height));
+  const auto table = section.section(key);
+  Container container;
+  read_keys(table, container_keys, container);
+  const auto space = geometry.required_space(tabulation.radius, tabulation.gaps.back(),
+                                             tabulation.geometry_parameters);
+  table.require(container.radius > space.container_radius, "radius",
+                "is {}; it must be greater than {}, the radius of sphere and neighbour",
+                container.radius, space.container_radius);
+  table.require(container.height > space.container_height, "height",
+                "is {}; it must be greater than {}, what the largest gap, the sphere and its "
+                "neighbour need",
+                container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
   // gap (graded_boundary.idp). The drag in a container of this size is nearly that in unbounded
   // fluid.
   constexpr double kLargestLength = 2e5;
-  for (const auto& [key, length] :
+  for (const auto& [name, length] :
        {std::pair("radius", container.radius), std::pair("height", container.height)})
-    if (length > kLargestLength * tabulation.radius)
-      table.fail(key, fmt::format(
-                          "is {}; it must be at most {} sphere radii, {}, or the container must be "
-                          "\"unbounded\"",
-                          length, kLargestLength, kLargestLength * tabulation.radius));
+    table.require(length <= kLargestLength * tabulation.radius, name,
+                  "is {}; it must be at most {} sphere radii, {}, or the container must be "
+                  "\"unbounded\"",
+                  length, kLargestLength, kLargestLength * tabulation.radius);
   tabulation.container = container;
 }
 
-/// Reads `motion`: a name, a list of names, or "all", every motion that the geometry has.
-std::vector<lubrication::MotionKind> read_motions(const TomlSection& section,
-                                                  const std::string& geometry) {
-  using lubrication::MotionKind;
-  if (!section.has("motion")) return {MotionKind::kApproach};
-  const auto names =
-      section.is_array("motion") ? section.texts("motion") : std::vector{section.text("motion")};
-  return at_key(section, "motion", [&] { return freefem_axi::parse_motions(names, geometry); });
+/// A name, a list of names, or "all", every motion that the geometry has.
+void read_motions(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
+  const auto names = section.is_array(key) ? section.texts(key) : std::vector{section.text(key)};
+  tabulation.motions =
+      at_key(section, key, [&] { return freefem_axi::parse_motions(names, tabulation.geometry); });
+}
+
+void check_gaps(const TomlSection& section, const Tabulation& tabulation) {
+  const double narrowest = tabulation.gaps.front(), widest = tabulation.gaps.back();
+  section.require(narrowest >= kSmallestGap * tabulation.radius, "gaps",
+                  "goes down to {}; a gap must be at least {} sphere radii, which is {}", narrowest,
+                  kSmallestGap, kSmallestGap * tabulation.radius);
+  const auto space = freefem_axi::find_geometry(tabulation.geometry)
+                         .required_space(tabulation.radius, widest, tabulation.geometry_parameters);
+  section.require(space.largest_gap > 0, "geometry",
+                  "leaves no room for the sphere; give it a larger radius");
+  // largest_gap is the difference of two lengths. A gap that equals it up to rounding errors is
+  // allowed.
+  section.require(widest <= space.largest_gap * (1 + 1e-12), "gaps",
+                  "goes up to {}; in this {} a gap must be at most {}", widest, tabulation.geometry,
+                  space.largest_gap);
+}
+
+void read_velocities(const TomlSection& section, std::string_view key, Tabulation& tabulation) {
+  auto velocities = tabulation.reference_velocities = section.numbers(key, kNotZero);
+  std::ranges::sort(velocities);
+  section.require(std::ranges::adjacent_find(velocities) == velocities.end(), key,
+                  "contains the same velocity twice; each velocity must be given once");
+}
+
+void tabulation_keys(Keys& keys, Tabulation& tabulation) {
+  keys.required("gaps", custom("a list, or `{ from, to, count, spacing }`", read_gaps, tabulation),
+                {.meaning = "the gaps q at which FreeFEM computes the force, at least 1e-8 r each",
+                 .example = "{ from = 1e-3, to = 2.0, count = 20, spacing = \"log\" }"});
+  keys.required("reference_velocities", custom("a list, none 0", read_velocities, tabulation),
+                {.meaning = "velocities u0 of the sphere; negative: approaching. One is enough, "
+                            "because Stokes flow is linear",
+                 .example = "[-1.0]"});
+  keys.required(
+      "relative_accuracy", number(tabulation.relative_accuracy, kFraction),
+      {.meaning = "largest relative error estimate that is asked of each row", .example = "1e-5"});
+  keys.optional("geometry", custom("`{ kind, ... }`", read_geometry, tabulation),
+                {.meaning = "what the sphere approaches",
+                 .fallback = "`{ kind = \"plane\" }`",
+                 .example = "{ kind = \"plane\" }"});
+  keys.optional("motion",
+                custom("`\"approach\"`, `\"slide\"`, `\"roll\"`, `\"spin\"`, a list of these, or "
+                       "`\"all\"`",
+                       read_motions, tabulation),
+                {"[motions](motions.md) that are tabulated; `\"all\"` are those that the geometry "
+                 "has. The reference velocities are those of each motion, angular ones for roll "
+                 "and spin. `run` needs the approach alone",
+                 "`\"approach\"`",
+                 {},
+                 "\"approach\""});
+  if (keys.reads()) check_gaps(keys.section(), tabulation);
+  keys.required_if(!keys.reads() || freefem_axi::find_geometry(tabulation.geometry).takes_container,
+                   "container",
+                   custom("`{ radius, height }` or `\"unbounded\"`", read_container, tabulation),
+                   {"a closed cylinder around the fluid, or none",
+                    "required but for a cavity",
+                    {},
+                    "{ radius = 40.0, height = 80.0 }"});
 }
 
 }  // namespace
 
-freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
-                                        double radius) {
-  freefem_axi::Tabulation tabulation;
+Tabulation read_tabulation(const TomlSection& section, double viscosity, double radius) {
+  Tabulation tabulation;
   tabulation.viscosity = viscosity;
   tabulation.radius = radius;
-  tabulation.gaps = read_gaps(section);
-  tabulation.reference_velocities = section.numbers("reference_velocities", kNotZero);
-  auto velocities = tabulation.reference_velocities;
-  std::ranges::sort(velocities);
-  if (std::ranges::adjacent_find(velocities) != velocities.end())
-    section.fail("reference_velocities",
-                 "contains the same velocity twice; each velocity must be given once");
-  tabulation.relative_accuracy = section.number("relative_accuracy", kFraction);
-  read_geometry(section, tabulation);
-  tabulation.motions = read_motions(section, tabulation.geometry);
-  // At smaller gaps the matrices are too ill-conditioned for double precision.
-  constexpr double kSmallestGap = 1e-8;
-  if (const double narrowest = tabulation.gaps.front(); narrowest < kSmallestGap * radius)
-    section.fail("gaps",
-                 fmt::format("goes down to {}; a gap must be at least {} sphere radii, which is {}",
-                             narrowest, kSmallestGap, kSmallestGap * radius));
-  const double widest = tabulation.gaps.back();
-  const auto space = freefem_axi::find_geometry(tabulation.geometry)
-                         .required_space(radius, widest, tabulation.geometry_parameters);
-  if (!(space.largest_gap > 0))
-    section.fail("geometry", "leaves no room for the sphere; give it a larger radius");
-  // largest_gap is the difference of two lengths. A gap that equals it up to rounding errors is
-  // allowed.
-  if (!(widest <= space.largest_gap * (1 + 1e-12)))
-    section.fail("gaps", fmt::format("goes up to {}; in this {} a gap must be at most {}", widest,
-                                     tabulation.geometry, space.largest_gap));
-  read_container(section, space, tabulation);
-  section.finish();
+  read_keys(section, tabulation_keys, tabulation);
   return tabulation;
+}
+
+std::vector<KeyTable> tables_of_tabulation() {
+  return {describe_keys("[tabulation]", tabulation_keys),
+          describe_keys("tabulation.gaps", grid_keys),
+          describe_keys("tabulation.container", container_keys)};
 }
 
 }  // namespace viscontact::case_file

@@ -2,16 +2,25 @@
 // `asked`, because finish() reports all other keys as unknown.
 #include "viscontact/case_file/toml_section.hpp"
 
-#include <fmt/format.h>
+#include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
-#include "viscontact/case_file/dotted_keys.hpp"
-#include "viscontact/case_file/toml_node.hpp"
 #include "viscontact/common/error.hpp"
 
 namespace viscontact::case_file {
+
+/// A table, where it stands, and which of its keys were asked for.
+struct TomlSection::Node {
+  std::shared_ptr<const toml::table> root;  ///< keeps `table` alive
+  const toml::table* table = nullptr;       ///< the table of this section, in `root`
+  std::string file;                         ///< name of the file in messages
+  std::string path;                         ///< "tabulation.container"; empty for the root
+  std::set<std::string> asked;              ///< keys that were asked for
+};
 
 namespace {
 
@@ -31,18 +40,113 @@ std::optional<double> allowed_number(const toml::node& node, const Allowed& allo
   return value && std::isfinite(*value) && allowed.test(*value) ? value : std::nullopt;
 }
 
+/// Position after the string whose opening quote is at `at`; the end of the text if the string is
+/// not closed.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool is_long = text.substr(at).starts_with(three);
+  const std::size_t width = is_long ? 3 : 1;
+  for (std::size_t i = at + width; i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\')
+      ++i;  // also skips the next character, which may be a quote
+    else if (is_long ? text.substr(i).starts_with(three) : text[i] == quote)
+      return i + width;
+    else if (!is_long && text[i] == '\n')
+      return i;  // not valid TOML; the parser reports it
+  }
+  return text.size();
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+/// True for characters that end a dotted key.
+bool ends_a_key(char c) { return std::string_view("=,[]{}\n#").find(c) != std::string_view::npos; }
+
+std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
+  while (at < text.size() && !is_space(text[at]) && !ends_a_key(text[at]) && text[at] != '.' &&
+         text[at] != '"' && text[at] != '\'')
+    ++at;
+  return at;
+}
+
+/// Throws Error(kBadInput), which names `file` and the line, if a key or the name of a section in the
+/// TOML text has more than 16 parts joined by dots. The text is scanned before it is parsed, because
+/// toml++ 3.3 makes a nested table for each part and visits these tables by recursion, so that a key
+/// of 40 000 parts overflows the stack. toml++ itself limits nested arrays and inline tables to 256
+/// levels. Dots in strings and comments separate no keys.
+void check_dotted_keys(const std::string& text, const std::string& file) {
+  constexpr int kMostParts = 16;  // the longest key of a case has five parts
+  const std::string_view all = text;
+  int line = 1, parts = 0;
+  bool after_dot = false;
+  for (std::size_t i = 0; i < all.size();) {
+    const char c = all[i];
+    if (is_space(c)) {
+      ++i;
+    } else if (c == '.') {
+      after_dot = true;
+      ++i;
+    } else if (ends_a_key(c)) {
+      parts = 0;
+      after_dot = false;
+      if (c == '#')
+        i = std::min(all.find('\n', i), all.size());
+      else
+        ++i;
+      if (c == '\n') ++line;
+    } else {
+      parts = after_dot ? parts + 1 : 1;
+      after_dot = false;
+      if (parts > kMostParts)
+        throw_bad_input({file, line},
+                        fmt::format("has a key of more than {0} parts joined by dots; a key may "
+                                    "have at most {0}",
+                                    kMostParts));
+      const std::size_t end =
+          c == '"' || c == '\'' ? end_of_string(all, i) : end_of_bare_word(all, i);
+      line += static_cast<int>(std::ranges::count(all.substr(i, end - i), '\n'));
+      i = end;
+    }
+  }
+}
+
+/// True if the number can be stored as an integer without loss.
+bool is_integer(double value) {
+  constexpr double kLargestInteger = 1e15;  // below 2^53
+  return value == std::floor(value) && std::abs(value) <= kLargestInteger &&
+         !(value == 0 && std::signbit(value));
+}
+
+/// The elements of an array of at least one, which `node`, the value of `key`, must be. `many`
+/// completes "a list of" in the message for a missing key, `one` "a list of at least one" in that
+/// for a value that is no such array.
+const toml::array& elements(const TomlSection& section, std::string_view key,
+                            const toml::node* node, std::string_view many, std::string_view one) {
+  section.require(section.has(key), key, "is missing; it must be a list of {}", many);
+  const auto* array = node->as_array();
+  section.require(array != nullptr && !array->empty(), key,
+                  "is {}; it must be a list of at least one {}", section.shown(key), one);
+  return *array;
+}
+
 }  // namespace
+
+TomlSection::TomlSection(Node node) : node_(std::make_shared<Node>(std::move(node))) {}
 
 TomlSection TomlSection::parse(const std::string& text, const std::string& file) {
   check_dotted_keys(text, file);
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text, file));
-    const auto* table = root.get();
-    return TomlSection(std::make_shared<Node>(Node{std::move(root), table, file, "", {}}));
+    return TomlSection(Node{root, root.get(), file, "", {}});
   } catch (const toml::parse_error& error) {
     throw_bad_input({file, static_cast<int>(error.source().begin.line)},
                     fmt::format("is not valid TOML ({})", error.description()));
   }
+}
+
+std::string TomlSection::full_name(std::string_view key) const {
+  return fmt::format("{}{}{}", node_->path, node_->path.empty() ? "" : ".", key);
 }
 
 void TomlSection::fail_of_section(std::string_view key, const std::string& what) const {
@@ -54,8 +158,7 @@ void TomlSection::fail_of_section(std::string_view key, const std::string& what)
 void TomlSection::fail(std::string_view key, const std::string& what) const {
   const auto* node = node_->table->get(key);
   const int line = node != nullptr ? line_of(*node) : line_of(*node_->table);
-  throw_bad_input({node_->file, line},
-                  fmt::format("{}{}{} {}", node_->path, node_->path.empty() ? "" : ".", key, what));
+  throw_bad_input({node_->file, line}, full_name(key) + " " + what);
 }
 
 bool TomlSection::has(std::string_view key) const {
@@ -125,30 +228,24 @@ bool TomlSection::truth(std::string_view key) const {
 
 std::vector<bool> TomlSection::truths(std::string_view key, std::size_t count) const {
   const auto allowed = fmt::format("it must be a list of {} values, each true or false", count);
-  if (!has(key)) fail(key, "is missing; " + allowed);
-  const auto* array = node_->table->get(key)->as_array();
+  require(has(key), key, "is missing; {}", allowed);
   std::vector<bool> values;
+  const auto* array = node_->table->get(key)->as_array();
   if (array != nullptr)
     for (const auto& element : *array)
       if (const auto value = element.value_exact<bool>()) values.push_back(*value);
-  if (array == nullptr || array->size() != count || values.size() != count)
-    fail(key, fmt::format("is {}; {}", shown(key), allowed));
+  require(array != nullptr && array->size() == count && values.size() == count, key, "is {}; {}",
+          shown(key), allowed);
   return values;
 }
 
 std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& allowed) const {
-  if (!has(key))
-    fail(key, fmt::format("is missing; it must be a list of numbers {}", allowed.words));
-  const auto* array = node_->table->get(key)->as_array();
-  if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; it must be a list of at least one number, each {}",
-                          show(*node_->table->get(key)), allowed.words));
+  const auto many = fmt::format("numbers {}", allowed.words);
   std::vector<double> values;
-  for (const auto& element : *array) {
+  for (const auto& element : elements(*this, key, node_->table->get(key), many,
+                                      fmt::format("number, each {}", allowed.words))) {
     const auto value = allowed_number(element, allowed);
-    if (!value)
-      fail(key, fmt::format("contains {}; it must be a list of numbers {}", show(element),
-                            allowed.words));
+    require(value.has_value(), key, "contains {}; it must be a list of {}", show(element), many);
     values.push_back(*value);
   }
   return values;
@@ -156,33 +253,26 @@ std::vector<double> TomlSection::numbers(std::string_view key, const Allowed& al
 
 std::vector<std::vector<double>> TomlSection::rows(std::string_view key, std::size_t columns,
                                                    const Allowed& allowed) const {
-  const auto wanted =
-      fmt::format("it must be a list of lists of {} numbers {}", columns, allowed.words);
-  if (!has(key)) fail(key, "is missing; " + wanted);
-  const auto* array = node_->table->get(key)->as_array();
-  if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; {}", show(*node_->table->get(key)), wanted));
+  const auto many = fmt::format("lists of {} numbers {}", columns, allowed.words);
   std::vector<std::vector<double>> rows;
-  for (const auto& element : *array) {
+  for (const auto& element :
+       elements(*this, key, node_->table->get(key), many,
+                fmt::format("list of {} numbers {}", columns, allowed.words))) {
     std::vector<double> row;
     if (const auto* list = element.as_array())
       for (const auto& number : *list)
         if (const auto value = allowed_number(number, allowed)) row.push_back(*value);
     if (!element.is_array() || row.size() != columns || element.as_array()->size() != columns)
-      fail(key, fmt::format("contains {}; {}", show(element), wanted));
+      fail(key, fmt::format("contains {}; it must be a list of {}", show(element), many));
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
 std::vector<std::string> TomlSection::texts(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; it must be a list of texts in quotes");
-  const auto* array = node_->table->get(key)->as_array();
-  if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; it must be a list of at least one text in quotes",
-                          show(*node_->table->get(key))));
   std::vector<std::string> values;
-  for (const auto& element : *array) {
+  for (const auto& element :
+       elements(*this, key, node_->table->get(key), "texts in quotes", "text in quotes")) {
     const auto value = element.value_exact<std::string>();
     if (!value)
       fail(key, fmt::format("contains {}; it must be a list of texts in quotes", show(element)));
@@ -195,28 +285,19 @@ TomlSection TomlSection::section(std::string_view key) const {
   if (!has(key))
     fail_of_section(key, node_->path.empty() ? "is missing" : "is missing; it must be a table");
   const auto* table = node_->table->get(key)->as_table();
-  if (table == nullptr)
-    fail(key, fmt::format("is {}; it must be a table", show(*node_->table->get(key))));
-  const std::string path =
-      node_->path.empty() ? std::string(key) : fmt::format("{}.{}", node_->path, key);
-  return TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}}));
+  require(table != nullptr, key, "is {}; it must be a table", shown(key));
+  return TomlSection(Node{node_->root, table, node_->file, full_name(key), {}});
 }
 
 std::vector<TomlSection> TomlSection::sections(std::string_view key) const {
-  if (!has(key)) fail(key, "is missing; it must be a list of tables { ... }");
-  const auto* array = node_->table->get(key)->as_array();
-  if (array == nullptr || array->empty())
-    fail(key, fmt::format("is {}; it must be a list of at least one table {{ ... }}",
-                          show(*node_->table->get(key))));
   std::vector<TomlSection> sections;
-  for (const auto& element : *array) {
+  for (const auto& element :
+       elements(*this, key, node_->table->get(key), "tables { ... }", "table { ... }")) {
     const auto* table = element.as_table();
     if (table == nullptr)
       fail(key, fmt::format("contains {}; it must be a list of tables {{ ... }}", show(element)));
-    const std::string path = fmt::format("{}{}{}[{}]", node_->path, node_->path.empty() ? "" : ".",
-                                         key, sections.size());
-    sections.push_back(
-        TomlSection(std::make_shared<Node>(Node{node_->root, table, node_->file, path, {}})));
+    const auto path = fmt::format("{}[{}]", full_name(key), sections.size());
+    sections.push_back(TomlSection(Node{node_->root, table, node_->file, path, {}}));
   }
   return sections;
 }
@@ -228,9 +309,65 @@ void TomlSection::finish() const {
       for (const auto& name : node_->asked)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
       throw_bad_input({node_->file, static_cast<int>(key.source().begin.line)},
-                      fmt::format("{}{}{} is not a key that is known here; the known keys are: {}",
-                                  node_->path, node_->path.empty() ? "" : ".", key.str(), known));
+                      fmt::format("{} is not a key that is known here; the known keys are: {}",
+                                  full_name(key.str()), known));
     }
+}
+
+TomlSection TomlSection::with_numbers(
+    std::span<const std::pair<std::string, double>> numbers) const {
+  auto root = std::make_shared<toml::table>(*node_->root);
+  for (const auto& number : numbers) {
+    const std::string& path = number.first;
+    const double value = number.second;
+    const auto refuse = [&](const std::string& what) {
+      throw_bad_input({node_->file}, fmt::format("{} {}", path, what));
+    };
+    auto* place = root->at_path(path).node();
+    // In place of a node of another type, because the node of an integer cannot store a fraction.
+    const auto replace = [&](auto new_value) {
+      const auto dot = path.rfind('.');
+      const auto bracket = path.rfind('[');
+      if (place != nullptr && bracket != std::string::npos && path.back() == ']') {
+        auto* array = root->at_path(path.substr(0, bracket)).as_array();
+        const auto index = static_cast<std::size_t>(std::stoul(path.substr(bracket + 1)));
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index), new_value);
+        return;
+      }
+      auto* parent =
+          dot == std::string::npos ? root.get() : root->at_path(path.substr(0, dot)).as_table();
+      if (parent == nullptr) refuse("is not a key of this case");
+      // The reader of the case checks whether this key exists.
+      parent->insert_or_assign(path.substr(dot + 1), new_value);
+    };
+    if (place != nullptr && place->is_floating_point())
+      **place->as_floating_point() = value;
+    else if (place != nullptr && !place->is_integer())
+      refuse("is not a number in this case");
+    else if (is_integer(value))
+      replace(static_cast<std::int64_t>(value));
+    else
+      replace(value);
+  }
+  return TomlSection(Node{root, root.get(), node_->file, "", {}});
+}
+
+TomlSection TomlSection::with_texts(
+    std::span<const std::pair<std::string, std::string>> texts) const {
+  auto root = std::make_shared<toml::table>(*node_->root);
+  for (const auto& [path, text] : texts) {
+    auto* place = root->at_path(path).as_string();
+    if (place == nullptr)
+      throw_bad_input({node_->file}, fmt::format("{} is not a text in this case", path));
+    **place = text;
+  }
+  return TomlSection(Node{root, root.get(), node_->file, "", {}});
+}
+
+std::string TomlSection::as_toml() const {
+  std::ostringstream text;
+  text << *node_->root << "\n";
+  return text.str();
 }
 
 }  // namespace viscontact::case_file

@@ -1,6 +1,8 @@
 // A table of a TOML file, read strictly: the reader asks for every key by name, and a key that was
-// not asked for is an error.
+// not asked for is an error. Sections whose keys are declared are read by keys.hpp.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -20,7 +22,8 @@ namespace viscontact::case_file {
 class TomlSection {
  public:
   /// The root table of a TOML text. `file` is its name in messages. Throws Error(kBadInput) with
-  /// the line if the text is not valid TOML.
+  /// the line if the text is not valid TOML, and if a key or the name of a section has more than 16
+  /// parts joined by dots.
   static TomlSection parse(const std::string& text, const std::string& file);
 
   /// A copy of this root table with other numbers, each at a path such as
@@ -75,12 +78,20 @@ class TomlSection {
   /// line of this table if the key does not exist.
   [[noreturn]] void fail(std::string_view key, const std::string& what) const;
 
+  /// Throws the same error if the condition is false; `what` is a format with these arguments.
+  template <class... Arguments>
+  void require(bool condition, std::string_view key, fmt::format_string<Arguments...> what,
+               Arguments&&... arguments) const {
+    if (!condition) fail(key, fmt::format(what, std::forward<Arguments>(arguments)...));
+  }
+
  private:
   struct Node;
   /// Same as fail, but the message has no line if this is the root table, because a section that is
   /// missing from the file has no line.
   [[noreturn]] void fail_of_section(std::string_view key, const std::string& what) const;
-  explicit TomlSection(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+  std::string full_name(std::string_view key) const;  // "tabulation.gaps"
+  explicit TomlSection(Node node);
   std::shared_ptr<Node> node_;
 };
 

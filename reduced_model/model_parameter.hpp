@@ -28,6 +28,8 @@ struct ModelParameter {
   double (*fallback)(const Motion& motion, double radius);
   /// True for a time step: it is at most Motion::end_time, and motion.time_scale stretches it.
   bool is_time_step = false;
+  /// The fallback in words, for docs/case-file.md.
+  std::string_view fallback_words = "see the model";
 
   constexpr std::string_view section() const { return section_of(key); }  ///< SECTION of `key`
   constexpr std::string_view name() const { return name_of(key); }        ///< NAME of `key`

@@ -57,14 +57,16 @@ inline constexpr ModelParameter kReferenceTimeStep = {
     "T",
     kPositive,
     default_time_step,
-    true};
+    true,
+    "`end_time`/4000"};
 /// Step h of the contact models and of `explicit_euler` [T].
 inline constexpr ModelParameter kContactTimeStep = {"viscous_contact.time_step",
                                                     "time step of the contact models",
                                                     "T",
                                                     kPositive,
                                                     default_time_step,
-                                                    true};
+                                                    true,
+                                                    "`end_time`/4000"};
 
 /// Coefficient e_d of restitution of the solids [1].
 inline constexpr ModelParameter kRestitution = {
@@ -72,7 +74,9 @@ inline constexpr ModelParameter kRestitution = {
     "coefficient of restitution of the solids",
     "1",
     {[](double v) { return v >= 0 && v <= 1; }, "between 0 and 1"},
-    [](const Motion&, double) { return 0.0; }};
+    [](const Motion&, double) { return 0.0; },
+    false,
+    "0"};
 
 /// Models call this function at intervals with the time [T] that they have reached. It throws
 /// Error(kInterrupted) if motion.stop requests a stop, and then calls motion.progress.

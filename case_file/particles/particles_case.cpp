@@ -3,91 +3,182 @@
 // cases with them.
 #include "viscontact/case_file/particles/particles_case.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <optional>
-#include <system_error>
 #include <utility>
 
-#include "viscontact/case_file/fluid/domain_section.hpp"
-#include "viscontact/case_file/fluid/fluid_section.hpp"
-#include "viscontact/case_file/fluid/fluid_start.hpp"
-#include "viscontact/case_file/fluid/solver_files.hpp"
-#include "viscontact/case_file/particles/bodies_section.hpp"
-#include "viscontact/case_file/particles/links_section.hpp"
-#include "viscontact/case_file/particles/particle_tables.hpp"
-#include "viscontact/case_file/particles/particles_start.hpp"
-#include "viscontact/case_file/particles/particles_template.hpp"
-#include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/case_file/vector_values.hpp"
+#include "viscontact/case_file/particles/particles_sections.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 
 namespace viscontact::case_file {
 namespace {
 
+namespace fs = std::filesystem;
 using particles::Vector;
 using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
+constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
 
-/// Reads space.dimension; 1 stands for "axisymmetric".
-int read_dimension(const TomlSection& space) {
-  if (!space.is_text("dimension")) return space.count("dimension", 2, 3);
-  if (const auto text = space.text("dimension"); text != "axisymmetric")
-    space.fail("dimension", fmt::format("is '{}'; it must be 2, 3 or \"axisymmetric\"", text));
-  return 1;
+/// 1 stands for "axisymmetric".
+void read_dimension(const TomlSection& space, std::string_view key, int& dimension) {
+  if (!space.is_text(key)) {
+    dimension = space.count(key, 2, 3);
+    return;
+  }
+  space.require(space.text(key) == "axisymmetric", key,
+                "is '{}'; it must be 2, 3 or \"axisymmetric\"", space.text(key));
+  dimension = 1;
 }
 
-/// Reads the contact law. In a fluid its viscosity is that of the fluid, unless it is given.
-void read_law(const TomlSection& section, const std::optional<particles::Fluid>& fluid,
-              particles::FilmLaw& law) {
-  if (section.has("gamma_min")) law.gamma_min = section.number("gamma_min", kNotPositive);
-  if (section.has("viscosity")) law.viscosity = section.number("viscosity", kModeratelyPositive);
-  if (section.has("roughness")) law.roughness = section.number("roughness", kModeratelyPositive);
-  if (law.gamma_min && law.viscosity)
-    section.fail(
-        "viscosity",
-        "must be left out, because gamma_min is given and would also follow from viscosity");
-  if (fluid && law.gamma_min && law.roughness)
-    section.fail("roughness",
-                 "must be left out, because gamma_min is given and would also follow from the "
-                 "roughness and the viscosity of the fluid");
+void space_keys(Keys& keys, ParticlesCase& c) {
+  keys.required(
+      "dimension", custom("2, 3 or `\"axisymmetric\"`", read_dimension, c.particles.dimension),
+      {"discs; spheres, without a fluid; or [spheres on the axis](#spheres-on-an-axis) of "
+       "a cylinder with fluid"});
+  keys.optional("gravity", vector(c.setting.gravity, c.particles.dimension),
+                {"acceleration of all particles", "0"});
+}
+
+/// The contact law. In a fluid its viscosity is that of the fluid, unless it is given.
+void film_keys(Keys& keys, particles::FilmLaw& law, const std::optional<particles::Fluid>& fluid) {
+  keys.optional("gamma_min", number(law.gamma_min, kNotPositive),
+                {"for every pair, an impulse (of discs in a fluid an impulse per length); 0: no "
+                 "film, plain inelastic contact"});
+  keys.optional("viscosity", number(law.viscosity, kModeratelyPositive),
+                {"of the film, with `roughness`", "none; in a fluid that of the fluid"});
+  keys.optional("roughness", number(law.roughness, kModeratelyPositive),
+                {"height on every particle and plane, with `viscosity`"});
+  keys.require(!law.gamma_min || !law.viscosity, "viscosity",
+               "must be left out, because gamma_min is given and would also follow from viscosity");
+  keys.require(!fluid || !law.gamma_min || !law.roughness, "roughness",
+               "must be left out, because gamma_min is given and would also follow from the "
+               "roughness and the viscosity of the fluid");
   if (fluid && law.roughness && !law.viscosity) law.viscosity = fluid->viscosity;
-  if (law.viscosity.has_value() != law.roughness.has_value())
-    section.fail(
-        law.viscosity ? "roughness" : "viscosity",
-        fmt::format("is missing; a case with a {} needs both viscosity and roughness, from "
-                    "which gamma_min follows",
-                    law.viscosity ? "viscosity" : "roughness"));
+  keys.require(law.viscosity.has_value() == law.roughness.has_value(),
+               law.viscosity ? "roughness" : "viscosity",
+               "is missing; a case with a {} needs both viscosity and roughness, from which "
+               "gamma_min follows",
+               law.viscosity ? "viscosity" : "roughness");
 }
 
-particles::Plane read_plane(const TomlSection& section, int dimension, double end_time) {
-  particles::Plane plane;
-  plane.start.point = read_vector(section, "point", dimension);
-  Vector normal = read_vector(section, "normal", dimension);
+constexpr const char* kNoSolidContact =
+    "has no effect, because smooth particles never touch; viscous_contact must have gamma_min (0: "
+    "no "
+    "film), or viscosity and roughness";
+
+void contact_keys(Keys& keys, ParticlesCase& c) {
+  auto& laws = c.setting.laws;
+  auto& film = laws.film;
+  auto& restitution = laws.restitution;
+  double& step = c.setting.time_step;
+  keys.required("end_time", number(c.end_time, kModeratelyPositive), {"end of the simulation"});
+  keys.required("time_step", number(step, kModeratelyPositive), {"at most `end_time`"});
+  keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
+               c.end_time);
+  constexpr double kMostSteps = 1e9;
+  keys.require(c.end_time / step <= kMostSteps, "time_step",
+               "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
+               c.end_time / step, kMostSteps);
+  film_keys(keys, film, c.setting.fluid);
+  keys.optional("restitution", number(restitution.coefficient, kShare),
+                {"without a fluid, hinges and arms: the coefficient e_d of "
+                 "[restitution](physics.md#5-many-particles-particles) (5.15) of the solids. The "
+                 "case must give `gamma_min`, or `viscosity` and `roughness`"});
+  if (restitution.is_on()) {
+    keys.require(!c.setting.fluid, "restitution",
+                 "is for particles without a fluid; a case with [fluid] must not have the key");
+    keys.require(film.gamma_min || film.roughness, "restitution", "{}", kNoSolidContact);
+  }
+  keys.optional(
+      "scheme",
+      one_of(c.setting.scheme,
+             {{"euler", particles::Scheme::kEuler}, {"leapfrog", particles::Scheme::kLeapfrog}}),
+      {"without a fluid; with `\"leapfrog\"` positions are of [second "
+       "order](physics.md#5-many-particles-particles) away from impacts and of contacts "
+       "that last while their normal turns, where they are of first order. "
+       "`final_particles.csv` then has the velocities at the end (of particles without "
+       "contacts and links), the frames and tables those half a step before. Steps near a "
+       "jump of a force are shorter"});
+  keys.require(c.setting.scheme == particles::Scheme::kEuler || !c.setting.fluid, "scheme",
+               "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are of "
+               "second order without it, and the key must be left out");
+}
+
+void friction_keys(Keys& keys, particles::FrictionLaw& law) {
+  keys.required("coefficient", number(law.coefficient, kModeratelyPositiveOr0),
+                {"mu_s of [solid contact](particles.md#friction)"});
+  keys.optional(
+      "method",
+      one_of(law.method, {{"fixed_point", particles::FrictionMethod::kFixedPoint},
+                          {"convex", particles::FrictionMethod::kConvex}}),
+      {"Coulomb's law, or the convex relaxation, in which sliding contacts open by h mu_s "
+       "abs(v_t)"});
+}
+
+void read_friction(const TomlSection& section, particles::Setting& setting) {
+  section.require(!setting.fluid, "coefficient",
+                  "belongs to particles without a fluid; a case with [fluid] must have no section "
+                  "[friction]");
+  section.require(setting.laws.film.gamma_min || setting.laws.film.viscosity, "coefficient", "{}",
+                  kNoSolidContact);
+  read_keys(section, friction_keys, setting.laws.friction.emplace());
+}
+
+/// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
+/// case that names one of the other two is still accepted, and the present method is used.
+void read_method(const TomlSection& solver, std::string_view key) {
+  const auto text = solver.text(key);
+  solver.require(
+      text == "conjugate_gradients" || text == "accelerated_gradient" || text == "gauss_seidel",
+      key, "is '{}'; it must be \"conjugate_gradients\", the only method", text);
+}
+
+void solver_keys(Keys& keys, particles::SolverSettings& settings) {
+  keys.optional("tolerance", number(settings.tolerance, kTolerance),
+                {"tolerance of the gaps, divided by the mean radius"});
+  keys.optional("impulse_tolerance", number(settings.impulse_tolerance, kTolerance),
+                {"tolerance of each impulse, divided by the [impulses at "
+                 "work](particles.md#the-projection)"});
+  keys.optional("max_iterations",
+                count(settings.max_iterations, 1, std::numeric_limits<int>::max()),
+                {"for each step", {}, "whole number >= 1"});
+  keys.optional("method", custom("`\"conjugate_gradients\"`", read_method),
+                {"the only method; `\"accelerated_gradient\"` and `\"gauss_seidel\"` are read and "
+                 "have no effect",
+                 "`\"conjugate_gradients\"`"});
+}
+
+void output_keys(Keys& keys, double& interval) {
+  keys.optional("every", number(interval, kModeratelyPositive),
+                {"time between frames", "a hundredth of `end_time`"});
+}
+
+void plane_keys(Keys& keys, particles::Plane& plane, const ParticlesCase& c) {
+  const int dimension = c.particles.dimension;
+  Vector normal{};
+  keys.required("point", vector(plane.start.point, dimension), {"a point of the plane"});
+  keys.required("normal", vector(normal, dimension),
+                {"points to the side of the particles; its length is arbitrary, but not 0"});
   const double length = particles::norm(normal);
-  if (!(length > 1e-100))
-    section.fail("normal", "is 0; it must be a vector that points into the free side of the plane");
+  keys.require(length > 1e-100, "normal",
+               "is 0; it must be a vector that points into the free side of the plane");
   plane.start.normal = (1 / length) * normal;
-  if (section.has("velocity"))
-    plane.velocity = read_pieces(section, "velocity", dimension, end_time);
-  if (dimension == 1 && section.has("angular_velocity"))
-    section.fail("angular_velocity", "must be left out, because a plane on an axis does not turn");
-  if (section.has("angular_velocity"))
-    plane.angular_velocity = dimension == 2
-                                 ? Vector{0, 0, section.number("angular_velocity", kModerate)}
-                                 : read_vector(section, "angular_velocity", dimension);
-  else if (section.has("pivot"))
-    section.fail("pivot", "must be left out, because this plane has no angular_velocity");
-  plane.pivot = section.has("pivot") ? read_vector(section, "pivot", dimension) : plane.start.point;
-  section.finish();
-  return plane;
+  keys.optional("velocity", pieces(plane.velocity, dimension, c.end_time), {"of the plane", "0"});
+  keys.require(dimension != 1 || !keys.has("angular_velocity"), "angular_velocity",
+               "must be left out, because a plane on an axis does not turn");
+  const bool turns = keys.optional("angular_velocity", turn(plane.angular_velocity, dimension),
+                                   {"in 2D counter-clockwise", "0"});
+  keys.require(turns || !keys.has("pivot"), "pivot",
+               "must be left out, because this plane has no angular_velocity");
+  plane.pivot = plane.start.point;
+  keys.optional("pivot", vector(plane.pivot, dimension),
+                {"only with `angular_velocity`: the centre of rotation, which moves with the "
+                 "velocity",
+                 "`point`"});
 }
 
 /// Throws an error for a plane that is not parallel to the periods of the domain. Such a plane
@@ -96,98 +187,20 @@ void check_periods_of_plane(const TomlSection& section, const particles::Plane& 
                             const particles::Domain& domain) {
   const auto periods = particles::periods_of(domain);
   for (std::size_t d = 0; d < periods.size(); ++d)
-    if (periods[d] > 0 &&
-        (plane.start.normal[d] != 0 || particles::norm(plane.angular_velocity) > 0))
-      section.fail("normal", fmt::format("belongs to a plane that turns or is not parallel to the "
-                                         "period of the domain along {}; a plane in a periodic "
-                                         "domain must be parallel to its periods",
-                                         d == 0 ? "x" : "y"));
+    section.require(periods[d] == 0 || (plane.start.normal[d] == 0 &&
+                                        particles::norm(plane.angular_velocity) == 0),
+                    "normal",
+                    "belongs to a plane that turns or is not parallel to the period of the domain "
+                    "along {}; a plane in a periodic domain must be parallel to its periods",
+                    d == 0 ? "x" : "y");
 }
 
-/// Reads the key `method`. Earlier versions offered three methods that solve the same problem. A
-/// case that names one of the other two is still accepted, and the present method is used.
-void read_method(const TomlSection& solver) {
-  constexpr std::array kMethods = {"conjugate_gradients", "accelerated_gradient", "gauss_seidel"};
-  const auto text = solver.text("method");
-  if (std::ranges::find(kMethods, text) == kMethods.end())
-    solver.fail("method",
-                fmt::format("is '{}'; it must be \"conjugate_gradients\", the only method", text));
-}
-
-/// Reads the key `restitution`, after the film and the fluid are known.
-void read_restitution(const TomlSection& section, ParticlesCase& c) {
-  constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
-  if (!section.has("restitution")) return;
-  auto& laws = c.setting.laws;
-  laws.restitution.coefficient = section.number("restitution", kShare);
-  if (!laws.restitution.is_on()) return;
-  if (c.setting.fluid)
-    section.fail("restitution",
-                 "is for particles without a fluid; a case with [fluid] must not have the key");
-  if (!laws.film.gamma_min && !laws.film.roughness)
-    section.fail("restitution",
-                 "has no effect, because smooth particles never touch; viscous_contact must have "
-                 "gamma_min (0: no film), or viscosity and roughness");
-}
-
-void read_contact(const TomlSection& contact, ParticlesCase& c) {
-  c.end_time = contact.number("end_time", kModeratelyPositive);
-  c.setting.time_step = contact.number("time_step", kModeratelyPositive);
-  if (c.setting.time_step > c.end_time)
-    contact.fail("time_step", fmt::format("is {}; it must be at most end_time, {}",
-                                          c.setting.time_step, c.end_time));
-  if (constexpr double kMostSteps = 1e9; c.end_time / c.setting.time_step > kMostSteps)
-    contact.fail(
-        "time_step",
-        fmt::format("is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed",
-                    c.setting.time_step, c.end_time / c.setting.time_step, kMostSteps));
-  read_law(contact, c.setting.fluid, c.setting.laws.film);
-  read_restitution(contact, c);
-  if (contact.has("scheme")) {
-    const auto scheme = contact.text("scheme");
-    if (scheme != "euler" && scheme != "leapfrog")
-      contact.fail("scheme", fmt::format("is '{}'; it must be \"euler\" or \"leapfrog\"", scheme));
-    if (scheme == "leapfrog" && c.setting.fluid)
-      contact.fail(
-          "scheme",
-          "is 'leapfrog', which is for particles without a fluid; in a fluid the steps are "
-          "of second order without it, and the key must be left out");
-    if (scheme == "leapfrog") c.setting.scheme = particles::Scheme::kLeapfrog;
-  }
-  contact.finish();
-}
-
-void read_friction(const TomlSection& section, ParticlesCase& c) {
-  if (c.setting.fluid)
-    section.fail("coefficient",
-                 "belongs to particles without a fluid; a case with [fluid] must have no section "
-                 "[friction]");
-  if (!c.setting.laws.film.gamma_min && !c.setting.laws.film.viscosity)
-    section.fail("coefficient",
-                 "has no effect, because smooth particles never touch; viscous_contact must have "
-                 "gamma_min (0: no film), or viscosity and roughness");
-  particles::FrictionLaw law;
-  law.coefficient = section.number("coefficient", kModeratelyPositiveOr0);
-  if (section.has("method")) {
-    const auto method = section.text("method");
-    if (method == "convex")
-      law.method = particles::FrictionMethod::kConvex;
-    else if (method != "fixed_point")
-      section.fail("method",
-                   fmt::format("is '{}'; it must be \"fixed_point\" or \"convex\"", method));
-  }
-  section.finish();
-  c.setting.laws.friction = law;
-}
-
-void read_solver(const TomlSection& solver, particles::SolverSettings& settings) {
-  if (solver.has("tolerance")) settings.tolerance = solver.number("tolerance", kTolerance);
-  if (solver.has("impulse_tolerance"))
-    settings.impulse_tolerance = solver.number("impulse_tolerance", kTolerance);
-  if (solver.has("max_iterations"))
-    settings.max_iterations = solver.count("max_iterations", 1, std::numeric_limits<int>::max());
-  if (solver.has("method")) read_method(solver);
-  solver.finish();
+void particles_sweep_keys(Keys& keys, ParticlesSweepRequest& sweep) {
+  keys.optional("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
+  keys.optional("samples", number(sweep.samples, kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("draws", number(sweep.draws, kWholeNumber),
+                {"number of random arrangements at each point", "that of the case"});
 }
 
 /// Reads [domain] and [fluid]. Needs c.path and the dimension of the case.
@@ -195,17 +208,15 @@ void read_domain_and_fluid(const TomlSection& root, ParticlesCase& c) {
   const int dimension = c.particles.dimension;
   if (root.has("domain")) c.setting.domain = read_domain(root.section("domain"), dimension);
   if (!root.has("fluid")) {
-    if (dimension == 1)
-      root.section("space").fail(
-          "dimension",
-          "is \"axisymmetric\", which is for spheres in a fluid; the case must have "
-          "sections [fluid] and [domain]");
+    root.section("space").require(
+        dimension != 1, "dimension",
+        "is \"axisymmetric\", which is for spheres in a fluid; the case must have sections [fluid] "
+        "and [domain]");
     return;
   }
   const auto section = root.section("fluid");
-  if (dimension == 3)
-    root.section("space").fail("dimension",
-                               "is 3; in a case with [fluid] it must be 2 or \"axisymmetric\"");
+  root.section("space").require(dimension != 3, "dimension",
+                                "is 3; in a case with [fluid] it must be 2 or \"axisymmetric\"");
   if (!root.has("domain"))
     throw_bad_input({c.path.string(), section.line()},
                     "section [fluid] belongs to a case without a section [domain]; the case must "
@@ -213,44 +224,33 @@ void read_domain_and_fluid(const TomlSection& root, ParticlesCase& c) {
   c.setting.fluid = read_fluid(section, c.setting.domain);
   // Files of the command are relative to the case file, as all files of a case are.
   auto& command = c.setting.fluid->solver;
-  command =
-      with_absolute_files(std::move(command), std::filesystem::absolute(c.path).parent_path());
+  command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
 }  // namespace
 
-ParticlesCase read_particles_case(const std::filesystem::path& path) {
+ParticlesCase read_particles_case(const fs::path& path) {
   std::string text = read_file(path);
   const auto root = TomlSection::parse(text, path.string());
   return read_particles_case(root, std::move(text), path);
 }
 
-ParticlesCase read_particles_case(const TomlSection& root, std::string text,
-                                  const std::filesystem::path& path) {
+ParticlesCase read_particles_case(const TomlSection& root, std::string text, const fs::path& path) {
   ParticlesCase c;
   c.path = path;
   c.text = std::move(text);
   c.title = root.text("title");
 
-  const auto space = root.section("space");
-  const int dimension = read_dimension(space);
-  c.particles.dimension = dimension;
-  if (space.has("gravity")) c.setting.gravity = read_vector(space, "gravity", dimension);
-  space.finish();
-
+  read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
-  read_contact(root.section("viscous_contact"), c);
-  if (root.has("friction")) read_friction(root.section("friction"), c);
-  if (root.has("solver")) read_solver(root.section("solver"), c.setting.solver);
+  read_keys(root.section("viscous_contact"), contact_keys, c);
+  if (root.has("friction")) read_friction(root.section("friction"), c.setting);
+  if (root.has("solver")) read_keys(root.section("solver"), solver_keys, c.setting.solver);
   c.frame_interval = c.end_time / 100;
-  if (root.has("output")) {
-    const auto output = root.section("output");
-    if (output.has("every")) c.frame_interval = output.number("every", kModeratelyPositive);
-    output.finish();
-  }
+  if (root.has("output")) read_keys(root.section("output"), output_keys, c.frame_interval);
   if (root.has("plane"))
     for (const auto& section : root.sections("plane")) {
-      c.setting.planes.push_back(read_plane(section, dimension, c.end_time));
+      read_keys(section, plane_keys, c.setting.planes.emplace_back(), c);
       check_periods_of_plane(section, c.setting.planes.back(), c.setting.domain);
     }
 
@@ -258,13 +258,13 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
   read_forces_by_id(root, c);
   read_bodies(root, c);
   read_links(root, c);
-  if (c.setting.laws.restitution.is_on() &&
-      !(c.setting.links.hinges.empty() && c.setting.links.arms.empty()))
-    root.section("viscous_contact")
-        .fail("restitution",
-              "must be left out, because the case has hinges or arms, through which a blow would "
-              "pass; bodies and springs may rebound");
-  if (root.has("sweep")) c.sweep = read_particles_sweep(root.section("sweep"));
+  root.section("viscous_contact")
+      .require(!c.setting.laws.restitution.is_on() ||
+                   (c.setting.links.hinges.empty() && c.setting.links.arms.empty()),
+               "restitution",
+               "must be left out, because the case has hinges or arms, through which a blow would "
+               "pass; bodies and springs may rebound");
+  if (root.has("sweep")) read_keys(root.section("sweep"), particles_sweep_keys, c.sweep.emplace());
   root.finish();
   check_start(c, lines);
   if (c.setting.fluid) {
@@ -272,6 +272,47 @@ ParticlesCase read_particles_case(const TomlSection& root, std::string text,
     check_fluid_start(root, c, lines);
   }
   return c;
+}
+
+std::vector<KeyTable> tables_of_particles_case() {
+  const ParticlesCase c;
+  std::vector<KeyTable> tables = {describe_keys("[space]", space_keys),
+                                  describe_keys("[viscous_contact] of particles", contact_keys),
+                                  describe_keys("[friction]", friction_keys),
+                                  describe_keys("[solver]", solver_keys),
+                                  describe_keys("[output]", output_keys),
+                                  describe_keys("[[plane]]", plane_keys, c),
+                                  describe_keys("[sweep] of particles", particles_sweep_keys)};
+  for (auto& more : {domain_and_fluid_tables(), particle_tables(), body_and_link_tables()})
+    tables.insert(tables.end(), more.begin(), more.end());
+  return tables;
+}
+
+ParticlesCaseTemplate::ParticlesCaseTemplate(const fs::path& path)
+    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {}
+
+ParticlesCase ParticlesCaseTemplate::with(
+    std::span<const std::pair<std::string, double>> numbers) const {
+  return read_particles_case(root_.with_numbers(numbers), text_, path_);
+}
+
+std::string ParticlesCaseTemplate::text_with(
+    std::span<const std::pair<std::string, double>> numbers) const {
+  const auto changed = root_.with_numbers(numbers);
+  std::vector<std::pair<std::string, std::string>> paths;
+  const auto folder = fs::absolute(path_).parent_path();
+  if (changed.has("particles")) {
+    const auto section = changed.section("particles");
+    if (section.is_text("file"))
+      paths.emplace_back("particles.file",
+                         (folder / section.text("file")).lexically_normal().string());
+  }
+  if (changed.has("fluid") && changed.section("fluid").has("solver")) {
+    const auto command = with_absolute_files(changed.section("fluid").texts("solver"), folder);
+    for (std::size_t word = 0; word < command.size(); ++word)
+      paths.emplace_back(fmt::format("fluid.solver[{}]", word), command[word]);
+  }
+  return changed.with_texts(paths).as_toml();
 }
 
 }  // namespace viscontact::case_file

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/arrangement/arrangement.hpp"
 #include "viscontact/particles/simulation.hpp"
 
@@ -46,11 +48,39 @@ struct ParticlesCase {
 /// overlap or a particle is on the wrong side of a plane by more than solver.tolerance mean radii;
 /// if a radius is less than a hundred times that length; if a particle is further from the origin
 /// than particles::largest_resolved_distance; or if a particle is outside the domain or touches its
-/// own image in a periodic one. A case with a fluid has further conditions (fluid_start.hpp).
+/// own image in a periodic one. A case with a fluid has further conditions (check_fluid_start() in
+/// particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
 /// The same for a file that is already parsed: `root` is its root table and `text` its content.
 ParticlesCase read_particles_case(const TomlSection& root, std::string text,
                                   const std::filesystem::path& path);
+
+/// What docs/case-file.md says about the keys of each section.
+std::vector<KeyTable> tables_of_particles_case();
+
+/// A case file of many particles that was read, and the cases that differ from it in some numbers.
+class ParticlesCaseTemplate {
+ public:
+  /// Reads and parses the file. Throws Error(kBadInput) if it cannot be read or is not valid TOML.
+  explicit ParticlesCaseTemplate(const std::filesystem::path& path);
+
+  const std::string& text() const { return text_; }  ///< content of the file
+
+  /// The case with these numbers at these keys, such as "arrangement.seed" or
+  /// "particle[0].centre[1]". Throws the errors of read_particles_case, and Error(kBadInput) for a
+  /// key that the case cannot have.
+  ParticlesCase with(std::span<const std::pair<std::string, double>> numbers) const;
+
+  /// The text of a case file with these numbers, which may be in any folder, because the files that
+  /// it names have absolute paths. Equal cases give equal texts, whatever their comments are.
+  /// Throws Error(kBadInput) for a key that the case cannot have.
+  std::string text_with(std::span<const std::pair<std::string, double>> numbers) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string text_;
+  TomlSection root_;
+};
 
 }  // namespace viscontact::case_file

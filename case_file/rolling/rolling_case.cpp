@@ -1,15 +1,12 @@
 // Reads the sections of a case of a rolling sphere, and applies the defaults.
 #include "viscontact/case_file/rolling/rolling_case.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/case_file/sections.hpp"
-#include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/common/error.hpp"
+#include "viscontact/case_file/tabulation_section.hpp"
 #include "viscontact/common/files/file.hpp"
+#include "viscontact/common/named.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 
 namespace viscontact::case_file {
@@ -17,126 +14,147 @@ namespace {
 
 using lubrication::MotionKind;
 
-double number_or(const TomlSection& section, std::string_view key, double fallback,
-                 const Allowed& allowed = kFinite) {
-  return section.has(key) ? section.number(key, allowed) : fallback;
-}
+/// What is read before it becomes a motion and a case: a force as two components, or the weight less
+/// the buoyancy and the angle of the plane, which falls towards +x.
+struct WeightKeys {
+  std::vector<double> force;
+  double weight = 0, incline = 0;
+};
 
-/// Reads `force`, the components along the plane and away from it, or `weight` and `incline`: the
-/// weight less the buoyancy, and the angle of the plane that falls towards +x.
-void read_force_of(const TomlSection& section, reduced_model::RollingMotion& motion) {
+void weight_keys(Keys& keys, WeightKeys& given) {
   constexpr Allowed kAngle = {[](double v) { return std::abs(v) <= 1.6; },
                               "of radians from -1.6 to 1.6"};
-  if (section.has("weight") == section.has("force"))
-    section.fail("force", "or weight must be there, one of the two");
-  if (section.has("weight")) {
-    const double weight = section.number("weight", kFinite);
-    const double incline = number_or(section, "incline", 0, kAngle);
-    motion.force = weight * std::sin(incline);
-    motion.normal_force = -weight * std::cos(incline);
-    return;
-  }
-  if (section.has("incline"))
-    section.fail("incline", "belongs to weight; give weight in place of force");
-  const auto force = section.numbers("force", kFinite);
-  if (force.size() != 2)
-    section.fail("force", fmt::format("has {} numbers; it must have two, along the plane and away "
-                                      "from it",
-                                      force.size()));
-  motion.force = force[0];
-  motion.normal_force = force[1];
+  keys.require(keys.has("weight") != keys.has("force"), "force",
+               "or weight must be there, one of the two");
+  keys.optional("force", numbers(given.force, kFinite, "two numbers"),
+                {"along the plane, and away from it", "from `weight` and `incline`"});
+  keys.require(!keys.has("incline") || keys.has("weight"), "incline",
+               "belongs to weight; give weight in place of force");
+  keys.optional("weight", number(given.weight, kFinite),
+                {"weight less buoyancy, in place of `force`: the force `weight` sin(`incline`) "
+                 "along the plane and -`weight` cos(`incline`) away from it",
+                 "from `force`"});
+  keys.optional("incline", number(given.incline, kAngle), {"angle of the plane"});
+  keys.require(!keys.has("force") || given.force.size() == 2, "force",
+               "has {} numbers; it must have two, along the plane and away from it",
+               given.force.size());
 }
 
-std::vector<std::string> read_models(const TomlSection& section) {
-  std::vector<std::string> all;
-  for (const auto& model : reduced_model::rolling_models()) all.emplace_back(model.name);
-  if (!section.has("models")) return all;
-  auto models = section.texts("models");
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    if (std::ranges::find(all, models[i]) == all.end())
-      section.fail("models", fmt::format("contains '{}'; the models are: {}", models[i],
-                                         fmt::join(all, ", ")));
-    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(i), models[i]) !=
-        models.begin() + static_cast<std::ptrdiff_t>(i))
-      section.fail("models", fmt::format("contains '{}' twice", models[i]));
+/// The names of models, each at most once.
+void read_rolling_models(const TomlSection& section, std::string_view key,
+                         std::vector<std::string>& models) {
+  const auto all = reduced_model::rolling_models();
+  models = section.texts(key);
+  for (auto model = models.begin(); model != models.end(); ++model) {
+    section.require(find_named(all, *model) != nullptr, key, "contains '{}'; the models are: {}",
+                    *model, names_of(all));
+    section.require(std::find(models.begin(), model, *model) == model, key, "contains '{}' twice",
+                    *model);
   }
-  return models;
 }
 
-void read_rolling(const TomlSection& section, RollingCase& c) {
+void rolling_keys(Keys& keys, RollingCase& c) {
   auto& motion = c.motion;
-  motion.initial_gap = section.number("initial_gap", kPositive);
-  motion.normal_velocity = number_or(section, "normal_velocity", 0);
-  motion.velocity = number_or(section, "velocity", 0);
-  motion.angular_velocity = number_or(section, "angular_velocity", 0);
-  read_force_of(section, motion);
-  motion.torque = number_or(section, "torque", 0);
-  motion.plane_velocity = number_or(section, "plane_velocity", 0);
-  motion.roughness = number_or(section, "roughness", 0, kNotNegative);
-  motion.friction = number_or(section, "friction", 0, kNotNegative);
-  motion.end_time = section.number("end_time", kPositive);
-  motion.time_step = section.number("time_step", kPositive);
+  keys.required("initial_gap", number(motion.initial_gap, kPositive),
+                {"gap at the start, at least the roughness"});
+  keys.optional("normal_velocity", number(motion.normal_velocity, kFinite),
+                {"at the start, away from the plane"});
+  keys.optional("velocity", number(motion.velocity, kFinite), {"at the start, along the plane"});
+  keys.optional("angular_velocity", number(motion.angular_velocity, kFinite),
+                {"at the start, about y (> 0 rolls along +x)"});
+  WeightKeys force;
+  weight_keys(keys, force);
+  const bool has_components = force.force.size() == 2;
+  motion.force = has_components ? force.force[0] : force.weight * std::sin(force.incline);
+  motion.normal_force = has_components ? force.force[1] : -force.weight * std::cos(force.incline);
+  keys.optional("torque", number(motion.torque, kFinite), {"about y"});
+  keys.optional("plane_velocity", number(motion.plane_velocity, kFinite),
+                {"of the plane along x; it carries the fluid along"});
+  keys.optional("roughness", number(motion.roughness, kNotNegative),
+                {"gap at which the solids touch, less than the radius"});
+  keys.optional("friction", number(motion.friction, kNotNegative),
+                {"Coulomb's coefficient of the solids"});
+  keys.required("end_time", number(motion.end_time, kPositive), {"end of the motion"});
+  keys.required("time_step", number(motion.time_step, kPositive),
+                {"the step of `viscous_contact`, and the spacing of all rows"});
   constexpr Allowed kOfTolerance = {[](double v) { return v >= 1e-13 && v <= 1e-2; },
                                     "from 1e-13 to 0.01"};
-  motion.relative_tolerance = number_or(section, "relative_tolerance", 1e-9, kOfTolerance);
-  c.models = read_models(section);
-  section.finish();
-  if (motion.roughness >= c.radius)
-    section.fail("roughness", fmt::format("is {}; it must be less than the sphere's radius, {}",
-                                          motion.roughness, c.radius));
-  if (motion.initial_gap < motion.roughness)
-    section.fail("initial_gap", fmt::format("is {}; it must be at least the roughness, {}",
-                                            motion.initial_gap, motion.roughness));
-  if (motion.time_step > motion.end_time)
-    section.fail("time_step", fmt::format("is {}; it must be at most end_time, {}",
-                                          motion.time_step, motion.end_time));
+  keys.optional("relative_tolerance", number(motion.relative_tolerance, kOfTolerance),
+                {"of CVODE"});
+  keys.optional(
+      "models",
+      custom("a list of `smooth`, `rough`, `viscous_contact`", read_rolling_models, c.models),
+      {"the models that are run", "all"});
+}
+
+void check_rolling(const TomlSection& section, const RollingCase& c) {
+  const auto& motion = c.motion;
+  section.require(motion.roughness < c.radius, "roughness",
+                  "is {}; it must be less than the sphere's radius, {}", motion.roughness,
+                  c.radius);
+  section.require(motion.initial_gap >= motion.roughness, "initial_gap",
+                  "is {}; it must be at least the roughness, {}", motion.initial_gap,
+                  motion.roughness);
+  section.require(motion.time_step <= motion.end_time, "time_step",
+                  "is {}; it must be at most end_time, {}", motion.time_step, motion.end_time);
 }
 
 void check_tabulation(const TomlSection& section, const freefem_axi::Tabulation& tabulation) {
-  if (tabulation.geometry != freefem_axi::default_geometry().name)
-    section.fail("geometry", fmt::format("is {}; a sphere rolls on a plane", tabulation.geometry));
+  section.require(tabulation.geometry == freefem_axi::default_geometry().name, "geometry",
+                  "is {}; a sphere rolls on a plane", tabulation.geometry);
   for (const auto motion : {MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll})
-    if (std::ranges::find(tabulation.motions, motion) == tabulation.motions.end())
-      section.fail("motion", fmt::format("lacks {}; a sphere that rolls needs approach, slide and "
-                                         "roll",
-                                         to_string(motion)));
+    section.require(std::ranges::count(tabulation.motions, motion) > 0, "motion",
+                    "lacks {}; a sphere that rolls needs approach, slide and roll",
+                    to_string(motion));
+}
+
+void rolling_sphere_keys(Keys& keys, RollingCase& c) {
+  keys.required("radius", number(c.radius, kPositive), {"radius r of the sphere"});
+  keys.required("mass", number(c.motion.mass, kPositive), {"mass m of the sphere"});
+  c.motion.moment_of_inertia = 0.4 * c.motion.mass * c.radius * c.radius;
+  keys.optional("moment_of_inertia", number(c.motion.moment_of_inertia, kPositive),
+                {"about an axis through the centre", "2 m r²/5"});
+}
+
+void pair_fit_keys(Keys& keys, RollingCase& c) {
+  std::string file;
+  keys.required("file", text(file),
+                {"fit of a pair (JSON) beside a plane, with the radius of the sphere; its "
+                 "viscosity may be another one"});
+  c.fit = c.path.parent_path() / file;
 }
 
 }  // namespace
-
-bool is_rolling_case(const std::filesystem::path& path) {
-  return TomlSection::parse(read_file(path), path.string()).has("rolling");
-}
 
 RollingCase read_rolling_case(const std::filesystem::path& path) {
   RollingCase c;
   c.text = read_file(path);
   c.path = path;
+  for (const auto& model : reduced_model::rolling_models()) c.models.emplace_back(model.name);
   const auto root = TomlSection::parse(c.text, path.string());
   c.title = root.has("title") ? root.text("title") : "";
-  const auto fluid = root.section("fluid");
-  c.viscosity = fluid.number("viscosity", kPositive);
-  fluid.finish();
-  const auto sphere = root.section("sphere");
-  c.radius = sphere.number("radius", kPositive);
-  c.motion.mass = sphere.number("mass", kPositive);
-  c.motion.moment_of_inertia =
-      number_or(sphere, "moment_of_inertia", 0.4 * c.motion.mass * c.radius * c.radius, kPositive);
-  sphere.finish();
-  read_rolling(root.section("rolling"), c);
-  if (root.has("tabulation") == root.has("fit"))
-    root.fail("tabulation", "or fit must be there, one of the two");
+  read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
+  read_keys(root.section("sphere"), rolling_sphere_keys, c);
+  const auto rolling = root.section("rolling");
+  read_keys(rolling, rolling_keys, c);
+  check_rolling(rolling, c);
+  root.require(root.has("tabulation") != root.has("fit"), "tabulation",
+               "or fit must be there, one of the two");
   if (root.has("tabulation")) {
     const auto section = root.section("tabulation");
     c.tabulation = read_tabulation(section, c.viscosity, c.radius);
     check_tabulation(section, *c.tabulation);
   } else {
-    const auto section = root.section("fit");
-    c.fit = path.parent_path() / section.text("file");
-    section.finish();
+    read_keys(root.section("fit"), pair_fit_keys, c);
   }
   root.finish();
   return c;
+}
+
+std::vector<KeyTable> tables_of_rolling_case() {
+  return {describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys),
+          describe_keys("[rolling]", rolling_keys),
+          describe_keys("[fit] of a rolling sphere", pair_fit_keys)};
 }
 
 }  // namespace viscontact::case_file

@@ -1,6 +1,6 @@
 // The case of a sphere that moves along a plane and turns (TOML, docs/case-file.md). Lengths,
-// masses and times are in any one consistent system of units. A new key needs an entry in
-// docs/case-file.md.
+// masses and times are in any one consistent system of units. Keys are
+// declared in rolling_case.cpp (keys.hpp).
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 #include "viscontact/reduced_model/rolling/rolling_motion.hpp"
 
@@ -29,12 +30,12 @@ struct RollingCase {
   std::filesystem::path path;  ///< the case file
 };
 
-/// True if the file has the section [rolling]. Throws Error(kBadInput) if it cannot be read or is
-/// not valid TOML.
-bool is_rolling_case(const std::filesystem::path& path);
-
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
+
+/// What docs/case-file.md says about the keys of each section that only this kind of case has, or
+/// has with other keys.
+std::vector<KeyTable> tables_of_rolling_case();
 
 }  // namespace viscontact::case_file

@@ -1,6 +1,6 @@
 // The case of a swimmer (TOML, docs/case-file.md): spheres on a line, the table of their resistance
 // matrices, and the strokes that are computed with it. Lengths, masses and times are in any one
-// consistent system of units. A new key needs an entry in docs/case-file.md.
+// consistent system of units. Keys are declared in swimmer_case.cpp (keys.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/collinear_spheres.hpp"
 #include "viscontact/reduced_model/swimmer/optimal_stroke.hpp"
 #include "viscontact/reduced_model/swimmer/stroke.hpp"
@@ -36,13 +36,12 @@ struct SwimmerCase {
   std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
 };
 
-/// True if the file is a case of a swimmer: it has the section [swimmer]. Throws Error(kBadInput) if
-/// it cannot be read or is not valid TOML.
-bool is_swimmer_case(const std::filesystem::path& path);
-
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its value
 /// and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
+
+/// What docs/case-file.md says about the keys of each section.
+std::vector<KeyTable> tables_of_swimmer_case();
 
 /// A case that is read once, and from which many cases with other numbers are made, for a sweep.
 class SwimmerCaseTemplate {

@@ -241,7 +241,8 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
   std::vector<CaseTable> tables;
   for (const auto& file : case_files) {
     const auto name = name_of(file), csv = csv_of(file);
-    if (case_file::is_swimmer_case(file)) {
+    const auto kind = case_file::kind_of_case(file);
+    if (kind == case_file::CaseKind::kSwimmer) {
       if (!motions.empty())
         throw Error(ErrorKind::kWrongUsage,
                     fmt::format("--motion: {} is a case of a swimmer, whose spheres move along "
@@ -251,7 +252,7 @@ std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_fil
       continue;
     }
     auto tabulation =
-        case_file::is_rolling_case(file)
+        kind == case_file::CaseKind::kRolling
             ? case_file::read_rolling_case(file).tabulation
             : std::optional(case_file::required_tabulation(case_file::read_case(file)));
     if (!tabulation)

@@ -16,7 +16,9 @@ inline constexpr ModelParameter kRelativeTolerance = {
     "relative tolerance of the gap in inertial",
     "1",
     {[](double v) { return v >= 1e-13 && v <= 1e-2; }, "between 1e-13 and 1e-2"},
-    [](const Motion&, double) { return 1e-9; }};
+    [](const Motion&, double) { return 1e-9; },
+    false,
+    "1e-9"};
 /// The parameters of inertial().
 inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelativeTolerance};
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/case_file/particles/particles_template.hpp"
+#include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/sweep/rows.hpp"
 #include "viscontact/sweep/variation.hpp"

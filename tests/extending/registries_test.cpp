@@ -67,10 +67,9 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // sections of a case of particles
                   Found("case_file/particles/particles_case.cpp", "viscous_contact"),
                   Found("case_file/particles/particles_case.cpp", "plane"),
-                  Found("case_file/fluid/fluid_start.cpp", "viscous_contact"),
+                  Found("case_file/particles/start_checks.cpp", "viscous_contact"),
                   // obstacles in words
-                  Found("case_file/particles/particles_start.cpp", "plane"),
-                  Found("case_file/fluid/fluid_start.cpp", "plane"),
+                  Found("case_file/particles/start_checks.cpp", "plane"),
                   Found("particles/step_residuals.cpp", "plane"),
                   // a key in the head of a file of a sweep
                   Found("sweep/sweep.cpp", "reference"),
@@ -79,7 +78,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // the body in words
                   Found("report/particles/particles_page.cpp", "sphere"),
                   // what a legend numbers
-                  Found("report/swimmer/swimmer_page.cpp", "sphere"),
+                  Found("report/swimmer/swimmer_plots.cpp", "sphere"),
                   // bases of pairs, two of which are named bases
                   Found("lubrication/motions/pair_fit.cpp", "asymptotic"),
                   Found("lubrication/motions/pair_fit.cpp", "asymptotic_extended"),

@@ -7,8 +7,7 @@
 
 #include "viscontact/app/commands/commands.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
-#include "viscontact/case_file/particles/particles_template.hpp"
-#include "viscontact/case_file/swimmer/swimmer_case.hpp"
+#include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
 
@@ -32,9 +31,10 @@ void run_sweep(const SweepOptions& o) {
   check_models("--models", o.models);
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   check_picture(o.plot);
-  if (case_file::is_particles_case(o.case_file))
+  const auto kind = case_file::kind_of_case(o.case_file);
+  if (kind == case_file::CaseKind::kParticles)
     sweep_many_particles(o);
-  else if (case_file::is_swimmer_case(o.case_file))
+  else if (kind == case_file::CaseKind::kSwimmer)
     sweep_swimmer(o);
   else
     sweep_sphere(o);

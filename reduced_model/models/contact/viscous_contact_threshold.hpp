@@ -11,8 +11,13 @@ namespace viscontact::reduced_model {
 
 /// Gap q_c [L] at which the model makes contact.
 inline constexpr ModelParameter kThresholdGap = {
-    "viscous_contact.threshold_gap", "threshold gap", "L", kPositive,
-    [](const Motion& motion, double radius) { return std::min(radius, motion.initial_gap) / 10; }};
+    "viscous_contact.threshold_gap",
+    "threshold gap",
+    "L",
+    kPositive,
+    [](const Motion& motion, double radius) { return std::min(radius, motion.initial_gap) / 10; },
+    false,
+    "a tenth of the smaller of radius and `initial_gap`"};
 /// The parameters of viscous_contact_threshold().
 inline constexpr std::array kThresholdParameters = {kContactTimeStep, kThresholdGap, kRestitution};
 

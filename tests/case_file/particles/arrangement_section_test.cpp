@@ -1,12 +1,11 @@
 // The section [arrangement]: which discs it adds, its defaults, and what it refuses.
-#include "viscontact/case_file/particles/arrangement_section.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/case_file/fluid/fluid_cases.hpp"
 #include "tests/common/failure.hpp"
+#include "viscontact/case_file/particles/particles_sections.hpp"
 
 namespace viscontact::case_file {
 namespace {
@@ -26,8 +25,12 @@ const Domain kBox = BoxDomain{{0, 0}, {20, 10}, {true, false}};
 Particles read(const std::string& keys, const Domain& domain = kBox, bool has_fluid = false,
                Particles p = {}) {
   const auto root = TomlSection::parse("\n[arrangement]\n" + keys, "case.toml");
-  read_arrangement(root.section("arrangement"), domain, has_fluid, p);
-  return p;
+  ParticlesCase c;
+  c.particles = std::move(p);
+  c.setting.domain = domain;
+  if (has_fluid) c.setting.fluid.emplace();
+  read_particles_of_case(root, c);
+  return c.particles;
 }
 
 TEST(ArrangementSection, AddsDiscsAtRest) {

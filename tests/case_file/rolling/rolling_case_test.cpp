@@ -33,7 +33,7 @@ class RollingCaseFile : public ::testing::Test {
 
 TEST_F(RollingCaseFile, ShippedOneHasTheWeightAlongAndTowardsThePlane) {
   const auto c = read_rolling_case(kIncline);
-  EXPECT_TRUE(is_rolling_case(kIncline));
+  EXPECT_EQ(kind_of_case(kIncline), CaseKind::kRolling);
   EXPECT_EQ(c.radius, 1);
   EXPECT_EQ(c.motion.mass, 0.1);
   EXPECT_DOUBLE_EQ(c.motion.moment_of_inertia, 0.04);  // of a solid sphere, 2/5 m r^2

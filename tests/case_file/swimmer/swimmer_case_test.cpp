@@ -34,7 +34,7 @@ class SwimmerCaseFile : public ::testing::Test {
 
 TEST_F(SwimmerCaseFile, ShippedOneHasTheArmsAndStrokesThatItSays) {
   const auto c = read_swimmer_case(kCase);
-  EXPECT_TRUE(is_swimmer_case(kCase));
+  EXPECT_EQ(kind_of_case(kCase), CaseKind::kSwimmer);
   EXPECT_EQ(c.title, "Three spheres");
   EXPECT_EQ(c.spheres.viscosity, 1);
   EXPECT_THAT(c.spheres.radii, ElementsAre(1, 1, 1));

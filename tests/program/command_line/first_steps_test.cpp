@@ -42,8 +42,7 @@ TEST_F(FirstSteps, InitWritesACaseThatRuns) {
   EXPECT_TRUE(c.tabulation && c.fit && c.motion);
   // Its motion, with a drag that needs no FreeFEM.
   const auto text = read_file(path("mine.toml"));
-  put_text(path("exact.toml"),
-           replaced_matches(text, "\nbasis = [^\n]*\nweights = [^\n]*", "\nexact = \"plane\""));
+  put_text(path("exact.toml"), replaced(text, "\n# exact = ", "\nexact = "));
   expect_done(run_viscontact({"run", path("exact.toml"), "-o", path("run")}));
 }
 
@@ -55,7 +54,7 @@ TEST_F(FirstSteps, WhatInitCommentsOutIsRightToo) {
     put_text(path("one.toml"), replaced(text, "\n# " + key, "\n" + key));
     EXPECT_NO_THROW(case_file::read_case(path("one.toml"))) << key;
   }
-  EXPECT_EQ(keys.size(), 6U);  // geometry, loss, below, above, rows, models
+  EXPECT_GT(keys.size(), 15U);  // every optional key of the sections that it has
 }
 
 TEST_F(FirstSteps, InitReplacesNothing) {

@@ -1,12 +1,11 @@
-// Readers of vectors and of piecewise constant vectors, which several sections of a case of many
-// particles share. Lengths, masses and times are in the units of the case.
+// Readers of vectors and of piecewise constant vectors, and keys with such values, for the sections
+// of a case of many particles. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <cmath>
 #include <string_view>
 
-#include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/common/allowed.hpp"
+#include "viscontact/case_file/keys.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/vector.hpp"
 
@@ -28,15 +27,19 @@ inline constexpr Allowed kModeratelyPositiveOr0 = {
 
 /// Reads an array with one number for each dimension of space. In a case with dimension 1 a number
 /// without brackets is read, too.
-particles::Vector read_vector(const TomlSection& section, std::string_view key, int dimension);
+void read_vector(const TomlSection& section, std::string_view key, particles::Vector& place,
+                 int dimension);
 
-/// Reads a constant vector, or pieces { until, value } that must last until `end_time` [T].
-particles::PiecewiseConstant read_pieces(const TomlSection& section, std::string_view key,
-                                         int dimension, double end_time);
+// Values of keys (keys.hpp). They refer to their arguments.
 
-/// Reads a constant number, or pieces { until, value } of numbers that must last until `end_time`
-/// [T]. The number is component 2 of the vectors, as for a torque or an angular velocity of a disc.
-particles::PiecewiseConstant read_pieces_of_numbers(const TomlSection& section,
-                                                    std::string_view key, double end_time);
+/// A vector, read by read_vector().
+KeyValue vector(particles::Vector& place, const int& dimension);
+/// A constant vector, or pieces { until, value } that must last until `end_time` [T].
+KeyValue pieces(particles::PiecewiseConstant& place, const int& dimension, const double& end_time);
+/// What turns: for discs a number, which becomes component 2, for spheres a vector.
+KeyValue turn(particles::Vector& place, const int& dimension);
+/// The same, or pieces of it.
+KeyValue pieces_of_turn(particles::PiecewiseConstant& place, const int& dimension,
+                        const double& end_time);
 
 }  // namespace viscontact::case_file

@@ -1,0 +1,230 @@
+// Declarations of the keys of a case file. A function with a Keys object as its first argument
+// declares the keys of a section, each once: name, place in a struct, allowed values, default and
+// meaning. The same function reads the section of a case, with the errors of TomlSection, and
+// describes it for the tables of docs/case-file.md and for `viscontact init`:
+//
+//     void solver_keys(Keys& keys, SolverSettings& settings) {
+//       keys.optional("tolerance", number(settings.tolerance, kTolerance), {"tolerance of the gaps"});
+//     }
+//     read_keys(root.section("solver"), solver_keys, settings);
+//     describe_keys("[solver]", solver_keys);
+//
+// Keys have the units of the case. After a change of a declaration the tables of the page must be
+// made again; the test CaseFilePage makes them and says where.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "viscontact/case_file/toml_section.hpp"
+#include "viscontact/common/allowed.hpp"
+#include "viscontact/common/error.hpp"
+
+namespace viscontact::case_file {
+
+/// Calls `check`, with which another part of the program tests the value of `key`. If it throws an
+/// Error, throws one that also names the key and its line in the case file.
+template <class Check>
+auto at_key(const TomlSection& section, std::string_view key, const Check& check)
+    -> decltype(auto) {
+  try {
+    return check();
+  } catch (const Error& error) {
+    section.fail(key, fmt::format("is not accepted: {}", error.what()));
+  }
+}
+
+/// What the tables of docs/case-file.md say about a section.
+struct KeyTable {
+  /// What they say about a key, in Markdown.
+  struct Row {
+    std::string key;       ///< its name
+    std::string value;     ///< which values are allowed
+    std::string fallback;  ///< its default, or "required"
+    std::string meaning;   ///< what it does
+    std::string example;   ///< a value for `viscontact init`; empty: none
+  };
+  std::string section;    ///< such as "[solver]" or "[[plane]]"
+  std::vector<Row> rows;  ///< in the order of the declarations
+
+  /// The rows as a table in Markdown.
+  std::string markdown() const;
+};
+
+/// A case with these sections that explains itself: each key is an example, under a comment with its
+/// meaning. Keys with a default are commented out. Sections that lack an example of a required key
+/// are left out, and so are tables of keys within a value.
+std::string commented_case(std::span<const KeyTable> tables);
+
+/// What a declaration says about a key in words, in Markdown.
+struct Help {
+  std::string_view meaning = {};   ///< what the key does
+  std::string_view fallback = {};  ///< the default, if it is not that of the struct
+  std::string_view value = {};     ///< the allowed values, if those of the type do not say it all
+  std::string_view example = {};   ///< for `viscontact init`, if it is not the default
+};
+
+/// The value of a key. It refers to the place into which it reads.
+struct KeyValue {
+  /// Reads the value of a key that the section has.
+  std::function<void(const TomlSection& section, std::string_view key)> read;
+  std::function<std::string()> words;  ///< which values are allowed, in Markdown
+  /// The value that the place has now, which is the default, in Markdown; empty: none.
+  std::function<std::string()> fallback = [] { return std::string(); };
+};
+
+/// The visitor of declarations. It either reads the keys of a section, or describes them.
+class Keys {
+ public:
+  explicit Keys(const TomlSection& section) : section_(&section) {}  ///< reads this section
+  explicit Keys(KeyTable& table) : table_(&table) {}                 ///< adds rows to this table
+
+  bool reads() const { return section_ != nullptr; }        ///< false: describes
+  const TomlSection& section() const { return *section_; }  ///< only if it reads
+  /// True if it reads and the section has the key.
+  bool has(std::string_view key) const { return reads() && section_->has(key); }
+
+  /// Declares a key that a case must have.
+  void required(std::string_view key, const KeyValue& value, const Help& help);
+  /// Declares a key that a case may have. Without it the place keeps the value that it has. Returns
+  /// true if it was read.
+  bool optional(std::string_view key, const KeyValue& value, const Help& help);
+  /// Declares a key that the case must have if the condition is true.
+  void required_if(bool condition, std::string_view key, const KeyValue& value, const Help& help);
+
+  /// Throws the error of TomlSection::require, if it reads and the condition is false.
+  template <class... Arguments>
+  void require(bool condition, std::string_view key, fmt::format_string<Arguments...> what,
+               Arguments&&... arguments) const {
+    if (reads()) section_->require(condition, key, what, std::forward<Arguments>(arguments)...);
+  }
+
+ private:
+  void describe(std::string_view key, const KeyValue& value, std::string fallback,
+                const Help& help);
+
+  const TomlSection* section_ = nullptr;
+  KeyTable* table_ = nullptr;
+};
+
+/// Reads a section by its declaration. All its other keys are errors.
+template <class Declaration, class... Places>
+void read_keys(const TomlSection& section, const Declaration& declaration, Places&&... places) {
+  Keys keys(section);
+  declaration(keys, places...);
+  section.finish();
+}
+
+/// Describes a section by its declaration, whose first place is new and has the defaults; `more` are
+/// its other places.
+template <class Place, class... More>
+KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
+                       std::type_identity_t<More>... more) {
+  KeyTable table{std::move(section), {}};
+  Keys keys(table);
+  Place place{};
+  declaration(keys, place, more...);
+  return table;
+}
+
+/// A whole number that may be greater than the largest int.
+inline constexpr Allowed kWholeNumber = {
+    [](double v) { return v >= 1 && v <= 1e12 && v == std::floor(v); },
+    "from 1 to 1e12 without a fraction"};
+
+/// A number between 0 and 1, such as an accuracy.
+inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "between 0 and 1"};
+
+/// A number as text for the tables, such as "1e-6".
+std::string number_in_words(double number);
+
+// Values of keys. They refer to their arguments, which must live until the declaration of the key is
+// done.
+
+/// A value with a reader and words of its own. `read` is called with the section, the key and the
+/// places.
+template <class Read, class... Places>
+KeyValue custom(std::string_view words, Read read, Places&... places) {
+  return {[read, &places...](const TomlSection& section, std::string_view key) {
+            read(section, key, places...);
+          },
+          [words] { return std::string(words); }};
+}
+
+/// A number. `place` is a double, an optional one, which has no default, or a whole number.
+template <class Place>
+KeyValue number(Place& place, const Allowed& allowed) {
+  return {[&](const TomlSection& section, std::string_view key) {
+            place = static_cast<Place>(section.number(key, allowed));
+          },
+          [&] { return &allowed == &kFinite ? "a number" : std::string(allowed.words); },
+          [&] {
+            if constexpr (std::is_arithmetic_v<Place>)
+              return number_in_words(static_cast<double>(place));
+            return std::string();
+          }};
+}
+
+/// A whole number in [least, most].
+template <class Place>
+KeyValue count(Place& place, int least, int most) {
+  return {[&place, least, most](const TomlSection& section, std::string_view key) {
+            place = static_cast<Place>(section.count(key, least, most));
+          },
+          [=] { return fmt::format("whole number from {} to {}", least, most); },
+          [&place] { return fmt::format("{}", place); }};
+}
+
+/// A text.
+KeyValue text(std::string& place);
+/// A list of at least one text.
+KeyValue texts(std::vector<std::string>& place);
+/// A list of at least one number.
+KeyValue numbers(std::vector<double>& place, const Allowed& allowed, std::string_view words);
+
+/// A text that `parse` turns into the value, or refuses with an Error.
+template <class Place, class Parse>
+KeyValue parsed(std::string_view words, Place& place, const Parse& parse) {
+  return custom(words, [&place, parse](const TomlSection& section, std::string_view key) {
+    const auto text = section.text(key);
+    place = at_key(section, key, [&] { return parse(text); });
+  });
+}
+
+/// One of some words, each with its meaning.
+template <class Meaning>
+KeyValue one_of(Meaning& place, std::initializer_list<std::pair<std::string_view, Meaning>> words) {
+  using Word = std::pair<std::string_view, Meaning>;
+  const std::span<const Word> allowed(words.begin(), words.size());
+  const auto joined = [allowed](std::string_view between) {
+    std::string text;
+    for (const auto& [word, meaning] : allowed)
+      text += fmt::format("{}\"{}\"", text.empty() ? "" : between, word);
+    return text;
+  };
+  return {[=, &place](const TomlSection& section, std::string_view key) {
+            const auto text = section.text(key);
+            const auto found = std::ranges::find(allowed, text, &Word::first);
+            section.require(found != allowed.end(), key, "is '{}'; it must be {}", text,
+                            joined(" or "));
+            place = found->second;
+          },
+          [=] { return "`" + joined("`, `") + "`"; },
+          [=, &place] {
+            const auto found = std::ranges::find(allowed, place, &Word::second);
+            return found == allowed.end() ? "" : fmt::format("`\"{}\"`", found->first);
+          }};
+}
+
+/// The section [fluid] of a case of spheres without other particles.
+void viscosity_keys(Keys& keys, double& viscosity);
+
+}  // namespace viscontact::case_file
