@@ -186,11 +186,15 @@ int measure(int rows, std::uint64_t seed) {
       const auto solved = solve(freefem, row);
       if (solved.ratio && *solved.ratio > 1)
         fmt::print("  error {:.2f} times its estimate, {}\n", *solved.ratio, in_words(row));
+      const double asked = row.tabulation.relative_accuracy;
+      if (solved.estimate > asked)
+        fmt::print("  estimate {:.2g} times what was asked, {}\n", solved.estimate / asked,
+                   in_words(row));
       if (all.seconds.empty() || solved.seconds > std::ranges::max(all.seconds))
         fmt::print("  row {} took {:.1f} s, {}\n", n, solved.seconds, in_words(row));
       for (Sums* to : {&sums, &all}) {
         if (solved.ratio) to->ratios.push_back(*solved.ratio);
-        to->estimates.push_back(solved.estimate / row.tabulation.relative_accuracy);
+        to->estimates.push_back(solved.estimate / asked);
         to->mismatches.push_back(solved.mismatch);
         to->seconds.push_back(solved.seconds);
       }

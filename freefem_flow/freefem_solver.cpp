@@ -4,19 +4,187 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/freefem/freefem_command.hpp"
+#include "viscontact/freefem_flow/boundary/edge_lengths.hpp"
 #include "viscontact/freefem_flow/mesh_boundary.hpp"
-#include "viscontact/freefem_flow/scaled_solver.hpp"
+#include "viscontact/particles/fluid.hpp"
+#include "viscontact/particles/fluid/fluid_solver.hpp"
 
 namespace viscontact::freefem_flow {
 namespace {
+
+/// The units in which the solver computes: in them the smallest particle has a radius and the fluid
+/// a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes. The unit of time
+/// is that of the case.
+struct SolverUnits {
+  double length = 1;     ///< [L], > 0
+  double viscosity = 1;  ///< [M/(L T)], > 0
+};
+
+/// `radii` of all particles [L]; without particles the size of the domain takes their place.
+SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
+                         std::span<const double> radii);
+
+/// The fluid with its numbers in the units of the solver.
+particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units);
+/// The domain with its lengths and velocities in the units of the solver.
+particles::Domain in_units(particles::Domain domain, const SolverUnits& units);
+/// The lengths [L] in the unit of the solver.
+std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units);
+
+/// Passes questions in the units of the case to a solver in units of its own.
+class ScaledSolver : public particles::FluidSolver {
+ public:
+  /// `dimension`: 2 in the plane, 1 on the axis of a cylinder.
+  ScaledSolver(const SolverUnits& units, int dimension,
+               std::unique_ptr<particles::FluidSolver> solver);
+
+  // Arguments and results are in the units of the case. The errors are those of FluidSolver.
+
+  /// Takes new places of the particles.
+  void place(const particles::FluidParticles& bodies) override;
+  /// The velocities under `forces`; with `driving`, walls and driven particles move.
+  std::vector<double> velocities(std::span<const double> forces, bool driving) override;
+  /// Quantities of the last velocities(forces, true).
+  particles::FlowQuantities quantities() override;
+  /// Takes another penalty; see FluidSolver.
+  double vary_penalty() override { return solver_->vary_penalty(); }
+  /// Takes a second mesh; see FluidSolver.
+  particles::SecondMesh vary_mesh() override { return solver_->vary_mesh(); }
+  /// Velocity and pressure of the last velocities(forces, true).
+  particles::FlowField flow() override;
+  /// Number of unknowns of the last mesh; 0 if the solver does not say.
+  std::size_t unknowns() const override { return solver_->unknowns(); }
+  /// The largest resident memory of the solver so far [MiB]; 0 if it is no process of its own.
+  double peak_memory_mebibytes() const override { return solver_->peak_memory_mebibytes(); }
+
+ private:
+  /// Forces and torques in the units of the solver.
+  std::vector<double> scaled_forces(std::span<const double> forces) const;
+  void unscale_velocities(std::vector<double>& velocities) const;
+
+  SolverUnits units_;
+  std::size_t components_;
+  // The units of the components of a particle's motion, and of forces and torques on it.
+  std::array<double, 3> velocity_units_{}, force_units_{};
+  double power_unit_ = 1;  ///< unit of the dissipation
+  std::unique_ptr<particles::FluidSolver> solver_;
+};
+
+/// The power of 2 that is nearest to a number > 0.
+double power_of_2(double number) { return std::exp2(std::round(std::log2(number))); }
+
+SolverUnits solver_units(const particles::Fluid& fluid, const particles::Domain& domain,
+                         std::span<const double> radii) {
+  const double length = radii.empty() ? size_of(domain) : std::ranges::min(radii);
+  return {power_of_2(length), power_of_2(fluid.viscosity)};
+}
+
+particles::Fluid in_units(particles::Fluid fluid, const SolverUnits& units) {
+  fluid.viscosity /= units.viscosity;
+  fluid.threshold_gap /= units.length;
+  if (auto* sides = std::get_if<particles::SideVelocities>(&fluid.boundary))
+    for (auto& side : *sides)
+      for (auto& component : side.value) component /= units.length;
+  return fluid;
+}
+
+particles::Domain in_units(particles::Domain domain, const SolverUnits& units) {
+  const double unit = units.length;
+  if (auto* disc = std::get_if<particles::DiscDomain>(&domain)) {
+    for (auto& x : disc->centre) x /= unit;
+    disc->radius /= unit;
+  } else if (auto* box = std::get_if<particles::BoxDomain>(&domain)) {
+    for (auto* corner : {&box->from, &box->to})
+      for (auto& x : *corner) x /= unit;
+  } else if (auto* cylinder = std::get_if<particles::CylinderDomain>(&domain)) {
+    cylinder->radius /= unit;
+    cylinder->height /= unit;
+  }
+  return domain;
+}
+
+std::vector<double> in_units(std::span<const double> lengths, const SolverUnits& units) {
+  std::vector<double> scaled(lengths.begin(), lengths.end());
+  for (auto& length : scaled) length /= units.length;
+  return scaled;
+}
+
+ScaledSolver::ScaledSolver(const SolverUnits& units, int dimension,
+                           std::unique_ptr<particles::FluidSolver> solver)
+    : units_(units),
+      components_(particles::motion_components(dimension)),
+      solver_(std::move(solver)) {
+  // In the plane forces and powers are per unit length of the third dimension.
+  const double length = units.length, force = units.viscosity * length;
+  if (components_ == 3) {
+    velocity_units_ = {length, length, 1};
+    force_units_ = {force, force, force * length};
+    power_unit_ = force * length;
+  } else {
+    velocity_units_ = {length, 0, 0};
+    force_units_ = {force * length, 0, 0};
+    power_unit_ = force * length * length;
+  }
+}
+
+void ScaledSolver::place(const particles::FluidParticles& bodies) {
+  particles::Particles scaled;
+  scaled.dimension = bodies.particles->dimension;
+  scaled.positions = in_units(bodies.particles->positions, units_);
+  scaled.radii = in_units(bodies.particles->radii, units_);
+  std::vector<double> inertia(bodies.inertia.begin(), bodies.inertia.end());
+  for (std::size_t i = 0; i < inertia.size(); ++i)
+    inertia[i] *= velocity_units_[i % components_] / force_units_[i % components_];
+  auto driven = bodies.driven;
+  for (auto& [particle, motion] : driven)
+    for (std::size_t c = 0; c < components_; ++c) motion[c] /= velocity_units_[c];
+  solver_->place({&scaled, bodies.angles, std::move(driven), inertia});
+}
+
+std::vector<double> ScaledSolver::scaled_forces(std::span<const double> forces) const {
+  std::vector<double> scaled(forces.begin(), forces.end());
+  for (std::size_t i = 0; i < scaled.size(); ++i) scaled[i] /= force_units_[i % components_];
+  return scaled;
+}
+
+void ScaledSolver::unscale_velocities(std::vector<double>& velocities) const {
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    velocities[i] *= velocity_units_[i % components_];
+}
+
+std::vector<double> ScaledSolver::velocities(std::span<const double> forces, bool driving) {
+  auto velocities = solver_->velocities(scaled_forces(forces), driving);
+  unscale_velocities(velocities);
+  return velocities;
+}
+
+particles::FlowQuantities ScaledSolver::quantities() {
+  auto quantities = solver_->quantities();
+  quantities.dissipation *= power_unit_;
+  for (std::size_t i = 0; i < quantities.fluid_forces.size(); ++i)
+    quantities.fluid_forces[i] *= force_units_[i % components_];
+  return quantities;
+}
+
+particles::FlowField ScaledSolver::flow() {
+  auto field = solver_->flow();
+  for (auto* lengths : {&field.x, &field.y, &field.velocity_x, &field.velocity_y})
+    for (auto& value : *lengths) value *= units_.length;
+  for (auto& pressure : field.pressure) pressure *= units_.viscosity;
+  return field;
+}
 
 std::string script_of(particles::FluidMesh mesh, int dimension) {
   const std::string bodies = dimension == 1 ? "spheres" : "discs";

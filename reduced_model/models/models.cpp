@@ -13,18 +13,63 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/models/contact/inelastic_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_exact.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_regular_drag.hpp"
 #include "viscontact/reduced_model/models/contact/viscous_contact_threshold.hpp"
-#include "viscontact/reduced_model/models/explicit_euler.hpp"
 #include "viscontact/reduced_model/models/inertial.hpp"
 #include "viscontact/reduced_model/models/reference.hpp"
 #include "viscontact/reduced_model/models/reference_exact.hpp"
+#include "viscontact/reduced_model/motion.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
 
 namespace viscontact::reduced_model {
 namespace {
+
+/// Problem (M) (physics.md (4.1)) by explicit Euler in q and u, with h = viscous_contact.time_step:
+///
+///     m (u^{n+1} - u^n)/h = -R(q^n) u^n + f^n,     q^{n+1} = q^n + h u^n.
+///
+/// The film damps at the rate R/m, which grows without bound as q falls. As soon as h R(q)/m > 2,
+/// the velocity changes its sign at each step and grows, and the sphere goes through the wall,
+/// although (M) has no contact in finite time by the first integral (4.2). The trajectory ends with
+/// a row of gap 0 where the sphere goes through the wall, or at the end of the motion. Throws
+/// Error(kBadInput) if the motion leaves the fit's interval.
+Trajectory simulate_explicit_euler(const Motion& motion,
+                                   const lubrication::LubricationForce& force);
+
+Trajectory simulate_explicit_euler(const Motion& motion,
+                                   const lubrication::LubricationForce& force) {
+  const double end = motion.end_time;
+  const double step = motion.parameter(kContactTimeStep);
+  const int steps = step_count(end, step);
+  Trajectory trajectory;
+  double q = motion.initial_gap;
+  double u = motion.initial_velocity;
+  for (int n = 0;; ++n) {
+    const double t = step_time(n, steps, end, step);
+    if (n % kStepsBetweenProgressReports == 0) report_progress(motion, t);
+    const double drag = -force.resistance(q) * u;
+    trajectory.rows.push_back({t, q, u, drag, motion.external_force.value(t), {}});
+    if (n == steps) break;
+    const double next = step_time(n + 1, steps, end, step);
+    const double h = next - t;
+    const double fall = -h * u;
+    ++trajectory.steps;
+    if (!(q - fall > 0)) {
+      // The point at which the straight line of this step crosses the wall. The drag is not defined
+      // there.
+      const double crossing = t + q / fall * h;
+      trajectory.rows.push_back({crossing, 0, u, {}, motion.external_force.value(crossing), {}});
+      break;
+    }
+    u += h / motion.mass * (drag + motion.external_force.mean(t, next));
+    q -= fall;
+  }
+  return trajectory;
+}
 
 constexpr bool kByDefault = true, kOnRequest = false;
 constexpr bool kInertia = true, kNoInertia = false;
