@@ -78,7 +78,7 @@ TEST(Registries, AreTheOnlySourcesWithTheirNames) {
                   // the body in words
                   Found("report/particles/particles_page.cpp", "sphere"),
                   // what a legend numbers
-                  Found("report/swimmer/swimmer_plots.cpp", "sphere"),
+                  Found("report/swimmer/swimmer_page.cpp", "sphere"),
                   // bases of pairs, two of which are named bases
                   Found("lubrication/motions/pair_fit.cpp", "asymptotic"),
                   Found("lubrication/motions/pair_fit.cpp", "asymptotic_extended"),

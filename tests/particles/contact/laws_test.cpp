@@ -106,9 +106,9 @@ TEST(FrictionCone, HasTheNearestPoint) {
         };
         const double found = distance(cone.load, cone.tangential * p_t);
         EXPECT_LE(cone.tangential * p_t, mu * cone.load * (1 + 1e-15));
-        EXPECT_EQ(cone.part, cone.load == 0 && p_t > 0 ? FrictionCone::Part::kApex
-                             : cone.tangential == 1    ? FrictionCone::Part::kInside
-                                                       : FrictionCone::Part::kSurface);
+        EXPECT_EQ(cone.part, cone.load == 0 && (p_t > 0 || p_s < 0) ? FrictionCone::Part::kApex
+                             : cone.tangential == 1                 ? FrictionCone::Part::kInside
+                                                                    : FrictionCone::Part::kSurface);
         for (int i = 0; i <= 500; ++i)
           for (int k = 0; k <= 20; ++k) {
             const double load = 0.01 * i;
