@@ -1,0 +1,199 @@
+// Asks a fluid solver and checks its answers (solver_dialogue.hpp).
+#include "viscontact/freefem_flow/process/solver_dialogue.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/common/text/shell_words.hpp"
+
+namespace viscontact::freefem_flow {
+namespace {
+
+using namespace std::chrono_literals;
+
+// How long a solver that has failed may take to write its last lines and to end.
+constexpr auto kGraceOfFailed = 1000ms;
+
+// How long a solver may take to end when it is asked to.
+constexpr auto kGraceAtEnd = 2000ms;
+
+std::string command_in_words(const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const auto& argument : arguments) text += (text.empty() ? "" : " ") + shell_word(argument);
+  return text;
+}
+
+/// A text of the solver for a message, in which a long one would hide the rest.
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  return std::string(text.substr(0, longest)) + "...";
+}
+
+/// A word of the solver. Words are plain text; a byte that is not may end a message or disturb a
+/// terminal.
+std::string in_quotes(std::string_view word) {
+  auto text = shortened(word, 40);
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + text + "'";
+}
+
+double in_seconds(ChildProcess::Clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+SolverDialogue::SolverDialogue(const SolverCommand& command, std::chrono::milliseconds time_limit,
+                               std::chrono::milliseconds first_limit, const StopToken& stop)
+    : name_(command_in_words(command.arguments)),
+      remedy_if_silent_(command.remedy_if_silent),
+      time_limit_(time_limit),
+      first_limit_(first_limit) {
+  try {
+    process_.emplace(ProcessCommand{command.arguments, command.environment, command.folder}, stop);
+  } catch (const Error& error) {
+    const auto& remedy = command.remedy_if_missing;
+    throw Error(error.kind(), fmt::format("the fluid solver {}{}{}", error.what(),
+                                          remedy.empty() ? "" : "; ", remedy));
+  }
+}
+
+SolverDialogue::~SolverDialogue() {
+  if (!process_) return;
+  process_->send("end\n");
+  process_->finish(kGraceAtEnd);
+}
+
+void SolverDialogue::ask(std::string_view name, std::string_view text) {
+  if (!process_)
+    throw Error(ErrorKind::kExternalProgram,
+                fmt::format("the fluid solver ({}) has ended after an earlier error", name_));
+  // What comes before the first request is read when `ready` is expected.
+  if (requests_ > 0 && process_->has_unread_output())
+    fail("it wrote more than the answer", kGraceOfFailed);
+  request_ = name;
+  ++requests_;
+  asked_at_ = ChildProcess::Clock::now();
+  process_->send(text);
+}
+
+std::string_view SolverDialogue::next_word() {
+  ChildProcess::Reading reading;
+  try {
+    reading = process_->read_word(asked_at_ + limit());
+  } catch (const Error&) {
+    process_.reset();
+    throw;
+  }
+  if (reading.state == ChildProcess::State::kRead) {
+    if (reading.text == "error") fail_as_solver_says();
+    return reading.text;
+  }
+  fail_without_answer(reading.state);
+}
+
+void SolverDialogue::expect(std::string_view word, bool skip_lines) {
+  awaited_ = in_quotes(word);
+  constexpr int kMostLines = 1000;
+  for (int i = 0; i < kMostLines; ++i) {
+    if (next_word() == word) return;
+    if (!skip_lines) refuse(in_quotes(word));
+    process_->put_word_back();
+    const auto line = process_->read_line(asked_at_ + limit());
+    process_->keep(line.text);
+    if (line.state != ChildProcess::State::kRead) fail_without_answer(line.state);
+  }
+  fail(fmt::format("it wrote {} other lines and not {}", kMostLines, in_quotes(word)),
+       kGraceOfFailed);
+}
+
+std::string SolverDialogue::word() { return std::string(next_word()); }
+
+double SolverDialogue::number() {
+  const auto value = parse_number(next_word());
+  if (!value) refuse("a finite number");
+  return *value;
+}
+
+double SolverDialogue::number_from_zero() {
+  const double value = number();
+  if (value < 0) refuse("a number >= 0");
+  return value;
+}
+
+std::vector<double> SolverDialogue::numbers(std::size_t count) {
+  std::vector<double> values(count);
+  numbers_asked_ = count;
+  for (numbers_read_ = 0; numbers_read_ < count; ++numbers_read_) values[numbers_read_] = number();
+  numbers_asked_ = 0;
+  return values;
+}
+
+std::int64_t SolverDialogue::whole_number(std::int64_t largest) {
+  const auto word = next_word();
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || value < 0 || value > largest)
+    refuse(fmt::format("a whole number from 0 to {}", largest));
+  return value;
+}
+
+void SolverDialogue::refuse(std::string_view needed) {
+  process_->put_word_back();
+  const std::string word(process_->read_word(ChildProcess::Clock::now()).text);
+  process_->put_word_back();  // so that the whole line is among the last lines
+  fail(fmt::format("it answered {} in place of {}", in_quotes(word), needed), kGraceOfFailed);
+}
+
+void SolverDialogue::fail_as_solver_says() {
+  const auto line = process_->read_line(asked_at_ + limit());
+  const auto start = line.text.find_first_not_of(" \t\r");
+  fail(fmt::format("it says: {}", start == std::string_view::npos ? "an error without a text"
+                                                                  : line.text.substr(start)),
+       kGraceOfFailed);
+}
+
+void SolverDialogue::fail_without_answer(ChildProcess::State state) {
+  switch (state) {
+    case ChildProcess::State::kTimedOut:
+      fail(fmt::format("it had not answered after {:g} s ({} was awaited){}{}{}",
+                       in_seconds(limit()), awaited_,
+                       numbers_asked_ > 0 ? fmt::format(", but for {} of {} numbers", numbers_read_,
+                                                        numbers_asked_)
+                                          : "",
+                       remedy_if_silent_.empty() ? "" : "; ", remedy_if_silent_),
+           0ms);
+    case ChildProcess::State::kTooLong:
+      fail(fmt::format("it wrote a word or a line of more than {} bytes",
+                       ChildProcess::kLongestText),
+           0ms);
+    default:
+      fail("it closed its output before the answer was complete", kGraceOfFailed);
+  }
+}
+
+std::string SolverDialogue::asked_in_words() const {
+  return fmt::format("request {}, '{}', {:.3g} s after it was sent", requests_, request_,
+                     in_seconds(ChildProcess::Clock::now() - asked_at_));
+}
+
+void SolverDialogue::fail(const std::string& reason, std::chrono::milliseconds grace) {
+  const std::string asked = asked_in_words();
+  const std::string end = process_->finish(grace);
+  std::vector<std::string> lines;
+  constexpr std::size_t kLongestLine = 200;
+  for (const auto& line : process_->last_lines()) lines.push_back(shortened(line, kLongestLine));
+  process_.reset();
+  throw Error(
+      ErrorKind::kExternalProgram,
+      fmt::format("the fluid solver ({}) failed at {}: {}; it {}; {}", name_, asked, reason, end,
+                  lines.empty() ? "it wrote nothing else"
+                                : fmt::format("its last lines: {}", fmt::join(lines, " | "))));
+}
+
+}  // namespace viscontact::freefem_flow
