@@ -19,7 +19,7 @@
 #include "viscontact/particles/contact/contact_laws.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/impacts/rebound.hpp"
-#include "viscontact/particles/projection/pairs_of_particles.hpp"
+#include "viscontact/particles/neighbours/pairs_of_particles.hpp"
 #include "viscontact/particles/state.hpp"
 
 namespace viscontact::particles {

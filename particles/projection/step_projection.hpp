@@ -15,7 +15,7 @@
 #include "viscontact/particles/contact/contact.hpp"
 #include "viscontact/particles/dual_problem/contact_system.hpp"
 #include "viscontact/particles/impacts/impacts.hpp"
-#include "viscontact/particles/projection/pairs_of_particles.hpp"
+#include "viscontact/particles/neighbours/pairs_of_particles.hpp"
 #include "viscontact/particles/projection/residual_scales.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 #include "viscontact/particles/state.hpp"
