@@ -1,6 +1,6 @@
 // The dual problem (5.4) of docs/physics.md of one time step, in scaled unknowns, and what its solvers
 // ask of it. How impulses move the particles is a Mobility: MassMobility where masses resist,
-// FluidMobility and DenseMobility (fluid/contact/) where a fluid does. Lengths, masses and times are in
+// FluidMobility and DenseMobility (fluid/) where a fluid does. Lengths, masses and times are in
 // the units of the case.
 #pragma once
 

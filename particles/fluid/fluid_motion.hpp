@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 #include "viscontact/particles/fluid/fluid_simulation.hpp"
 
 namespace viscontact::particles {

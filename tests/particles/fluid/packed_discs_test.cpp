@@ -7,7 +7,7 @@
 #include "tests/particles/fluid/stand_in_fluid.hpp"
 #include "tests/particles/systems.hpp"
 #include "viscontact/particles/contact/contact.hpp"
-#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "viscontact/particles/dual_problem/active_set_newton.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
-#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 namespace viscontact::particles {
 namespace {

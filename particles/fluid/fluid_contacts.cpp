@@ -1,6 +1,6 @@
 // Lists pairs that are close to contact, chooses the contacts of a step among them and measures
 // their residuals (fluid_contacts.hpp). Units are those of the case.
-#include "viscontact/particles/fluid/contact/fluid_contacts.hpp"
+#include "viscontact/particles/fluid/fluid_contacts.hpp"
 
 #include <iterator>
 #include <limits>
