@@ -71,6 +71,7 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
+/// The case of one sphere whose root table is `root` (case_template.hpp).
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 

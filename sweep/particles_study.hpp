@@ -33,7 +33,9 @@ class ParticlesSweep {
   /// arrangement.seed of the case.
   ParticlesSweep(const std::filesystem::path& case_path, Points points);
 
+  /// The points, with the seed of the first draw.
   const Points& points() const { return points_; }
+  /// The case file, as the constructor was given it.
   const std::filesystem::path& case_path() const { return cases_.path(); }
 
   /// Names of the columns with results. A case without a fluid lacks those of the fluid.

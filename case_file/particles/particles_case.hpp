@@ -43,6 +43,7 @@ struct ParticlesCase {
 /// particles_sections.hpp).
 ParticlesCase read_particles_case(const std::filesystem::path& path);
 
+/// The case of many particles whose root table is `root` (case_template.hpp).
 template <>
 ParticlesCase case_of_root(const TomlSection& root, std::string text,
                            const std::filesystem::path& path);

@@ -38,6 +38,7 @@ struct RollingCase {
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
 
+/// The case of a rolling sphere whose root table is `root` (case_template.hpp).
 template <>
 RollingCase case_of_root(const TomlSection& root, std::string text,
                          const std::filesystem::path& path);

@@ -39,6 +39,7 @@ struct SwimmerCase {
 /// and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
+/// The case of a swimmer whose root table is `root` (case_template.hpp).
 template <>
 SwimmerCase case_of_root(const TomlSection& root, std::string text,
                          const std::filesystem::path& path);
