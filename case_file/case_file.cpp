@@ -340,7 +340,7 @@ const Part& required(const std::optional<Part>& part, const Case& c, std::string
 }  // namespace
 
 CaseKind kind_of_case(const fs::path& path) {
-  const auto root = TomlSection::parse(read_file(path), path.string());
+  const auto root = read_toml_file(path).root;
   if (root.has("space")) return CaseKind::kParticles;
   if (root.has("swimmer")) return CaseKind::kSwimmer;
   return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;

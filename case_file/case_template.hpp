@@ -3,8 +3,6 @@
 // case takes part by a specialisation of case_of_root(), which its own header declares.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -14,7 +12,6 @@
 #include <vector>
 
 #include "viscontact/case_file/toml_section.hpp"
-#include "viscontact/common/files/file.hpp"
 
 namespace viscontact::case_file {
 
@@ -47,9 +44,8 @@ std::vector<std::string_view> sections_with_defaults() {
 /// Error(kBadInput) if the file cannot be read or is not valid TOML.
 template <class CaseType>
 CaseType read_case_file(const std::filesystem::path& path) {
-  auto text = read_file(path);
-  const auto root = TomlSection::parse(text, path.string());
-  return case_of_root<CaseType>(root, std::move(text), path);
+  auto file = read_toml_file(path);
+  return case_of_root<CaseType>(file.root, std::move(file.text), path);
 }
 
 /// A case file that is read once, and from which many cases with other numbers are made. Several
@@ -59,33 +55,27 @@ class CaseTemplate {
  public:
   /// Reads and parses the file. Throws Error(kBadInput) if it cannot be read or is not valid TOML.
   explicit CaseTemplate(const std::filesystem::path& path)
-      : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {
-    auto text = text_;
-    for (const auto& name : sections_with_defaults<CaseType>())
-      if (!root_.has(name)) text += fmt::format("\n[{}]\n", name);
-    if (text != text_) root_ = TomlSection::parse(text, path.string());
-  }
+      : path_(path), file_(read_toml_file(path, sections_with_defaults<CaseType>())) {}
 
   const std::filesystem::path& path() const { return path_; }  ///< as the constructor was given it
-  const std::string& text() const { return text_; }            ///< content of the file
+  const std::string& text() const { return file_.text; }       ///< content of the file
 
   /// The case with these numbers at these keys, such as "fluid.viscosity" or
   /// "motion.external_force[0].value". Throws the errors of case_of_root(), and Error(kBadInput) for
   /// a key that the case cannot have.
   CaseType with(std::span<const std::pair<std::string, double>> numbers) const {
-    return case_of_root<CaseType>(root_with(numbers), text_, path_);
+    return case_of_root<CaseType>(root_with(numbers), file_.text, path_);
   }
 
   /// The root table of the case with these numbers. Throws Error(kBadInput) for a key that the case
   /// cannot have.
   TomlSection root_with(std::span<const std::pair<std::string, double>> numbers) const {
-    return root_.with_numbers(numbers);
+    return file_.root.with_numbers(numbers);
   }
 
  private:
   std::filesystem::path path_;
-  std::string text_;
-  TomlSection root_;
+  TomlFile file_;
 };
 
 }  // namespace viscontact::case_file
