@@ -1,6 +1,6 @@
 // What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and from
-// which cases with other numbers are made. A kind of
-// case takes part by a specialisation of case_of_root(), which its own header declares.
+// which cases with other numbers are made. A kind of case takes part by a specialisation of
+// case_of_root(), which its own header declares.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Plans, checks and computes the rows of a sweep of one sphere (sphere_study.hpp). Everything that determines the rows
-// must go into identity_of, so that rows of another sweep are not kept.
+// Plans, checks and computes the rows of a sweep of one sphere (sphere_study.hpp). Everything that
+// determines the rows must go into identity_of, so that rows of another sweep are not kept.
 #include "viscontact/sweep/sphere_study.hpp"
 
 #include <fmt/format.h>
