@@ -329,7 +329,25 @@ void check_exact_drag(const TomlSection& root, const Case& c) {
                                    model, c.tabulation->geometry);
 }
 
-Case read_case(const TomlSection& root, std::string text, const fs::path& path) {
+template <class Part>
+const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
+  if (!part)
+    throw_bad_input({c.path.string()},
+                    fmt::format("has no section [{}], which this command needs", section));
+  return *part;
+}
+
+}  // namespace
+
+CaseKind kind_of_case(const fs::path& path) {
+  const auto root = read_toml_file(path).root;
+  if (root.has("space")) return CaseKind::kParticles;
+  if (root.has("swimmer")) return CaseKind::kSwimmer;
+  return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
+}
+
+template <>
+Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   Case c;
   c.path = path;
   c.text = std::move(text);
@@ -353,46 +371,13 @@ Case read_case(const TomlSection& root, std::string text, const fs::path& path) 
   return c;
 }
 
-template <class Part>
-const Part& required(const std::optional<Part>& part, const Case& c, std::string_view section) {
-  if (!part)
-    throw_bad_input({c.path.string()},
-                    fmt::format("has no section [{}], which this command needs", section));
-  return *part;
+template <>
+std::vector<std::string_view> sections_with_defaults<Case>() {
+  const auto sections = reduced_model::model_sections();
+  return {sections.begin(), sections.end()};
 }
 
-/// The text of a case, with an empty section for each section of models that it lacks, so that a
-/// sweep can set the keys of these sections.
-std::string with_model_sections(std::string text, const fs::path& path) {
-  const auto root = TomlSection::parse(text, path.string());
-  for (const auto& name : reduced_model::model_sections())
-    if (!root.has(name)) text += fmt::format("\n[{}]\n", name);
-  return text;
-}
-
-}  // namespace
-
-CaseKind kind_of_case(const fs::path& path) {
-  const auto root = TomlSection::parse(read_file(path), path.string());
-  if (root.has("space")) return CaseKind::kParticles;
-  if (root.has("swimmer")) return CaseKind::kSwimmer;
-  return root.has("rolling") ? CaseKind::kRolling : CaseKind::kSphere;
-}
-
-Case read_case(const fs::path& path) {
-  std::string text = read_file(path);
-  const auto root = TomlSection::parse(text, path.string());
-  return read_case(root, std::move(text), path);
-}
-
-CaseTemplate::CaseTemplate(const fs::path& path)
-    : path_(path),
-      text_(read_file(path)),
-      root_(TomlSection::parse(with_model_sections(text_, path), path.string())) {}
-
-Case CaseTemplate::with(std::span<const std::pair<std::string, double>> numbers) const {
-  return read_case(root_.with_numbers(numbers), text_, path_);
-}
+Case read_case(const fs::path& path) { return read_case_file<Case>(path); }
 
 std::vector<KeyTable> tables_of_sphere_case() {
   // The examples of the parameters of models are their defaults for the other examples.

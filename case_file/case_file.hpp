@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
+#include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/fitting/fit_force_table.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
@@ -47,17 +47,6 @@ struct PublishedGap {
   std::string source;      ///< where it was published, in words for the report
 };
 
-/// What `viscontact sweep` varies. Options on its command line replace these values.
-struct SweepRequest {
-  std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
-  std::vector<std::string> models;  ///< names; empty: the default of the command
-  std::string reference;            ///< a model; empty: the default of the command
-  std::string x;                    ///< key of the horizontal axis of the plot; may be empty
-  std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
-  std::vector<std::string> plot;    ///< columns to draw
-  std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
-};
-
 /// What a case file says, checked.
 struct Case {
   std::string title;     ///< for the report; may be empty
@@ -82,22 +71,13 @@ struct Case {
 /// value and what is allowed.
 Case read_case(const std::filesystem::path& path);
 
-/// A case file that is read once, and from which many cases with other numbers are made.
-class CaseTemplate {
- public:
-  /// Reads and parses the file. Throws the errors of read_case.
-  explicit CaseTemplate(const std::filesystem::path& path);
+/// The case of one sphere whose root table is `root` (case_template.hpp).
+template <>
+Case case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
-  /// The case with these numbers at these keys, such as "fluid.viscosity" or
-  /// "motion.external_force[0].value". Throws the errors of read_case, and Error(kBadInput) for a
-  /// key that the case cannot have.
-  Case with(std::span<const std::pair<std::string, double>> numbers) const;
-
- private:
-  std::filesystem::path path_;
-  std::string text_;
-  TomlSection root_;
-};
+/// The sections with parameters of models.
+template <>
+std::vector<std::string_view> sections_with_defaults<Case>();
 
 /// What docs/case-file.md says about the keys of each section.
 std::vector<KeyTable> tables_of_sphere_case();

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 
 namespace viscontact::case_file {
 
@@ -368,6 +369,17 @@ std::string TomlSection::as_toml() const {
   std::ostringstream text;
   text << *node_->root << "\n";
   return text.str();
+}
+
+TomlFile read_toml_file(const std::filesystem::path& path,
+                        const std::vector<std::string_view>& sections) {
+  auto text = read_file(path);
+  auto root = TomlSection::parse(text, path.string());
+  std::string missing;
+  for (const auto& name : sections)
+    if (!root.has(name)) missing += fmt::format("\n[{}]\n", name);
+  if (!missing.empty()) root = TomlSection::parse(text + missing, path.string());
+  return {std::move(text), std::move(root)};
 }
 
 }  // namespace viscontact::case_file

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,5 +95,16 @@ class TomlSection {
   explicit TomlSection(Node node);
   std::shared_ptr<Node> node_;
 };
+
+/// A TOML file that was read.
+struct TomlFile {
+  std::string text;  ///< its content
+  TomlSection root;  ///< its root table
+};
+
+/// Reads a TOML file. The root table has an empty table for each of `sections` that the file lacks.
+/// Throws Error(kBadInput) if the file cannot be read or is not valid TOML.
+TomlFile read_toml_file(const std::filesystem::path& path,
+                        const std::vector<std::string_view>& sections = {});
 
 }  // namespace viscontact::case_file

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "viscontact/freefem_axi/journal/row_record.hpp"
-#include "viscontact/sweep/sweep_file.hpp"
 
 namespace viscontact::pipeline {
 namespace {
@@ -48,16 +47,16 @@ DryRun dry_run(const CaseTable& one) {
   return run;
 }
 
-DryRun dry_run(const sweep::Rows& rows, const std::string& output, const StopToken& stop) {
-  std::vector<std::uint64_t> sample = {0, rows.size / 2, rows.size - 1};
+DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop) {
+  std::vector<std::uint64_t> sample = {0, study.size() / 2, study.size() - 1};
   sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
   const auto start = std::chrono::steady_clock::now();
-  for (const auto index : sample) (void)rows.row(index, stop);
+  for (const auto index : sample) (void)study.row(index, stop);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   // A row at which models fail is finished, too: its columns say so.
   return {output,
-          rows.size,
-          sweep::finished_rows(rows, output),
+          study.size(),
+          sweep::finished_rows(study, output),
           0,
           spent.count() / static_cast<double>(sample.size()),
           fmt::format("{} of its rows, just computed", sample.size())};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscontact/pipeline/tabulate/tabulate_stage.hpp"
-#include "viscontact/sweep/rows.hpp"
+#include "viscontact/sweep/study.hpp"
 
 namespace viscontact::pipeline {
 
@@ -27,7 +27,7 @@ DryRun dry_run(const CaseTable& one);
 
 /// The estimate for a sweep into the file `output`. Up to three of its rows are computed to measure
 /// their time.
-DryRun dry_run(const sweep::Rows& rows, const std::string& output, const StopToken& stop);
+DryRun dry_run(const sweep::Study& study, const std::string& output, const StopToken& stop);
 
 /// A line for each output, then the time that all of them take if `jobs` rows are computed at once.
 /// If `json` is true, the same as JSON.

@@ -123,4 +123,51 @@ std::uint64_t grid_size(const std::vector<Variation>& variations) {
   return points;
 }
 
+std::uint64_t Points::count() const { return samples > 0 ? samples : grid_size(variations); }
+
+std::uint64_t Points::rows() const { return count() * std::max<std::uint64_t>(draws, 1); }
+
+std::vector<std::string> Points::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& variation : variations) keys.push_back(variation.key);
+  if (draws > 0) keys.emplace_back(kDrawKey);
+  return keys;
+}
+
+std::vector<std::pair<std::string, double>> Points::numbers(std::uint64_t index) const {
+  const std::uint64_t draws_here = std::max<std::uint64_t>(draws, 1);
+  auto numbers = samples > 0 ? random_point(variations, index / draws_here, seed)
+                             : grid_point(variations, index / draws_here);
+  if (draws > 0)
+    numbers.emplace_back(kDrawKey,
+                         static_cast<double>(first_draw) + static_cast<double>(index % draws));
+  return numbers;
+}
+
+std::string Points::key_fields(std::uint64_t index) const {
+  std::string text;
+  for (const auto& [key, value] : numbers(index))
+    text += (text.empty() ? "" : ",") + format_number(value);
+  return text;
+}
+
+bool Points::is_varied(const std::string& key) const {
+  return std::ranges::find(variations, key, &Variation::key) != variations.end();
+}
+
+std::string text_of(const Points& points) {
+  std::string text = fmt::format("{} {}", points.samples, points.seed);
+  for (const auto& v : points.variations) {
+    text += fmt::format(" {} {} {} {} {}", v.key, v.first, v.last, v.logarithmic, v.count);
+    for (const double value : v.values) text += " " + format_number(value);
+  }
+  return text;
+}
+
+std::string in_words(const std::vector<std::pair<std::string, double>>& numbers) {
+  std::string text;
+  for (const auto& [key, value] : numbers) text += fmt::format(" {} = {}", key, value);
+  return text;
+}
+
 }  // namespace viscontact::sweep

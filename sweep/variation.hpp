@@ -50,4 +50,34 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
 /// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
+/// The points of a sweep: a grid, or random points, each of them once or with several draws. Each draw
+/// at a point is a row, and the draws of a point follow each other.
+struct Points {
+  std::vector<Variation> variations;  ///< the varied keys
+  std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
+  std::uint64_t seed = 1;             ///< seed of the random points
+  /// Number of random arrangements of particles at each point; 0: the arrangement of the case alone.
+  std::uint64_t draws = 0;
+  /// arrangement.seed of the first draw; the next draws have the following numbers.
+  std::uint64_t first_draw = 1;
+
+  std::uint64_t count() const;  ///< number of points, without draws
+  std::uint64_t rows() const;   ///< number of rows: points times draws
+  std::vector<std::string> keys()
+      const;  ///< the varied keys, and arrangement.seed if there are draws
+  /// Keys and values of a row, 0 <= index < rows().
+  std::vector<std::pair<std::string, double>> numbers(std::uint64_t index) const;
+  std::string key_fields(std::uint64_t index) const;  ///< the values of a row as fields of CSV
+  bool is_varied(const std::string& key) const;       ///< true: a variation has this key
+};
+
+/// " KEY = VALUE KEY = VALUE ...", for messages.
+std::string in_words(const std::vector<std::pair<std::string, double>>& numbers);
+
+/// A text that differs if the points do, for hashes of sweeps that have no draws.
+std::string text_of(const Points& points);
+
+/// The key that draws vary.
+inline constexpr const char* kDrawKey = "arrangement.seed";
+
 }  // namespace viscontact::sweep

@@ -195,7 +195,7 @@ void check_periods_of_plane(const TomlSection& section, const particles::Plane& 
                     d == 0 ? "x" : "y");
 }
 
-void particles_sweep_keys(Keys& keys, ParticlesSweepRequest& sweep) {
+void particles_sweep_keys(Keys& keys, SweepRequest& sweep) {
   keys.optional("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
   keys.optional("samples", number(sweep.samples, kWholeNumber),
                 {"number of random points", "the whole grid"});
@@ -230,12 +230,11 @@ void read_domain_and_fluid(const TomlSection& root, ParticlesCase& c) {
 }  // namespace
 
 ParticlesCase read_particles_case(const fs::path& path) {
-  std::string text = read_file(path);
-  const auto root = TomlSection::parse(text, path.string());
-  return read_particles_case(root, std::move(text), path);
+  return read_case_file<ParticlesCase>(path);
 }
 
-ParticlesCase read_particles_case(const TomlSection& root, std::string text, const fs::path& path) {
+template <>
+ParticlesCase case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
   ParticlesCase c;
   c.path = path;
   c.text = std::move(text);
@@ -288,31 +287,21 @@ std::vector<KeyTable> tables_of_particles_case() {
   return tables;
 }
 
-ParticlesCaseTemplate::ParticlesCaseTemplate(const fs::path& path)
-    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {}
-
-ParticlesCase ParticlesCaseTemplate::with(
-    std::span<const std::pair<std::string, double>> numbers) const {
-  return read_particles_case(root_.with_numbers(numbers), text_, path_);
-}
-
-std::string ParticlesCaseTemplate::text_with(
-    std::span<const std::pair<std::string, double>> numbers) const {
-  const auto changed = root_.with_numbers(numbers);
+std::string text_for_any_folder(const TomlSection& root, const fs::path& path) {
   std::vector<std::pair<std::string, std::string>> paths;
-  const auto folder = fs::absolute(path_).parent_path();
-  if (changed.has("particles")) {
-    const auto section = changed.section("particles");
+  const auto folder = fs::absolute(path).parent_path();
+  if (root.has("particles")) {
+    const auto section = root.section("particles");
     if (section.is_text("file"))
       paths.emplace_back("particles.file",
                          (folder / section.text("file")).lexically_normal().string());
   }
-  if (changed.has("fluid") && changed.section("fluid").has("solver")) {
-    const auto command = with_absolute_files(changed.section("fluid").texts("solver"), folder);
+  if (root.has("fluid") && root.section("fluid").has("solver")) {
+    const auto command = with_absolute_files(root.section("fluid").texts("solver"), folder);
     for (std::size_t word = 0; word < command.size(); ++word)
       paths.emplace_back(fmt::format("fluid.solver[{}]", word), command[word]);
   }
-  return changed.with_texts(paths).as_toml();
+  return root.with_texts(paths).as_toml();
 }
 
 }  // namespace viscontact::case_file

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "viscontact/case_file/tabulation_section.hpp"
-#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/equal_up_to_rounding.hpp"
+#include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 
@@ -124,14 +125,29 @@ void pair_fit_keys(Keys& keys, RollingCase& c) {
   c.fit = c.path.parent_path() / file;
 }
 
+void rolling_sweep_keys(Keys& keys, SweepRequest& sweep) {
+  keys.required("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
+  keys.optional("samples", number(sweep.samples, kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("x", text(sweep.x),
+                {"key of the horizontal axis of the plot", "the first varied key"});
+  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
+  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
+}
+
 }  // namespace
 
 RollingCase read_rolling_case(const std::filesystem::path& path) {
+  return read_case_file<RollingCase>(path);
+}
+
+template <>
+RollingCase case_of_root(const TomlSection& root, std::string text,
+                         const std::filesystem::path& path) {
   RollingCase c;
-  c.text = read_file(path);
+  c.text = std::move(text);
   c.path = path;
   for (const auto& model : reduced_model::rolling_models()) c.models.emplace_back(model.name);
-  const auto root = TomlSection::parse(c.text, path.string());
   c.title = root.has("title") ? root.text("title") : "";
   read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
   read_keys(root.section("sphere"), rolling_sphere_keys, c);
@@ -147,14 +163,32 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
   } else {
     read_keys(root.section("fit"), pair_fit_keys, c);
   }
+  if (root.has("sweep")) read_keys(root.section("sweep"), rolling_sweep_keys, c.sweep.emplace());
   root.finish();
   return c;
+}
+
+lubrication::PairFit fit_for(const RollingCase& c, lubrication::PairFit fit,
+                             const std::filesystem::path& file) {
+  if (!equal_up_to_rounding(fit.radius, c.radius))
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: the sphere of the fit has the radius {}, that of the case {}",
+                            file.string(), fit.radius, c.radius));
+  if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: is the fit of a sphere beside: {}; it must be a plane",
+                            file.string(), fit.geometry));
+  for (auto& [entry, one] : fit.entries)
+    one.fit = lubrication::with_viscosity(std::move(one.fit), c.viscosity);
+  fit.viscosity = c.viscosity;
+  return fit;
 }
 
 std::vector<KeyTable> tables_of_rolling_case() {
   return {describe_keys("[sphere] of a rolling sphere", rolling_sphere_keys),
           describe_keys("[rolling]", rolling_keys),
-          describe_keys("[fit] of a rolling sphere", pair_fit_keys)};
+          describe_keys("[fit] of a rolling sphere", pair_fit_keys),
+          describe_keys("[sweep] of a rolling sphere", rolling_sweep_keys)};
 }
 
 }  // namespace viscontact::case_file

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
+#include "viscontact/lubrication/motions/pair_fit.hpp"
 #include "viscontact/reduced_model/rolling/rolling_motion.hpp"
 
 namespace viscontact::case_file {
@@ -26,6 +28,8 @@ struct RollingCase {
   std::optional<freefem_axi::Tabulation> tabulation;
   /// File of the fit of a pair; nothing if the tables are made.
   std::optional<std::filesystem::path> fit;
+  /// What the section [sweep] asks for; nothing if the case has no such section.
+  std::optional<SweepRequest> sweep;
   std::string text;            ///< content of the file
   std::filesystem::path path;  ///< the case file
 };
@@ -33,6 +37,16 @@ struct RollingCase {
 /// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
 /// value and what is allowed.
 RollingCase read_rolling_case(const std::filesystem::path& path);
+
+/// The case of a rolling sphere whose root table is `root` (case_template.hpp).
+template <>
+RollingCase case_of_root(const TomlSection& root, std::string text,
+                         const std::filesystem::path& path);
+
+/// The fit for the viscosity of the case. `file`, from which it was read, is named in messages. Throws
+/// Error(kBadInput) if the fit is that of another radius, or not that of a sphere above a plane.
+lubrication::PairFit fit_for(const RollingCase& c, lubrication::PairFit fit,
+                             const std::filesystem::path& file);
 
 /// What docs/case-file.md says about the keys of each section that only this kind of case has, or
 /// has with other keys.

@@ -336,20 +336,6 @@ void optimal_keys(Keys& keys, SwimmerCase& c) {
                                      reduced_model::kFewestPolynomials, request.polynomials);
 }
 
-SwimmerCase read_case_of(const TomlSection& root, const std::string& text,
-                         const std::filesystem::path& path) {
-  SwimmerCase c;
-  c.text = text;
-  c.path = path;
-  c.title = root.has("title") ? root.text("title") : "";
-  read_keys(root.section("fluid"), viscosity_keys, c.spheres.viscosity);
-  read_keys(root.section("swimmer"), swimmer_keys, c);
-  if (root.has("stroke")) read_keys(root.section("stroke"), stroke_keys, c);
-  if (root.has("optimal")) read_keys(root.section("optimal"), optimal_keys, c);
-  root.finish();
-  return c;
-}
-
 }  // namespace
 
 std::vector<KeyTable> tables_of_swimmer_case() {
@@ -361,19 +347,23 @@ std::vector<KeyTable> tables_of_swimmer_case() {
           describe_keys("[optimal]", optimal_keys)};
 }
 
+template <>
+SwimmerCase case_of_root(const TomlSection& root, std::string text,
+                         const std::filesystem::path& path) {
+  SwimmerCase c;
+  c.text = std::move(text);
+  c.path = path;
+  c.title = root.has("title") ? root.text("title") : "";
+  read_keys(root.section("fluid"), viscosity_keys, c.spheres.viscosity);
+  read_keys(root.section("swimmer"), swimmer_keys, c);
+  if (root.has("stroke")) read_keys(root.section("stroke"), stroke_keys, c);
+  if (root.has("optimal")) read_keys(root.section("optimal"), optimal_keys, c);
+  root.finish();
+  return c;
+}
+
 SwimmerCase read_swimmer_case(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  return read_case_of(TomlSection::parse(text, path.string()), text, path);
-}
-
-SwimmerCaseTemplate::SwimmerCaseTemplate(const std::filesystem::path& path)
-    : path_(path), text_(read_file(path)), root_(TomlSection::parse(text_, path.string())) {
-  (void)with({});
-}
-
-SwimmerCase SwimmerCaseTemplate::with(
-    std::span<const std::pair<std::string, double>> numbers) const {
-  return read_case_of(root_.with_numbers(numbers), text_, path_);
+  return read_case_file<SwimmerCase>(path);
 }
 
 }  // namespace viscontact::case_file

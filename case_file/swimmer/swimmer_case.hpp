@@ -6,11 +6,10 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/collinear_spheres.hpp"
 #include "viscontact/reduced_model/swimmer/optimal_stroke.hpp"
@@ -40,25 +39,12 @@ struct SwimmerCase {
 /// and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
+/// The case of a swimmer whose root table is `root` (case_template.hpp).
+template <>
+SwimmerCase case_of_root(const TomlSection& root, std::string text,
+                         const std::filesystem::path& path);
+
 /// What docs/case-file.md says about the keys of each section.
 std::vector<KeyTable> tables_of_swimmer_case();
-
-/// A case that is read once, and from which many cases with other numbers are made, for a sweep.
-class SwimmerCaseTemplate {
- public:
-  /// Reads and parses the file. Throws the errors of read_swimmer_case.
-  explicit SwimmerCaseTemplate(const std::filesystem::path& path);
-
-  const std::string& text() const { return text_; }  ///< content of the file
-
-  /// The case with these numbers at these keys, such as "stroke.ellipse.semi_axes[0]". Throws the
-  /// errors of read_swimmer_case, and Error(kBadInput) for a key that the case cannot have.
-  SwimmerCase with(std::span<const std::pair<std::string, double>> numbers) const;
-
- private:
-  std::filesystem::path path_;
-  std::string text_;
-  TomlSection root_;
-};
 
 }  // namespace viscontact::case_file

@@ -8,7 +8,6 @@
 #include <array>
 #include <filesystem>
 
-#include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/files/locked_folder.hpp"
@@ -67,19 +66,7 @@ void make_fit(const case_file::RollingCase& c, const RollingFolder& folder,
 /// The fit that the case names, or that of its tables, for the viscosity of the case.
 lubrication::PairFit fit_of(const case_file::RollingCase& c, const RollingFolder& folder) {
   const auto file = c.fit.value_or(folder.fit());
-  auto fit = lubrication::read_pair_fit(file);
-  if (!equal_up_to_rounding(fit.radius, c.radius))
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: the sphere of the fit has the radius {}, that of the case {}",
-                            file.string(), fit.radius, c.radius));
-  if (!fit.geometry.empty() && fit.geometry != freefem_axi::default_geometry().name)
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: is the fit of a sphere beside: {}; it must be a plane",
-                            file.string(), fit.geometry));
-  for (auto& [entry, one] : fit.entries)
-    one.fit = lubrication::with_viscosity(std::move(one.fit), c.viscosity);
-  fit.viscosity = c.viscosity;
-  return fit;
+  return case_file::fit_for(c, lubrication::read_pair_fit(file), file);
 }
 
 /// The columns of a trajectory before `contact`.
@@ -132,22 +119,14 @@ reduced_model::RollingTrajectory read_trajectory(const fs::path& path) {
 std::string rolling_json(const RollingResults& results) {
   Json json = {{"kind", "rolling"}, {"title", results.c.title}};
   for (const auto& [model, rows] : results.trajectories) {
-    const auto& last = rows.back();
-    const auto first_contact = std::ranges::find_if(rows, [](const RollingRow& row) {
-      return row.contact != reduced_model::SolidContact::kNone;
-    });
+    const auto end = reduced_model::end_of(rows, results.c.motion, results.c.radius);
+    const auto& last = end.last;
     auto& object = json["models"][model];
-    object = {{"gap", last.gap},
-              {"smallest_gap", std::ranges::min_element(rows, {}, &RollingRow::gap)->gap},
-              {"position", last.position},
-              {"angle", last.angle},
-              {"velocity", last.velocity},
-              {"angular_velocity", last.angular_velocity},
-              {"slip", last.velocity - results.c.motion.plane_velocity -
-                           results.c.radius * last.angular_velocity},
-              {"contact", static_cast<int>(last.contact)}};
-    object["contact_time"] =
-        first_contact == rows.end() ? Json(nullptr) : Json(first_contact->time);
+    object = {{"gap", last.gap},           {"smallest_gap", end.smallest_gap},
+              {"position", last.position}, {"angle", last.angle},
+              {"velocity", last.velocity}, {"angular_velocity", last.angular_velocity},
+              {"slip", end.slip},          {"contact", static_cast<int>(last.contact)}};
+    object["contact_time"] = end.contact_time ? Json(*end.contact_time) : Json(nullptr);
   }
   if (const auto warnings = report::rolling_warnings(results); !warnings.empty())
     json["warnings"] = warnings;

@@ -135,19 +135,19 @@ ParticlesRuns::ParticlesRuns(const sweep::ParticlesSweep& sweep, const fs::path&
       keep_all_(keep_all) {}
 
 fs::path ParticlesRuns::folder_of(std::uint64_t index) const {
-  const auto draws = sweep_.plan().draws;
+  const auto draws = sweep_.points().draws;
   return folder_ /
          (draws > 0 ? fmt::format("{}-{}", index / draws, index % draws) : std::to_string(index));
 }
 
-std::optional<sweep::RunResults> ParticlesRuns::ended(std::uint64_t index) const {
+std::optional<sweep::RowResults> ParticlesRuns::ended(std::uint64_t index) const {
   const auto path = folder_of(index) / "result.json";
   if (!fs::is_regular_file(path)) return {};
   try {
     const auto json = Json::parse(read_file(path));
     if (json.at("case_and_version") != sweep_.identity(index, version_)) return {};
-    return sweep::RunResults{json.at("values").get<Values>(),
-                             json.at("failure").get<std::string>()};
+    return sweep::RowResults{
+        json.at("values").get<Values>(), {}, json.at("failure").get<std::string>()};
   } catch (const Json::exception&) {
     return {};  // damaged: the row is computed again
   }
@@ -168,7 +168,7 @@ double ParticlesRuns::seconds(std::uint64_t index) const {
   }
 }
 
-sweep::RunResults ParticlesRuns::compute(std::uint64_t index, const StopToken& stop) const {
+sweep::RowResults ParticlesRuns::compute(std::uint64_t index, const StopToken& stop) const {
   if (auto results = ended(index); results && results->failure.empty()) return *results;
   stop.throw_if_stop_requested();
   const terminal::QuietThread quiet;
@@ -179,7 +179,7 @@ sweep::RunResults ParticlesRuns::compute(std::uint64_t index, const StopToken& s
   if (auto results = ended(index); results && results->failure.empty()) return *results;
   const auto text = sweep_.case_text(index);
   if (!fs::is_regular_file(file) || read_file(file) != text) write_file(file, text);
-  sweep::RunResults results;
+  sweep::RowResults results;
   const auto read_values = [&] {
     results.values = values_of(case_file::read_particles_case(file), sweep_.result_columns(), run);
   };

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "viscontact/common/stop_token.hpp"
-#include "viscontact/sweep/particles/particles_sweep.hpp"
+#include "viscontact/sweep/particles_study.hpp"
 
 namespace viscontact::pipeline {
 
@@ -27,7 +27,7 @@ class ParticlesRuns {
                 std::string version, int threads, bool keep_all);
 
   /// The results of row `index`, if its run has ended. Other threads may call this function, too.
-  std::optional<sweep::RunResults> ended(std::uint64_t index) const;
+  std::optional<sweep::RowResults> ended(std::uint64_t index) const;
 
   /// True if the run of row `index` has succeeded, so that compute() would not run it again.
   bool has_succeeded(std::uint64_t index) const;
@@ -37,7 +37,7 @@ class ParticlesRuns {
   /// does not converge or the fluid solver fails, the results say so in `failure`. Throws
   /// Error(kInterrupted) if `stop` requests a stop, and Error(kBadInput) if the folder cannot be
   /// written or another process computes the same row.
-  sweep::RunResults compute(std::uint64_t index, const StopToken& stop) const;
+  sweep::RowResults compute(std::uint64_t index, const StopToken& stop) const;
 
   /// The computing time of the run of row `index` [s]; 0 if it has not ended.
   double seconds(std::uint64_t index) const;

@@ -90,6 +90,17 @@ RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
   return rows;
 }
 
+RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius) {
+  RollingEnd end;
+  end.last = trajectory.back();
+  end.smallest_gap = std::ranges::min_element(trajectory, {}, &RollingRow::gap)->gap;
+  end.slip = end.last.velocity - motion.plane_velocity - radius * end.last.angular_velocity;
+  const auto contact = std::ranges::find_if(
+      trajectory, [](const RollingRow& row) { return row.contact != SolidContact::kNone; });
+  if (contact != trajectory.end()) end.contact_time = contact->time;
+  return end;
+}
+
 const std::vector<RollingModel>& rolling_models() {
   static const std::vector<RollingModel> models = {
       {"smooth", "lubrication at every gap, no solid contact", roll_smooth},

@@ -3,6 +3,7 @@
 // consistent system of units.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -70,6 +71,19 @@ RollingTrajectory roll_rough(const RollingMotion& motion, const lubrication::Pai
 /// fit, while there is no contact. First order in the time step.
 RollingTrajectory roll_with_viscous_contact(const RollingMotion& motion,
                                             const lubrication::PairFit& fit);
+
+/// How a motion ends.
+struct RollingEnd {
+  RollingRow last;          ///< the last row
+  double smallest_gap = 0;  ///< of all rows [L]
+  /// Velocity of the lowest point of the sphere relative to the plane, at the end [L/T].
+  double slip = 0;
+  /// Time of the first row in which the solids touch [T]; nothing if they never do.
+  std::optional<double> contact_time;
+};
+
+/// The end of a trajectory, which has at least one row, of a sphere of this radius [L].
+RollingEnd end_of(const RollingTrajectory& trajectory, const RollingMotion& motion, double radius);
 
 /// A model by name.
 struct RollingModel {

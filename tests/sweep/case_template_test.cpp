@@ -34,7 +34,7 @@ struct Template {
 
   TemporaryFolder folder;
   std::filesystem::path path;
-  case_file::CaseTemplate cases;
+  case_file::CaseTemplate<case_file::Case> cases;
 };
 
 TEST(CaseTemplate, ReplacesNumbersWhereverTheyStand) {

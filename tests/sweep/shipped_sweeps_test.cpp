@@ -90,7 +90,7 @@ const lubrication::LubricationForce& map_force() {
 
 TEST(RegimeMap, FilmIsThatOfTheFirstIntegralEverywhere) {
   auto plan = shipped("regime_map.toml");
-  plan.samples = 60;
+  plan.points.samples = 60;
   int turned_late = 0;
   for (const auto& row : run_whole(plan)) {
     const double push = number(row, "motion.time_scale");

@@ -1,6 +1,4 @@
 // The file of a sweep: whole, cut off anywhere, and of another sweep.
-#include "viscontact/sweep/sweep_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +12,8 @@
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/hash/sha256.hpp"
 #include "viscontact/common/text/csv.hpp"
-#include "viscontact/sweep/sweep.hpp"
+#include "viscontact/sweep/sphere_study.hpp"
+#include "viscontact/sweep/study.hpp"
 
 namespace viscontact::sweep {
 namespace {
@@ -39,7 +38,7 @@ class SweepFile : public ::testing::Test {
     put_text(path("force.csv"), read_file(data("cases/forces/jumps.csv")));
     plan_.case_path = path("case.toml");
     plan_.fit = lubrication::read_fit(data("fits/leading_term.json"));
-    plan_.variations = {parse_variation("viscous_contact.time_step=1e-2:1e-1:log:20")};
+    plan_.points.variations = {parse_variation("viscous_contact.time_step=1e-2:1e-1:log:20")};
     plan_.models = {"viscous_contact_exact", "viscous_contact"};
     plan_.reference = "viscous_contact_exact";
   }
@@ -48,11 +47,11 @@ class SweepFile : public ::testing::Test {
 
   std::uint64_t write(const std::string& name, int jobs = 2) {
     calls_ = 0;
-    return write_sweep(rows_of(Sweep(plan_), version_), path(name), jobs, "",
+    return write_sweep(sphere_study(plan_, version_), path(name), jobs, "",
                        [&](std::uint64_t done, std::uint64_t size) {
                          ++calls_;
                          EXPECT_LE(done, size);
-                         EXPECT_EQ(size, sweep_size(plan_));
+                         EXPECT_EQ(size, plan_.points.rows());
                        });
   }
 
@@ -63,7 +62,7 @@ class SweepFile : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  SweepPlan plan_;
+  SpherePlan plan_;
   std::string version_ = "1.2.3";
   int calls_ = 0;  // of progress
 };
@@ -88,10 +87,10 @@ TEST_F(SweepFile, HasItsHeaderAndItsRows) {
       read_csv<2>(path("undisturbed.csv"),
                   {"viscous_contact.time_step", "viscous_contact.sup_gap_distance"}, 2);
   ASSERT_EQ(csv.rows.size(), kRows);
-  const Sweep sweep(plan_);
+  const auto sweep = sphere_study(plan_, version_);
   std::string rows;
   for (std::uint64_t i = 0; i < kRows; ++i) {
-    EXPECT_EQ(*csv.rows[i].fields[0], plan_.variations[0].value(i));
+    EXPECT_EQ(*csv.rows[i].fields[0], plan_.points.variations[0].value(i));
     rows += sweep.row(i);
   }
   EXPECT_TRUE(text.ends_with("failure\n" + rows));
@@ -125,7 +124,7 @@ TEST_F(SweepFile, KeepsItsRowsWhenSomethingElseEndsIt) {
   const auto stop = [](std::uint64_t done, std::uint64_t) {
     if (done == 13) throw std::domain_error("the end");
   };
-  EXPECT_THROW(write_sweep(rows_of(Sweep(plan_), version_), path("table.csv"), 2, "", stop),
+  EXPECT_THROW(write_sweep(sphere_study(plan_, version_), path("table.csv"), 2, "", stop),
                std::domain_error);
   EXPECT_FALSE(std::filesystem::exists(path("table.csv")));
   EXPECT_EQ(write("table.csv"), kRows - 13);
@@ -149,7 +148,7 @@ TEST_F(SweepFile, PartThatIsNoBeginningOfItIsThrownAway) {
 
 TEST_F(SweepFile, PartOfTheSweepWithOtherValuesIsThrownAway) {
   const auto whole = undisturbed();
-  plan_.variations = {parse_variation("viscous_contact.time_step=2e-2:1e-1:log:20")};
+  plan_.points.variations = {parse_variation("viscous_contact.time_step=2e-2:1e-1:log:20")};
   put_text(path("table.csv.part"), whole);
   EXPECT_EQ(write("table.csv"), kRows);
   EXPECT_NE(read_file(path("table.csv")), whole);
@@ -179,7 +178,7 @@ TEST_F(SweepFile, IsMadeAgainForWhateverDecidesItsRows) {
   write("table.csv");
   const auto expect_made_again = [&](const char* what, const std::function<void()>& change) {
     change();
-    EXPECT_EQ(write("table.csv"), sweep_size(plan_)) << what;
+    EXPECT_EQ(write("table.csv"), plan_.points.rows()) << what;
     EXPECT_EQ(write("table.csv"), 0U) << what;
   };
   expect_made_again("case", [&] {
@@ -197,13 +196,14 @@ TEST_F(SweepFile, IsMadeAgainForWhateverDecidesItsRows) {
   expect_made_again("reference", [&] { plan_.reference = "viscous_contact"; });
   expect_made_again("models", [&] { plan_.models.emplace_back("inelastic_contact"); });
   expect_made_again("version", [&] { version_ = "1.2.4"; });
-  expect_made_again("spacing", [&] { plan_.variations[0].logarithmic = false; });
-  expect_made_again("end", [&] { plan_.variations[0].last = 0.09; });
-  expect_made_again(
-      "list", [&] { plan_.variations = {parse_variation("viscous_contact.time_step=0.1,0.05")}; });
-  expect_made_again("its order", [&] { std::ranges::reverse(plan_.variations[0].values); });
-  expect_made_again("samples", [&] { plan_.samples = 2; });
-  expect_made_again("seed", [&] { plan_.seed = 2; });
+  expect_made_again("spacing", [&] { plan_.points.variations[0].logarithmic = false; });
+  expect_made_again("end", [&] { plan_.points.variations[0].last = 0.09; });
+  expect_made_again("list", [&] {
+    plan_.points.variations = {parse_variation("viscous_contact.time_step=0.1,0.05")};
+  });
+  expect_made_again("its order", [&] { std::ranges::reverse(plan_.points.variations[0].values); });
+  expect_made_again("samples", [&] { plan_.points.samples = 2; });
+  expect_made_again("seed", [&] { plan_.points.seed = 2; });
 }
 
 TEST_F(SweepFile, MakesItsFolderAndSaysWhereItCannotWrite) {

@@ -4,12 +4,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include "tests/common/failure.hpp"
 #include "tests/common/temporary_folder.hpp"
 #include "tests/sweep/sweep_rows.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/sweep/sweep.hpp"
+#include "viscontact/sweep/sphere_study.hpp"
 
 namespace viscontact::sweep {
 namespace {
@@ -24,13 +25,16 @@ TEST(SweepPlanCheck, FirstAndLastPointMustBeCases) {
   for (const std::string values : {"-1,1", "1,-1"})
     EXPECT_THAT(
         bad_input([&] {
-          Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}));
+          sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=" + values}),
+                       "");
         }),
         AllOf(HasSubstr("vanishing_viscosity.toml"), HasSubstr("fluid.viscosity is -1"),
               HasSubstr("must be a number > 0"), HasSubstr("at the point fluid.viscosity = -1")));
-  EXPECT_THAT(
-      bad_input([] { Sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"})); }),
-      HasSubstr("fluid.viscosty"));
+  EXPECT_THAT(bad_input([] {
+                sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosty=1,2"}),
+                             "");
+              }),
+              HasSubstr("fluid.viscosty"));
 }
 
 TEST(SweepPlanCheck, CaseNeedsAMotion) {
@@ -39,18 +43,20 @@ TEST(SweepPlanCheck, CaseNeedsAMotion) {
   text.erase(text.find("[motion]"));
   auto plan = shipped("vanishing_viscosity.toml");
   plan.case_path = folder.file("case.toml", text);
-  EXPECT_THAT(bad_input([&] { Sweep sweep(plan); }), HasSubstr("[motion]"));
+  EXPECT_THAT(bad_input([&] { sphere_study(plan, ""); }), HasSubstr("[motion]"));
 }
 
 TEST(SweepPlanCheck, RadiusIsThatOfTheFitUnlessTheDragIsExact) {
+  EXPECT_THAT(
+      bad_input([] {
+        sphere_study(varied(shipped("vanishing_viscosity.toml"), {"sphere.radius=0.3:0.4:3"}), "");
+      }),
+      AllOf(HasSubstr("sphere.radius is 0.3"), HasSubstr("the fit's radius is 0.23032943298089034"),
+            HasSubstr("exact drag")));
   EXPECT_THAT(bad_input([] {
-                Sweep(varied(shipped("vanishing_viscosity.toml"), {"sphere.radius=0.3:0.4:3"}));
-              }),
-              AllOf(HasSubstr("sphere.radius is 0.3"),
-                    HasSubstr("the fit's radius is 0.23032943298089034"), HasSubstr("exact drag")));
-  EXPECT_THAT(bad_input([] {
-                Sweep(varied(shipped("vanishing_viscosity.toml"),
-                             {"sphere.radius=0.23032943298089034,0.2303294329808904,0.4"}));
+                sphere_study(varied(shipped("vanishing_viscosity.toml"),
+                                    {"sphere.radius=0.23032943298089034,0.2303294329808904,0.4"}),
+                             "");
               }),
               HasSubstr("sphere.radius is 0.4"));
   // k = 6 pi mu r^2 = 4, and gamma is -1 at the end of the push, q0 = 1: exp(gamma/k), to the
@@ -73,8 +79,8 @@ TEST(SweepPlanCheck, RadiusInTheMiddleIsThatOfTheFitToo) {
 
 TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   const auto plan = shipped("vanishing_viscosity.toml");
-  const auto wrong = [](const SweepPlan& p) {
-    return failure(ErrorKind::kWrongUsage, [&] { Sweep sweep(p); });
+  const auto wrong = [](const SpherePlan& p) {
+    return failure(ErrorKind::kWrongUsage, [&] { sphere_study(p, ""); });
   };
   EXPECT_THAT(wrong(varied(plan, {"sphere.mass=1,2", "fluid.viscosity=1", "motion.mass=3"})),
               HasSubstr("the key sphere.mass is given twice"));
@@ -83,7 +89,7 @@ TEST(SweepPlanCheck, NothingIsThereTwiceAndTheReferenceIsOneOfTheModels) {
   EXPECT_THAT(
       wrong(with_models(plan, {"inertial"}, "viscous_contact")),
       AllOf(HasSubstr("'viscous_contact' is not one of the models"), HasSubstr("inertial")));
-  EXPECT_THAT(bad_input([&] { Sweep sweep(with_models(plan, {"inertia"}, "inertia")); }),
+  EXPECT_THAT(bad_input([&] { sphere_study(with_models(plan, {"inertia"}, "inertia"), ""); }),
               HasSubstr("inertia"));
 }
 
@@ -92,13 +98,20 @@ class RunSweep : public ::testing::Test {
   using Taken = std::vector<std::pair<std::uint64_t, std::string>>;
   /// The first rows take a hundred times as long as the last, which so are done first; more of them
   /// than any thread may run ahead.
-  const Sweep sweep_{
-      varied(shipped("time_step.toml"), {"viscous_contact.time_step=1e-3:1e-1:log:200"})};
+  const Study sweep_ = sphere_study(
+      varied(shipped("time_step.toml"), {"viscous_contact.time_step=1e-3:1e-1:log:200"}), "");
+  std::uint64_t run(std::uint64_t begin, int jobs,
+                    const std::function<void(std::uint64_t, const std::string&)>& take,
+                    const StopToken& stop = {}) const {
+    return run_rows(
+        sweep_.size(), begin, jobs,
+        [&](std::uint64_t index, const StopToken& s) { return sweep_.row(index, s); }, take, stop);
+  }
   Taken run(std::uint64_t begin, int jobs) const {
     Taken taken;
-    const auto end = run_rows(
-        rows_of(sweep_, ""), begin, jobs,
-        [&](std::uint64_t index, const std::string& row) { taken.emplace_back(index, row); });
+    const auto end = run(begin, jobs, [&](std::uint64_t index, const std::string& row) {
+      taken.emplace_back(index, row);
+    });
     EXPECT_EQ(end, 200U);
     return taken;
   }
@@ -129,7 +142,7 @@ TEST_F(RunSweep, StopsWhenARowIsNotTaken) {
       offered.push_back(index);
       if (index == 5) throw std::domain_error("full");
     };
-    EXPECT_THROW(run_rows(rows_of(sweep_, ""), 0, jobs, take), std::domain_error) << jobs;
+    EXPECT_THROW(run(0, jobs, take), std::domain_error) << jobs;
     EXPECT_THAT(offered, ElementsAre(0, 1, 2, 3, 4, 5)) << jobs;
   }
 }
@@ -139,7 +152,7 @@ TEST_F(RunSweep, EndsEarlyWhenAStopIsRequested) {
   const auto take = [&](std::uint64_t index, const std::string&) {
     if (index == 5) flag = true;
   };
-  EXPECT_THAT(run_rows(rows_of(sweep_, ""), 0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
+  EXPECT_THAT(run(0, 2, take, StopToken(flag)), AllOf(Ge(6U), Lt(200U)));
   EXPECT_THAT(failure(ErrorKind::kInterrupted, [&] { (void)sweep_.row(0, StopToken(flag)); }),
               HasSubstr("interrupted; everything finished so far is kept"));
 }

@@ -30,24 +30,26 @@ std::string study_text(const std::string& name,
   return text;
 }
 
-SweepPlan plan_of(const std::filesystem::path& path) { return planned(case_file::read_case(path)); }
+SpherePlan plan_of(const std::filesystem::path& path) {
+  return planned_sphere(case_file::read_case(path));
+}
 
-SweepPlan shipped(const std::string& name) { return plan_of(data("cases/" + name)); }
+SpherePlan shipped(const std::string& name) { return plan_of(data("cases/" + name)); }
 
-SweepPlan varied(SweepPlan plan, const std::vector<std::string>& vary) {
-  plan.variations.clear();
-  for (const auto& text : vary) plan.variations.push_back(parse_variation(text));
+SpherePlan varied(SpherePlan plan, const std::vector<std::string>& vary) {
+  plan.points.variations.clear();
+  for (const auto& text : vary) plan.points.variations.push_back(parse_variation(text));
   return plan;
 }
 
-SweepPlan with_models(SweepPlan plan, std::vector<std::string> models,
-                      const std::string& reference) {
+SpherePlan with_models(SpherePlan plan, std::vector<std::string> models,
+                       const std::string& reference) {
   plan.models = std::move(models);
   plan.reference = reference;
   return plan;
 }
 
-std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::string& row) {
+std::map<std::string, std::string> fields_of(const Study& study, const std::string& row) {
   EXPECT_TRUE(row.ends_with('\n') && std::ranges::count(row, '\n') == 1) << row;
   std::vector<std::string> values(1);
   for (const char c : row.substr(0, row.size() - 1))
@@ -55,7 +57,7 @@ std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::s
       values.emplace_back();
     else
       values.back() += c;
-  const auto columns = sweep_columns(plan);
+  const auto columns = study.columns();
   EXPECT_EQ(values.size(), columns.size()) << row;
   std::map<std::string, std::string> fields;
   for (std::size_t i = 0; i < std::min(values.size(), columns.size()); ++i)
@@ -63,8 +65,9 @@ std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::s
   return fields;
 }
 
-std::map<std::string, std::string> row_of(const SweepPlan& plan, std::uint64_t index) {
-  return fields_of(plan, Sweep(plan).row(index));
+std::map<std::string, std::string> row_of(const SpherePlan& plan, std::uint64_t index) {
+  const auto study = sphere_study(plan, "");
+  return fields_of(study, study.row(index));
 }
 
 double number(const std::map<std::string, std::string>& fields, const std::string& column) {
@@ -73,13 +76,15 @@ double number(const std::map<std::string, std::string>& fields, const std::strin
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan) {
+std::vector<std::map<std::string, std::string>> run_whole(const SpherePlan& plan) {
   std::vector<std::map<std::string, std::string>> rows;
-  run_rows(rows_of(Sweep(plan), ""), 0, 2, [&](std::uint64_t, const std::string& row) {
-    rows.push_back(fields_of(plan, row));
+  const auto study = sphere_study(plan, "");
+  const auto compute = [&](std::uint64_t index, const StopToken&) { return study.row(index); };
+  run_rows(study.size(), 0, 2, compute, [&](std::uint64_t, const std::string& row) {
+    rows.push_back(fields_of(study, row));
     EXPECT_EQ(rows.back().at("failure"), "");
   });
-  EXPECT_EQ(rows.size(), sweep_size(plan));
+  EXPECT_EQ(rows.size(), plan.points.rows());
   return rows;
 }
 

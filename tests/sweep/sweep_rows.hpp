@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "viscontact/sweep/sweep.hpp"
+#include "viscontact/sweep/sphere_study.hpp"
 
 namespace viscontact::sweep {
 
@@ -19,24 +19,24 @@ std::string study_text(const std::string& name,
                        const std::vector<std::pair<std::string, std::string>>& changes);
 
 /// The sweep that a case asks for.
-SweepPlan plan_of(const std::filesystem::path& path);
+SpherePlan plan_of(const std::filesystem::path& path);
 
-SweepPlan shipped(const std::string& name);
+SpherePlan shipped(const std::string& name);
 
-SweepPlan varied(SweepPlan plan, const std::vector<std::string>& vary);
+SpherePlan varied(SpherePlan plan, const std::vector<std::string>& vary);
 
-SweepPlan with_models(SweepPlan plan, std::vector<std::string> models,
-                      const std::string& reference);
+SpherePlan with_models(SpherePlan plan, std::vector<std::string> models,
+                       const std::string& reference);
 
 /// The fields of a row by their columns; a failure of the test if there are more or fewer.
-std::map<std::string, std::string> fields_of(const SweepPlan& plan, const std::string& row);
+std::map<std::string, std::string> fields_of(const Study& study, const std::string& row);
 
-std::map<std::string, std::string> row_of(const SweepPlan& plan, std::uint64_t index);
+std::map<std::string, std::string> row_of(const SpherePlan& plan, std::uint64_t index);
 
 double number(const std::map<std::string, std::string>& fields, const std::string& column);
 
 /// All rows, none of which may have failed.
-std::vector<std::map<std::string, std::string>> run_whole(const SweepPlan& plan);
+std::vector<std::map<std::string, std::string>> run_whole(const SpherePlan& plan);
 
 std::vector<double> column(const std::vector<std::map<std::string, std::string>>& rows,
                            const std::string& name);

@@ -1,6 +1,4 @@
 // Rows of a sweep, one by one and on several threads.
-#include "viscontact/sweep/sweep.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include "viscontact/lubrication/lubrication_force.hpp"
 #include "viscontact/reduced_model/comparison.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/sweep/sphere_study.hpp"
 
 namespace viscontact::sweep {
 namespace {
@@ -26,7 +25,7 @@ using ::testing::HasSubstr;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Expects of a row the digits that simulate and compare_trajectories give for a case.
-void expect_row_of(const SweepPlan& plan, std::uint64_t index, const std::string& case_text,
+void expect_row_of(const SpherePlan& plan, std::uint64_t index, const std::string& case_text,
                    const lubrication::LubricationForce& force) {
   const TemporaryFolder folder;
   const case_file::Case c = case_file::read_case(folder.file("case.toml", case_text));
@@ -100,7 +99,7 @@ TEST(SweepRow, BeginsWithTheNumbersThatWereVaried) {
   const auto row = row_of(plan, 2);
   EXPECT_EQ(row.at("fluid.viscosity"), "0.7");
   EXPECT_EQ(row.at("motion.initial_gap"), "1");
-  const auto columns = sweep_columns(plan);
+  const auto columns = sphere_study(plan, "").columns();
   EXPECT_EQ(columns.front(), "fluid.viscosity");
   EXPECT_EQ(columns.at(1), "motion.initial_gap");
   EXPECT_EQ(columns.at(2), "viscous_contact_exact.minimal_gap");
@@ -121,24 +120,24 @@ TEST(SweepRow, ViscosityScalesTheFit) {
 
 TEST(SweepRow, RandomSamplesHaveTheirOwnNumbers) {
   auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.1:1:log:2"});
-  plan.samples = 3;
-  plan.seed = 7;
-  ASSERT_EQ(sweep_size(plan), 3U);
+  plan.points.samples = 3;
+  plan.points.seed = 7;
+  ASSERT_EQ(plan.points.rows(), 3U);
   for (std::uint64_t i = 0; i < 3; ++i)
     EXPECT_EQ(number(row_of(plan, i), "fluid.viscosity"),
-              random_point(plan.variations, i, 7).at(0).second);
+              random_point(plan.points.variations, i, 7).at(0).second);
 }
 
 /// The leading term alone, for gaps down to 1e-3 only.
-SweepPlan plan_of_short_fit() {
+SpherePlan plan_of_short_fit() {
   auto plan = varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=0.5"});
   plan.fit.gap_interval = {1e-3, 10};
   return plan;
 }
 
 /// What the inertial model says to that fit: its film is exp(-4/mu), 3.4e-4.
-std::string failure_of_inertial(const SweepPlan& plan) {
-  const auto c = case_file::CaseTemplate(plan.case_path)
+std::string failure_of_inertial(const SpherePlan& plan) {
+  const auto c = case_file::CaseTemplate<case_file::Case>(plan.case_path)
                      .with(std::array{std::pair(std::string("fluid.viscosity"), 0.5)});
   const lubrication::LubricationForce force(lubrication::with_viscosity(plan.fit, 0.5));
   return bad_input(
@@ -191,8 +190,9 @@ TEST(SweepRow, AllFailuresAreNamed) {
 }
 
 TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
-  const Sweep sweep(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=1,-1,2"}));
-  const auto row = fields_of(sweep.plan(), sweep.row(1));
+  const auto sweep =
+      sphere_study(varied(shipped("vanishing_viscosity.toml"), {"fluid.viscosity=1,-1,2"}), "");
+  const auto row = fields_of(sweep, sweep.row(1));
   EXPECT_EQ(row.at("fluid.viscosity"), "-1");
   EXPECT_THAT(row.at("failure"), HasSubstr("fluid.viscosity is -1; it must be a number > 0"));
   for (const auto& [name, value] : row) {
@@ -200,7 +200,7 @@ TEST(SweepRow, PointInTheMiddleThatIsNoCaseIsARowThatSaysSo) {
       EXPECT_EQ(value, "") << name;
     }
   }
-  EXPECT_EQ(fields_of(sweep.plan(), sweep.row(2)).at("failure"), "");
+  EXPECT_EQ(fields_of(sweep, sweep.row(2)).at("failure"), "");
 }
 
 TEST(SweepRow, HasNumbersThatAreFiniteOrNothing) {

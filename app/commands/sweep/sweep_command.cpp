@@ -1,15 +1,23 @@
-// The command line of `sweep` (docs/command-line.md).
+// The command `sweep` (docs/command-line.md): its command line, and what its picture shows.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "viscontact/app/commands/commands.hpp"
+#include "viscontact/app/commands/interrupt.hpp"
 #include "viscontact/app/commands/sweep/sweep_options.hpp"
 #include "viscontact/case_file/case_file.hpp"
 #include "viscontact/common/named.hpp"
+#include "viscontact/pipeline/dry_run.hpp"
+#include "viscontact/pipeline/sweep/sweep_stage.hpp"
 #include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/rolling/rolling_motion.hpp"
+#include "viscontact/report/pictures/sweep_plot.hpp"
+#include "viscontact/results/picture_kind.hpp"
+#include "viscontact/results/provenance.hpp"
 
 namespace viscontact::app {
 namespace {
@@ -26,28 +34,113 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
       ->delimiter(',');
 }
 
+/// What to draw. Options of the command line decide. Where they are missing, the section [sweep] of
+/// the case decides, provided that the sweep has the keys and columns that it names; otherwise the
+/// first varied keys are the axes, and the columns are those that the kind of the case draws. Throws
+/// Error(kWrongUsage) if a map of random samples was asked for.
+report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
+  const auto& request = s.request;
+  const auto& points = s.study.points;
+  const auto columns = s.study.columns();
+  const auto is_there = [&](const std::string& column) {
+    const auto slash = column.find('/');
+    return std::ranges::find(columns, column.substr(0, slash)) != columns.end() &&
+           (slash == std::string::npos || points.is_varied(column.substr(slash + 1)));
+  };
+  report::SweepPlot picture{o.x, o.y, o.columns};
+  for (auto* axis : {&picture.x, &picture.y})
+    if (*axis == "motion.mass") *axis = "sphere.mass";
+  if (picture.x.empty() && picture.y.empty()) {
+    if (points.is_varied(request.x)) picture.x = request.x;
+    if (points.is_varied(request.y) && points.samples == 0) picture.y = request.y;
+  }
+  if (picture.columns.empty() && std::ranges::all_of(request.plot, is_there))
+    picture.columns = request.plot;
+  if (picture.x.empty()) {
+    const auto free = std::ranges::find_if(points.variations, [&](const sweep::Variation& v) {
+      return v.key != picture.y && v.count > 1;
+    });
+    picture.x = free != points.variations.end() ? free->key : points.variations[0].key;
+    const auto other = std::ranges::find_if(points.variations, [&](const sweep::Variation& v) {
+      return v.key != picture.x && v.count > 1;
+    });
+    if (picture.y.empty() && points.samples == 0 && other != points.variations.end())
+      picture.y = other->key;
+  }
+  if (!picture.y.empty() && points.samples > 0)
+    throw Error(ErrorKind::kWrongUsage,
+                "a map can be drawn of a grid only, not of random samples; leave out --y");
+  if (picture.columns.empty()) picture.columns = s.columns;
+  return picture;
+}
+
+/// Throws Error(kWrongUsage) if the sweep does not have the axes and columns of the picture.
+void check_columns(const report::SweepPlot& picture, const sweep::Study& study) {
+  const auto columns = study.columns();
+  const auto& points = study.points;
+  const auto check = [&](const std::string& name) {
+    if (std::ranges::find(columns, name) != columns.end()) return;
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("there is no column '{}' to plot; the columns are: {}", name,
+                            fmt::join(columns, ", ")));
+  };
+  for (const auto& axis : {picture.x, picture.y}) {
+    if (axis.empty()) continue;
+    const auto key = std::ranges::find(points.variations, axis, &sweep::Variation::key);
+    if (key == points.variations.end() || (key->count < 2 && points.samples == 0))
+      throw Error(
+          ErrorKind::kWrongUsage,
+          fmt::format(
+              "'{}' cannot be an axis of the plot; an axis must be a key that is varied over at "
+              "least two values",
+              axis));
+  }
+  for (const auto& column : picture.columns) {
+    const auto slash = column.find('/');
+    check(column.substr(0, slash));
+    if (slash != std::string::npos) check(column.substr(slash + 1));
+  }
+}
+
+/// Computes the rows of a study and draws its picture, or says how long that takes.
+void run_study(const SweepOptions& o, const CaseStudy& s) {
+  const auto picture = o.plot.empty() ? report::SweepPlot{} : picture_of(o, s);
+  if (!o.plot.empty()) check_columns(picture, s.study);
+  if (o.dry_run) {
+    fmt::print("{}",
+               pipeline::dry_run_text({pipeline::dry_run(s.study, o.output, interrupt_token())},
+                                      o.jobs, o.json));
+    return;
+  }
+  pipeline::run_sweep(s.study, {o.output, o.jobs, false, interrupt_token()}, {s.files, {}}, s.part);
+  if (o.plot.empty()) return;
+  const auto kind = results::picture_kind(o.plot)->kind;
+  results::write_output(o.plot, kind,
+                        report::plot_sweep(o.output, picture, kind, interrupt_token()),
+                        results::provenance_of(results::Inputs{s.files, {o.output}}));
+}
+
 void run_sweep(const SweepOptions& o) {
   check_array_options(o.array);
-  check_models("--models", o.models);
+  // A name that no kind of case has is wrong whatever the case is.
+  for (const auto& model : o.models)
+    if (find_named(reduced_model::rolling_models(), model) == nullptr)
+      check_models("--models", {model});
   check_outputs(o.plot.empty() ? std::vector{o.output} : std::vector{o.output, o.plot});
   check_picture(o.plot);
-  const auto kind = case_file::kind_of_case(o.case_file);
-  if (kind == case_file::CaseKind::kParticles)
-    sweep_many_particles(o);
-  else if (kind == case_file::CaseKind::kSwimmer)
-    sweep_swimmer(o);
-  else
-    sweep_sphere(o);
+  switch (case_file::kind_of_case(o.case_file)) {
+    case case_file::CaseKind::kParticles:
+      return sweep_many_particles(o);
+    case case_file::CaseKind::kSwimmer:
+      return run_study(o, study_of_swimmer(o));
+    case case_file::CaseKind::kRolling:
+      return run_study(o, study_of_rolling_sphere(o));
+    case case_file::CaseKind::kSphere:
+      return run_study(o, study_of_sphere(o));
+  }
 }
 
 }  // namespace
-
-std::vector<sweep::Variation> variations_of(const SweepOptions& o) {
-  std::vector<sweep::Variation> variations;
-  for (const auto& text : o.vary)
-    variations.push_back(from_option("--vary", [&] { return sweep::parse_variation(text); }));
-  return variations;
-}
 
 void add_sweep(CLI::App& app) {
   auto* command = app.add_subcommand(
@@ -70,14 +163,16 @@ void add_sweep(CLI::App& app) {
       ->check(CLI::Range(1.0, 1e12));
   command->add_option("--seed", o->seed, "seed of the random points")->capture_default_str();
   add_value(*command, "--models", o->models, kModels,
-            "comma-separated; default: " + names_of(reduced_model::sweep_models(), ","))
+            fmt::format("comma-separated; default: {}; for a rolling sphere: {}",
+                        names_of(reduced_model::sweep_models(), ","),
+                        names_of(reduced_model::rolling_models(), ",")))
       ->delimiter(',');
   add_value(*command, "--reference", o->reference, kModel,
             fmt::format("model that the others are compared with; default: {}, or the first",
                         reduced_model::usual_reference()));
   add_value(*command, "--fit", o->fit, kFile,
             "fit of the lubrication force (JSON); default: the case's [fit] file or exact; for a "
-            "swimmer, its fit.json");
+            "swimmer or a rolling sphere, its fit.json");
   add_picture_options(*command, *o);
   command
       ->add_option("--draws", o->draws,

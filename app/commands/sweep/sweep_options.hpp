@@ -1,5 +1,4 @@
-// What the command line of `sweep` says, and the three kinds of sweeps that the kind of the case
-// decides between.
+// What the command line of `sweep` says, and the studies between which the kind of the case decides.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 #include "viscontact/app/arguments/array_options.hpp"
 #include "viscontact/app/arguments/command_options.hpp"
-#include "viscontact/sweep/rows.hpp"
-#include "viscontact/sweep/variation.hpp"
+#include "viscontact/case_file/case_template.hpp"
+#include "viscontact/sweep/study.hpp"
 
 namespace viscontact::app {
 
@@ -24,20 +23,20 @@ struct SweepOptions {
   const CLI::Option* jobs_option = nullptr;  ///< CLI11's object of --jobs
 };
 
-/// The ranges of --vary. Throws Error(kWrongUsage) for a text that is no range.
-std::vector<sweep::Variation> variations_of(const SweepOptions& o);
+/// The study of a case with these options, and what the command says about it.
+struct CaseStudy {
+  sweep::Study study{};
+  std::vector<std::filesystem::path> files{};  ///< the inputs
+  std::string part{};                          ///< what a row computes several of, as "model"
+  case_file::SweepRequest request{};           ///< the section [sweep] of the case
+  std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
+};
 
-/// Runs a sweep of a case of one sphere, and draws its picture.
-void sweep_sphere(const SweepOptions& o);
-
-/// Runs a sweep over the strokes of a swimmer, and draws its picture.
-void sweep_swimmer(const SweepOptions& o);
-
-/// Computes the rows that o.output does not have yet, and says how many there are and how many
-/// failed. `files` are the inputs, and `what` a row computes: "model" or "stroke". Throws
-/// Error(kNotConverged) if every row failed.
-void write_rows(const SweepOptions& o, const sweep::Rows& rows,
-                const std::vector<std::filesystem::path>& files, const std::string& what);
+/// Each of these makes the study of a kind of case. Throws Error(kWrongUsage) for options that this
+/// kind does not have, and Error(kBadInput) if o.output is a file that is no sweep of this kind.
+CaseStudy study_of_sphere(const SweepOptions& o);
+CaseStudy study_of_swimmer(const SweepOptions& o);
+CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
 /// Runs, gathers or submits a sweep of a case of many particles.
 void sweep_many_particles(const SweepOptions& o);

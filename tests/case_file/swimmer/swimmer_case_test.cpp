@@ -104,7 +104,7 @@ TEST_F(SwimmerCaseFile, StrokeMayBeAFileOfArmsOverTime) {
 }
 
 TEST_F(SwimmerCaseFile, TemplateChangesNumbersOfTheStroke) {
-  const SwimmerCaseTemplate of_case(kCase);
+  const CaseTemplate<SwimmerCase> of_case(kCase);
   const auto c = of_case.with(std::vector<std::pair<std::string, double>>{
       {"stroke.period", 3}, {"optimal.displacement", 0.1}});
   EXPECT_EQ(c.stroke->period, 3);

@@ -318,6 +318,47 @@ TEST_F(MotionsCommand, RollingRefusesWhatIsWrongWithItsLine) {
   refused("plane.json", "equal_spheres.json", "it must be a plane");
 }
 
+TEST_F(MotionsCommand, SweepOfARollingSphereHasTheEndsThatRollingHas) {
+  const auto steep =
+      scratch_.file("steep.toml", read_file(incline("incline = 0.3", "incline = 0.9")));
+  const auto file = incline("friction = 0.3", "friction = 0.3\nmodels = [\"rough\"]");
+  const auto sweep = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"sweep", file, "-o", path("rows.csv")});
+    return run_viscontact(more);
+  };
+  const auto done = sweep({"--vary", "rolling.incline=0.1,0.9", "--models",
+                           "smooth,viscous_contact", "--plot", path("rows.svg")});
+  expect_done(done);
+  EXPECT_THAT(done.errors, HasSubstr("sweep: 2 rows in " + path("rows.csv")));
+  EXPECT_THAT(read_file(path("rows.svg")), HasSubstr("</svg>"));
+  expect_done(run_viscontact({"rolling", steep.string(), "-o", path("out")}));
+  const auto json = nlohmann::json::parse(read_file(path("out/rolling.json")));
+  for (const std::string model : {"smooth", "viscous_contact"})
+    for (const std::string column : {"gap", "smallest_gap", "position", "angle", "velocity",
+                                     "angular_velocity", "slip", "contact", "contact_time"}) {
+      const auto rows = read_csv<1>(path("rows.csv"), {model + "." + column}, 1);
+      ASSERT_EQ(rows.rows.size(), 2U);
+      const auto& expected = json["models"][model][column];
+      EXPECT_EQ(rows.rows[1].fields[0].has_value(), !expected.is_null()) << model << column;
+      if (!expected.is_null()) {
+        EXPECT_EQ(*rows.rows[1].fields[0], expected.get<double>()) << model << column;
+      }
+    }
+  EXPECT_THAT(
+      sweep({"--vary", "rolling.incline=0.1,0.9", "--models", "smooth,viscous_contact"}).errors,
+      HasSubstr("is up to date"));
+  expect_refusal(sweep({"--vary", "sphere.radius=1,2"}), ErrorKind::kWrongUsage,
+                 HasSubstr("cannot be varied with one fit"));
+  expect_refusal(sweep({"--vary", "rolling.incline=0,1", "--draws", "2"}), ErrorKind::kWrongUsage,
+                 HasSubstr("not for cases of a rolling sphere"));
+  const auto tables = small_case("motion = \"all\"",
+                                 "container = \"unbounded\"\n[rolling]\ninitial_gap = 0.1\n"
+                                 "weight = 1.0\nend_time = 1.0\ntime_step = 0.1\n");
+  expect_refusal(
+      run_viscontact({"sweep", tables, "-o", path("rows.csv"), "--vary", "rolling.incline=0,1"}),
+      ErrorKind::kWrongUsage, HasSubstr("give with --fit the file fit.json"));
+}
+
 TEST_F(MotionsCommand, RollingWritesTheModelsThatDoNotFail) {
   // Only viscous contact has no film above the gaps of the fit.
   const auto run = run_viscontact(

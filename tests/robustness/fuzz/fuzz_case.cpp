@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (c.fit && c.fit->file) can_be([&] { (void)lubrication::read_fit(*c.fit->file); });
   // As a sweep makes a case of each point.
-  const case_file::CaseTemplate pattern(path);
+  const case_file::CaseTemplate<case_file::Case> pattern(path);
   const std::array fluid = {std::pair<std::string, double>{"fluid.viscosity", 2.5}};
   can_be([&] { (void)pattern.with(fluid); });
   if (!c.sweep) return 0;

@@ -1,6 +1,4 @@
 // Points, cases, rows and means of a sweep of particles; what runs them is a function of the test.
-#include "viscontact/sweep/particles/particles_sweep.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +11,7 @@
 #include "tests/common/temporary_folder.hpp"
 #include "tests/sweep/particles/particles_case.hpp"
 #include "viscontact/common/files/file.hpp"
-#include "viscontact/sweep/particles/means.hpp"
-#include "viscontact/sweep/sweep_file.hpp"
+#include "viscontact/sweep/particles_study.hpp"
 
 namespace viscontact::sweep {
 namespace {
@@ -28,27 +25,26 @@ class ParticlesSweepTest : public ::testing::Test {
  protected:
   ParticlesSweepTest() {
     put_text(path("case.toml"), small_particles_case());
-    plan_.case_path = path("case.toml");
-    plan_.variations = {parse_variation("arrangement.area_fraction=0.1,0.3"),
-                        parse_variation("viscous_contact.time_step=0.05,0.1")};
-    plan_.draws = 3;
+    points_.variations = {parse_variation("arrangement.area_fraction=0.1,0.3"),
+                          parse_variation("viscous_contact.time_step=0.05,0.1")};
+    points_.draws = 3;
   }
   std::filesystem::path path(const std::string& name) const { return scratch_.path() / name; }
 
   /// Results that tell which row they are of. Row 4 fails.
-  static RunResults of_row(std::uint64_t index) {
-    if (index == 4) return {{}, "no luck, this time"};
+  static RowResults of_row(std::uint64_t index) {
+    if (index == 4) return {{}, {}, "no luck, this time"};
     const auto value = static_cast<double>(index);
-    return {{{"steps", value * value}, {"iterations", 7}}, ""};
+    return {{{"steps", value * value}, {"iterations", 7}}, {}, ""};
   }
   /// Writes the rows and returns their lines without the head.
   std::vector<std::string> lines(const ParticlesSweep& sweep) {
-    write_sweep(rows_of(sweep, "1",
-                        [this](std::uint64_t index, const StopToken&) {
-                          const std::lock_guard lock(mutex_);
-                          ran_.insert(index);
-                          return of_row(index);
-                        }),
+    write_sweep(sweep.study("1",
+                            [this](std::uint64_t index, const StopToken&) {
+                              const std::lock_guard lock(mutex_);
+                              ran_.insert(index);
+                              return of_row(index);
+                            }),
                 path("rows.csv"), 2, "", [](auto, auto) {});
     return lines_of(read_file(path("rows.csv")));
   }
@@ -61,30 +57,30 @@ class ParticlesSweepTest : public ::testing::Test {
   }
 
   TemporaryFolder scratch_;
-  ParticlesSweepPlan plan_;
+  Points points_;
   std::mutex mutex_;
   std::set<std::uint64_t> ran_;
 };
 
 TEST_F(ParticlesSweepTest, DrawsOfAPointFollowEachOtherWithSeedsFromThatOfTheCase) {
-  const ParticlesSweep sweep(plan_);
-  EXPECT_EQ(sweep.points(), 4U);
-  EXPECT_EQ(sweep.size(), 12U);
-  EXPECT_THAT(sweep.numbers(0),
+  const ParticlesSweep sweep(path("case.toml"), points_);
+  EXPECT_EQ(sweep.points().count(), 4U);
+  EXPECT_EQ(sweep.points().rows(), 12U);
+  EXPECT_THAT(sweep.points().numbers(0),
               ElementsAre(Pair("arrangement.area_fraction", 0.1),
                           Pair("viscous_contact.time_step", 0.05), Pair("arrangement.seed", 5)));
-  EXPECT_EQ(sweep.key_fields(2), "0.1,0.05,7");
-  EXPECT_EQ(sweep.key_fields(3), "0.1,0.1,5");
-  EXPECT_EQ(sweep.key_fields(11), "0.3,0.1,7");
+  EXPECT_EQ(sweep.points().key_fields(2), "0.1,0.05,7");
+  EXPECT_EQ(sweep.points().key_fields(3), "0.1,0.1,5");
+  EXPECT_EQ(sweep.points().key_fields(11), "0.3,0.1,7");
 }
 
 TEST_F(ParticlesSweepTest, CaseOfARowIsReadAsTheCaseWithItsNumbers) {
-  plan_.variations[1] = parse_variation("viscous_contact.time_step=0.033333333333333333,0.1");
-  const ParticlesSweep sweep(plan_);
+  points_.variations[1] = parse_variation("viscous_contact.time_step=0.033333333333333333,0.1");
+  const ParticlesSweep sweep(path("case.toml"), points_);
   make_folder(path("elsewhere"));
   put_text(path("elsewhere/row.toml"), sweep.case_text(7));
   const auto row = case_file::read_particles_case(path("elsewhere/row.toml"));
-  const auto c = case_file::ParticlesCaseTemplate(plan_.case_path).with(sweep.numbers(7));
+  const auto c = sweep.case_of(7);
   EXPECT_EQ(row.particles.positions, c.particles.positions);
   EXPECT_EQ(row.setting.time_step, 1.0 / 30);
   EXPECT_EQ(row.arrangement->seed, 6U);
@@ -95,18 +91,16 @@ TEST_F(ParticlesSweepTest, RowOfTheCaseThatATaskGetsHasTheSameIdentity) {
   put_text(path("particles.csv"), "x,y,radius,mass\n1,1,0.5,1\n");
   put_text(path("case.toml"),
            small_particles_case("[particles] # beside the case\nfile = \"particles.csv\"\n"));
-  const ParticlesSweep sweep(plan_);
-  auto elsewhere = plan_;
-  elsewhere.case_path = path("out.slurm/case.toml");
+  const ParticlesSweep sweep(path("case.toml"), points_);
   make_folder(path("out.slurm"));
-  put_text(elsewhere.case_path, sweep.base_text());
-  const ParticlesSweep copied(elsewhere);
+  put_text(path("out.slurm/case.toml"), sweep.base_text());
+  const ParticlesSweep copied(path("out.slurm/case.toml"), points_);
   std::set<std::string> identities;
-  for (std::uint64_t i = 0; i < sweep.size(); ++i) {
+  for (std::uint64_t i = 0; i < sweep.points().rows(); ++i) {
     EXPECT_EQ(copied.identity(i, "1"), sweep.identity(i, "1"));
     identities.insert(sweep.identity(i, "1"));
   }
-  EXPECT_EQ(identities.size(), sweep.size());
+  EXPECT_EQ(identities.size(), sweep.points().rows());
   EXPECT_NE(sweep.identity(0, "2"), sweep.identity(0, "1"));
   const auto before = sweep.identity(0, "1");
   put_text(path("particles.csv"), "x,y,radius,mass\n1,1,0.6,1\n");
@@ -120,14 +114,14 @@ TEST_F(ParticlesSweepTest, RowNamesTheFilesOfAFluidSolverWhereTheyAre) {
            small_particles_case(
                "[fluid]\nviscosity = 1.0\nsolver = [\"python3\", \"my_solver.py\", \"--fast\"]\n"));
   make_folder(path("elsewhere"));
-  put_text(path("elsewhere/row.toml"), ParticlesSweep(plan_).case_text(0));
+  put_text(path("elsewhere/row.toml"), ParticlesSweep(path("case.toml"), points_).case_text(0));
   const auto row = case_file::read_particles_case(path("elsewhere/row.toml"));
   EXPECT_EQ(row.setting.fluid->solver,
             (std::vector<std::string>{"python3", path("my_solver.py").string(), "--fast"}));
 }
 
 TEST_F(ParticlesSweepTest, RowHasKeysResultsAndFailure) {
-  const ParticlesSweep sweep(plan_);
+  const ParticlesSweep sweep(path("case.toml"), points_);
   const auto found = lines(sweep);
   ASSERT_EQ(found.size(), 13U);
   EXPECT_EQ(found[0],
@@ -141,7 +135,7 @@ TEST_F(ParticlesSweepTest, RowHasKeysResultsAndFailure) {
 }
 
 TEST_F(ParticlesSweepTest, MeansAndStandardErrorsAreOverTheDrawsThatSucceeded) {
-  const ParticlesSweep sweep(plan_);
+  const ParticlesSweep sweep(path("case.toml"), points_);
   lines(sweep);
   const auto means = lines_of(table_of_means(sweep, path("rows.csv")));
   ASSERT_EQ(means.size(), 5U);
@@ -156,61 +150,65 @@ TEST_F(ParticlesSweepTest, MeansAndStandardErrorsAreOverTheDrawsThatSucceeded) {
 }
 
 TEST_F(ParticlesSweepTest, FileThatIsNotOfTheSweepHasNoMeans) {
-  lines(ParticlesSweep(plan_));
-  plan_.draws = 4;
-  EXPECT_THAT(bad_input([&] { table_of_means(ParticlesSweep(plan_), path("rows.csv")); }),
+  lines(ParticlesSweep(path("case.toml"), points_));
+  points_.draws = 4;
+  EXPECT_THAT(bad_input([&] {
+                table_of_means(ParticlesSweep(path("case.toml"), points_), path("rows.csv"));
+              }),
               HasSubstr("row 4 is not that of the sweep"));
 }
 
 TEST_F(ParticlesSweepTest, WithoutDrawsTheArrangementIsThatOfTheCase) {
-  plan_.draws = 0;
-  const ParticlesSweep sweep(plan_);
-  EXPECT_EQ(sweep.size(), 4U);
-  EXPECT_EQ(sweep.key_fields(3), "0.3,0.1");
+  points_.draws = 0;
+  const ParticlesSweep sweep(path("case.toml"), points_);
+  EXPECT_EQ(sweep.points().rows(), 4U);
+  EXPECT_EQ(sweep.points().key_fields(3), "0.3,0.1");
   EXPECT_THAT(sweep.case_text(3), HasSubstr("seed = 5"));
 }
 
 TEST_F(ParticlesSweepTest, WholeNumbersStayWholeInTheCase) {
-  plan_.variations = {parse_variation("solver.max_iterations=100,200")};
+  points_.variations = {parse_variation("solver.max_iterations=100,200")};
   put_text(path("case.toml"), small_particles_case("[solver]\nmax_iterations = 50\n"));
-  EXPECT_THAT(ParticlesSweep(plan_).case_text(0), HasSubstr("max_iterations = 100"));
+  EXPECT_THAT(ParticlesSweep(path("case.toml"), points_).case_text(0),
+              HasSubstr("max_iterations = 100"));
 }
 
 TEST_F(ParticlesSweepTest, WrongPlansAreRefused) {
   const auto refused = [&](const std::string& words) {
-    EXPECT_THAT(failure(ErrorKind::kWrongUsage, [&] { (void)ParticlesSweep(plan_); }),
-                HasSubstr(words));
+    EXPECT_THAT(
+        failure(ErrorKind::kWrongUsage, [&] { (void)ParticlesSweep(path("case.toml"), points_); }),
+        HasSubstr(words));
   };
-  const auto good = plan_;
-  plan_.variations.clear();
-  plan_.draws = 0;
+  const auto good = points_;
+  points_.variations.clear();
+  points_.draws = 0;
   refused("varies no key and has no draws");
-  plan_ = good;
-  plan_.variations.push_back(plan_.variations[0]);
+  points_ = good;
+  points_.variations.push_back(points_.variations[0]);
   refused("arrangement.area_fraction is given twice");
-  plan_ = good;
-  plan_.variations = {parse_variation("arrangement.seed=1,2")};
+  points_ = good;
+  points_.variations = {parse_variation("arrangement.seed=1,2")};
   refused("cannot be varied beside draws");
-  plan_.variations = {parse_variation("output.every=1,2")};
+  points_.variations = {parse_variation("output.every=1,2")};
   refused("changes no result");
-  plan_ = good;
-  plan_.draws = 3000000000;
+  points_ = good;
+  points_.draws = 3000000000;
   refused("at most 2147483647");
-  plan_ = good;
+  points_ = good;
   auto text = small_particles_case("[[particle]]\ncentre = [1.0, 1.0]\nradius = 0.5\nmass = 1\n");
   const auto at = text.find("[arrangement]");
   put_text(path("case.toml"), text.erase(at, text.find("[[particle]]") - at));
-  plan_.variations = {parse_variation("particle[0].mass=1,2")};
+  points_.variations = {parse_variation("particle[0].mass=1,2")};
   refused("has no section [arrangement]");
 }
 
 TEST_F(ParticlesSweepTest, PointThatIsNoCaseIsRefusedAtTheEndsOfTheSweep) {
-  plan_.variations = {parse_variation("arrangement.area_fraction=0.1,0.95")};
-  EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(plan_); }),
+  points_.variations = {parse_variation("arrangement.area_fraction=0.1,0.95")};
+  EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(path("case.toml"), points_); }),
               ::testing::AllOf(HasSubstr("case.toml:"), HasSubstr("do not fit"),
                                HasSubstr("at the point arrangement.area_fraction = 0.95")));
-  plan_.variations = {parse_variation("arrangement.radus=1,2")};
-  EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(plan_); }),
+  points_.variations = {parse_variation("arrangement.radus=1,2")};
+  EXPECT_THAT(bad_input([&] { (void)ParticlesSweep(path("case.toml"), points_); }),
               HasSubstr("arrangement.radus is not a key that is known here"));
 }
 
@@ -219,7 +217,7 @@ TEST_F(ParticlesSweepTest, SectionOfTheCaseGivesThePlan) {
            small_particles_case(
                "[sweep]\nvary = [\"arrangement.area_fraction=0.1:0.3:3\"]\ndraws = 4\n"));
   const auto plan = planned_particles(path("case.toml"));
-  EXPECT_EQ(ParticlesSweep(plan).size(), 12U);
+  EXPECT_EQ(ParticlesSweep(path("case.toml"), plan).points().rows(), 12U);
 }
 
 TEST(PathOfMeans, IsBesideTheRows) {

@@ -1,0 +1,81 @@
+// What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and from
+// which cases with other numbers are made. A kind of case takes part by a specialisation of
+// case_of_root(), which its own header declares.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "viscontact/case_file/toml_section.hpp"
+
+namespace viscontact::case_file {
+
+/// What the section [sweep] of a case asks of `viscontact sweep`. Options on the command line replace
+/// these values. Each kind of case has some of these keys.
+struct SweepRequest {
+  std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
+  std::vector<std::string> models;  ///< names; empty: the default of the command
+  std::string reference;            ///< a model; empty: the default of the command
+  std::string x;                    ///< key of the horizontal axis of the plot; may be empty
+  std::string y;                    ///< key of the vertical axis of a map; empty: lines over x
+  std::vector<std::string> plot;    ///< columns to draw
+  std::uint64_t samples = 0;        ///< number of random samples; 0: the whole grid
+  /// Number of random arrangements of particles at each point; 0: that of the case.
+  std::uint64_t draws = 0;
+};
+
+/// The case whose root table is `root`. `text` is the content of the file at `path`. Throws
+/// Error(kBadInput) with the file, the line, the key, its value and what is allowed.
+template <class CaseType>
+CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
+
+/// Names of sections that a case may leave out although their keys can be varied.
+template <class CaseType>
+std::vector<std::string_view> sections_with_defaults() {
+  return {};
+}
+
+/// Reads and checks the case file at `path`. Throws the errors of case_of_root(), and
+/// Error(kBadInput) if the file cannot be read or is not valid TOML.
+template <class CaseType>
+CaseType read_case_file(const std::filesystem::path& path) {
+  auto file = read_toml_file(path);
+  return case_of_root<CaseType>(file.root, std::move(file.text), path);
+}
+
+/// A case file that is read once, and from which many cases with other numbers are made. Several
+/// threads may make cases at once.
+template <class CaseType>
+class CaseTemplate {
+ public:
+  /// Reads and parses the file. Throws Error(kBadInput) if it cannot be read or is not valid TOML.
+  explicit CaseTemplate(const std::filesystem::path& path)
+      : path_(path), file_(read_toml_file(path, sections_with_defaults<CaseType>())) {}
+
+  const std::filesystem::path& path() const { return path_; }  ///< as the constructor was given it
+  const std::string& text() const { return file_.text; }       ///< content of the file
+
+  /// The case with these numbers at these keys, such as "fluid.viscosity" or
+  /// "motion.external_force[0].value". Throws the errors of case_of_root(), and Error(kBadInput) for
+  /// a key that the case cannot have.
+  CaseType with(std::span<const std::pair<std::string, double>> numbers) const {
+    return case_of_root<CaseType>(root_with(numbers), file_.text, path_);
+  }
+
+  /// The root table of the case with these numbers. Throws Error(kBadInput) for a key that the case
+  /// cannot have.
+  TomlSection root_with(std::span<const std::pair<std::string, double>> numbers) const {
+    return file_.root.with_numbers(numbers);
+  }
+
+ private:
+  std::filesystem::path path_;
+  TomlFile file_;
+};
+
+}  // namespace viscontact::case_file

@@ -1,0 +1,214 @@
+// Plans, checks and computes the rows of a sweep of one sphere (sphere_study.hpp). Everything that
+// determines the rows must go into identity_of, so that rows of another sweep are not kept.
+#include "viscontact/sweep/sphere_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "viscontact/common/equal_up_to_rounding.hpp"
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/hash/sha256.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/reduced_model/comparison.hpp"
+#include "viscontact/reduced_model/models/models.hpp"
+#include "viscontact/reduced_model/trajectory.hpp"
+
+namespace viscontact::sweep {
+namespace {
+
+constexpr std::array kModelColumns = {"minimal_gap",
+                                      "minimal_gap_time",
+                                      "film",
+                                      "contact_from",
+                                      "contact_until",
+                                      "sup_gap_distance",
+                                      "l1_gap_distance",
+                                      "l1_velocity_distance",
+                                      "film_ratio",
+                                      "steps"};
+
+double thinnest(const reduced_model::ModelComparison& model) {
+  return model.recovered_minimal_gap.value_or(model.minimal_gap);
+}
+
+void add_model(const reduced_model::ModelComparison& model,
+               const reduced_model::ModelComparison* reference, RowResults& results) {
+  const auto put = [&](const char* column, double value) {
+    results.values[fmt::format("{}.{}", model.model, column)] = value;
+  };
+  put("minimal_gap", model.minimal_gap);
+  put("minimal_gap_time", model.minimal_gap_time);
+  if (model.recovered_minimal_gap) put("film", *model.recovered_minimal_gap);
+  if (model.contact_interval) {
+    put("contact_from", (*model.contact_interval)[0]);
+    put("contact_until", (*model.contact_interval)[1]);
+  }
+  if (reference != nullptr) {
+    put("sup_gap_distance", model.sup_gap_distance);
+    put("l1_gap_distance", model.l1_gap_distance);
+    put("l1_velocity_distance", model.l1_velocity_distance);
+    put("film_ratio", thinnest(model) / thinnest(*reference));
+  }
+  results.numbers[model.model + ".steps"] = model.steps;
+}
+
+/// Throws Error(kWrongUsage) if a key of a case changes no row, because a sweep does not read it or
+/// none of the models depends on it. Does not throw if the key does not exist; the reader of the
+/// case reports such a key.
+void refuse_useless(const std::string& key, const std::vector<std::string>& models) {
+  constexpr std::array kNotOfAMotion = {"tabulation", "fit", "published", "sweep"};
+  if (std::ranges::find(kNotOfAMotion, key.substr(0, key.find('.'))) != kNotOfAMotion.end()) {
+    std::vector<std::string_view> sections = {"fluid", "sphere", "motion"};
+    std::ranges::copy(reduced_model::model_sections(), std::back_inserter(sections));
+    const auto last = sections.back();
+    sections.pop_back();
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("{} cannot be varied, because a sweep tabulates and fits nothing: it "
+                            "varies keys of [{}] and [{}]",
+                            key, fmt::join(sections, "], ["), last));
+  }
+  if (std::ranges::none_of(models, [&](const auto& model) {
+        return reduced_model::depends_on(reduced_model::find_model(model), key);
+      }))
+    throw Error(ErrorKind::kWrongUsage,
+                fmt::format("{} cannot be varied, because none of the models that are run depends "
+                            "on it ({}); leave it out, or add a model that depends on it",
+                            key, fmt::join(models, ", ")));
+}
+
+/// Everything that determines the rows of a sweep.
+std::string identity_of(const SpherePlan& plan) {
+  std::string text = read_file(plan.case_path) + lubrication::write_fit(plan.fit);
+  // The files from which the case reads an external force.
+  for (const auto& file : case_file::read_case(plan.case_path).force_files) text += read_file(file);
+  for (const auto& v : plan.points.variations) {
+    text += fmt::format("{}={}:{}:{}:{};", v.key, format_number(v.first), format_number(v.last),
+                        v.logarithmic, v.count);
+    for (const double value : v.values) text += format_number(value) + ",";
+  }
+  return fmt::format("{}{}{}{}{}{}{}", text, plan.points.samples,
+                     plan.points.samples > 0 ? plan.points.seed : 0, fmt::join(plan.models, ","),
+                     plan.reference, static_cast<int>(plan.outside.below),
+                     static_cast<int>(plan.outside.above));
+}
+
+using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
+
+/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit is not that
+/// of its radius.
+case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
+                          const std::vector<std::pair<std::string, double>>& numbers) {
+  case_file::Case c = cases.with(numbers);
+  if (!lubrication::is_exact_plane(plan.fit) && !equal_up_to_rounding(c.radius, plan.fit.radius))
+    throw_bad_input(
+        {plan.case_path.string()},
+        fmt::format("sphere.radius is {} and the fit's radius is {}; a fit is valid for "
+                    "one radius only, and only the exact drag allows other radii",
+                    c.radius, plan.fit.radius));
+  return c;
+}
+
+/// The trajectories of the models of a case. Those that fail are missing, and their reasons are added
+/// to the failure of the row.
+std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
+                                                  const StopToken& stop, RowResults& results) {
+  std::vector<reduced_model::Trajectory> trajectories;
+  const lubrication::Fit fit = lubrication::is_exact_plane(plan.fit)
+                                   ? lubrication::exact_plane_fit(c.viscosity, c.radius)
+                                   : lubrication::with_viscosity(plan.fit, c.viscosity);
+  const lubrication::LubricationForce force(fit, plan.outside);
+  reduced_model::Motion motion = case_file::required_motion(c);
+  motion.stop = stop;
+  for (const auto& model : plan.models)
+    add_part(results, [&] {
+      trajectories.push_back(
+          reduced_model::simulate(reduced_model::find_model(model), motion, force));
+    });
+  return trajectories;
+}
+
+/// Adds what the trajectories give, compared with that of the reference if there is one.
+void add_comparison(const std::vector<reduced_model::Trajectory>& trajectories,
+                    const std::string& reference, RowResults& results) {
+  if (trajectories.empty()) return;
+  const bool referred = std::ranges::find(trajectories, reference,
+                                          &reduced_model::Trajectory::model) != trajectories.end();
+  const auto comparison = reduced_model::compare_trajectories(
+      trajectories, referred ? reference : trajectories.front().model);
+  const auto& models = comparison.models;
+  const auto* other =
+      referred ? &*std::ranges::find(models, reference, &reduced_model::ModelComparison::model)
+               : nullptr;
+  for (const auto& model : models) add_model(model, other, results);
+}
+
+}  // namespace
+
+SpherePlan planned_sphere(const case_file::Case& c) {
+  const case_file::SweepRequest request = c.sweep.value_or(case_file::SweepRequest{});
+  const case_file::FitRequest fit = c.fit.value_or(case_file::FitRequest{});
+  SpherePlan plan;
+  plan.case_path = c.path;
+  plan.outside = fit.outside;
+  if (fit.file)
+    plan.fit = lubrication::read_fit(*fit.file);
+  else if (fit.exact)
+    plan.fit = lubrication::exact_plane_fit(c.viscosity, c.radius);
+  plan.points.variations = variations_of_case(request.vary, c.path);
+  plan.points.samples = request.samples;
+  plan.models = request.models;
+  if (plan.models.empty())
+    for (const auto& model : reduced_model::sweep_models()) plan.models.emplace_back(model.name);
+  plan.reference = request.reference;
+  return plan;
+}
+
+Study sphere_study(SpherePlan plan, const std::string& version) {
+  const SphereTemplate cases(plan.case_path);
+  if (plan.points.variations.empty())
+    throw Error(ErrorKind::kWrongUsage, "the sweep varies no key");
+  if (plan.fit.basis.empty())
+    throw Error(ErrorKind::kWrongUsage, "the sweep has no fit of the drag");
+  if (plan.reference.empty()) plan.reference = reduced_model::reference_of(plan.models);
+  refuse_doubles(plan.points.keys(), "the key");
+  refuse_doubles(plan.models, "the model");
+  for (const auto& model : plan.models) (void)reduced_model::find_model(model);
+  for (const auto& key : plan.points.keys()) refuse_useless(key, plan.models);
+  if (std::ranges::find(plan.models, plan.reference) == plan.models.end())
+    throw Error(
+        ErrorKind::kWrongUsage,
+        fmt::format("the reference model '{}' is not one of the models that are run; they are: {}",
+                    plan.reference, fmt::join(plan.models, ", ")));
+  check_ends(plan.points, [&](const auto& numbers) {
+    (void)case_file::required_motion(case_with(cases, plan, numbers));
+  });
+  Study study;
+  study.points = plan.points;
+  for (const auto& model : plan.models)
+    for (const auto* column : kModelColumns)
+      study.results.push_back(fmt::format("{}.{}", model, column));
+  study.comments = head_of("sweep", cases.text(), plan.points, identity_of(plan), version);
+  study.comments["fit"] = sha256(lubrication::write_fit(plan.fit));
+  study.comments["reference"] = plan.reference;
+  study.comments["revision of the models"] = std::to_string(reduced_model::kModelsRevision);
+  study.run = [cases, plan = std::move(plan)](std::uint64_t index, const StopToken& stop) {
+    RowResults results;
+    add_part(results, [&] {
+      const auto c = at_point(plan.points, index,
+                              [&](const auto& numbers) { return case_with(cases, plan, numbers); });
+      add_comparison(run_models(plan, c, stop, results), plan.reference, results);
+    });
+    return results;
+  };
+  return study;
+}
+
+}  // namespace viscontact::sweep

@@ -1,0 +1,47 @@
+// The sweep of a case of one sphere: each row has the gaps, films and distances of several models
+// (docs/file-formats.md). Lengths, masses and times are in the units of the case. A change of the
+// columns must keep their names, because scripts of users read them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "viscontact/case_file/case_file.hpp"
+#include "viscontact/lubrication/fit/fit.hpp"
+#include "viscontact/sweep/study.hpp"
+
+namespace viscontact::sweep {
+
+/// What is computed at each point.
+struct SpherePlan {
+  std::filesystem::path case_path;  ///< the case whose keys are varied
+  lubrication::Fit fit;  ///< each point multiplies it by its viscosity over that of the fit
+  lubrication::OutsideInterval outside;  ///< drag outside the interval of the fit
+  Points points;                         ///< at least one variation, no draws
+  std::vector<std::string> models;       ///< at least one
+  /// The model with which the others are compared, one of `models`; empty:
+  /// reduced_model::reference_of.
+  std::string reference;
+};
+
+/// The plan of the section [sweep] and the fit of a case. Variations, fit and reference are empty
+/// if the case does not give them. Throws Error(kBadInput) if a range in [sweep] is not valid or
+/// the fit file cannot be read.
+SpherePlan planned_sphere(const case_file::Case& c);
+
+/// The study of a plan. Its results are, for each model, MODEL.minimal_gap [L],
+/// MODEL.minimal_gap_time [T], MODEL.film (recovered from gamma) [L], MODEL.contact_from [T],
+/// MODEL.contact_until [T], MODEL.sup_gap_distance, MODEL.l1_gap_distance,
+/// MODEL.l1_velocity_distance (distances to the reference), MODEL.film_ratio (thinnest film over
+/// that of the reference) and MODEL.steps. Those of a model that fails are empty, and so are all
+/// distances if the reference fails. `version` is that of Viscontact.
+///
+/// Reads the case. Throws Error(kBadInput) if the case has no [motion], if the first or the last
+/// point of the plan gives no valid case, or if its radius is not that of the fit. Throws
+/// Error(kWrongUsage) if nothing is varied, if there is no fit, if the reference is not one of
+/// the models, if a key or a model occurs twice, or if a key changes no row, because a sweep does
+/// not read it or none of the models depends on it.
+Study sphere_study(SpherePlan plan, const std::string& version);
+
+}  // namespace viscontact::sweep
