@@ -47,7 +47,8 @@ double root_of_falling(const Function& f, double from, double until) {
 }  // namespace
 
 template <int D>
-Impacts<D>::Impacts(State& state, const ImpactStep& step) : state_(state), step_(step) {}
+Impacts<D>::Impacts(State& state, const ImpactStep& step)
+    : state_(state), step_(step), free_bodies_(step.bodies.begin(), step.bodies.end()) {}
 
 template <int D>
 typename Impacts<D>::Flight& Impacts<D>::flight(std::int32_t k) {
@@ -141,12 +142,19 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
+/// Velocity of the surface of an obstacle at the point next to the second particle; 0 if there is none.
+template <int D>
+Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
+  if (approach.obstacle == nullptr) return {};
+  const Vector foot =
+      approach.place(t) - (approach.sum + gap_of(approach, t)) * normal_of(approach, t);
+  return approach.obstacle->surface_velocity(foot, step_.begin + t);
+}
+
 /// Velocity of the second centre relative to the first, or to the surface of the obstacle.
 template <int D>
 Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
-  const Vector flies = approach.a + (2 * t) * approach.b;
-  if (approach.obstacle == nullptr) return flies;
-  return flies - approach.obstacle->surface_velocity(approach.place(t), step_.begin + t);
+  return approach.a + (2 * t) * approach.b - surface_of(approach, t);
 }
 
 /// Second derivative of the gap at an obstacle, or of the distance of two particles that do not move
@@ -156,8 +164,10 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   const Vector n = normal_of(approach, t);
   double acceleration = 2 * dot(n, approach.b);
   if (approach.obstacle == nullptr) return acceleration;
-  const Vector x = approach.place(t), u = velocity_of(approach, t);
   const auto& obstacle = *approach.obstacle;
+  const Vector x = approach.place(t);
+  const Vector u =
+      approach.a + (2 * t) * approach.b - obstacle.surface_velocity(x, step_.begin + t);
   const Vector along = u - dot(n, u) * n;
   if (obstacle.start.is_curved()) {
     const double curvature = 1 / (obstacle.start.radius - approach.sum);
@@ -238,10 +248,7 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
   const bool bore_load = of.impulse != 0 || of.gamma < 0;
-  const Vector surface =
-      approach.obstacle == nullptr
-          ? Vector{}
-          : approach.obstacle->surface_velocity(approach.place(time), step_.begin + time);
+  const Vector surface = surface_of(approach, time);
   const bool rests = gap_of(at_start, 0) <= step_.touching &&
                      -dot(normal, approach.before - surface) <= (bore_load ? pulled : unseen);
   const Vector flies = velocity_of(approach, time);
@@ -264,14 +271,15 @@ void Impacts<D>::expect(std::size_t k, double from) {
   // Between jumps of the velocity of an obstacle.
   for (double begin = from, end = 0; begin < step_.h; begin = end) {
     constexpr double kBeyondRounding = 1e-12;
-    end = step_.h;
+    // Blows at the end of the step that differ by rounding errors are one.
+    end = (1 + kSameTime) * step_.h;
     if (approach.obstacle != nullptr)
       end = std::min(end, approach.obstacle->velocity.next_end(step_.begin + begin) - step_.begin);
     end = std::max(end, begin + kBeyondRounding * step_.h);
     const double gap = gap_of(approach, begin);
     const auto at = gap > 0 ? time_of_meeting(approach, begin, end) : std::nullopt;
-    if (at && hit_at(k, *at))
-      expected_.push({*at, k, versions});
+    if (at && hit_at(k, std::min(*at, step_.h)))
+      expected_.push({std::min(*at, step_.h), k, versions});
     else if (gap <= step_.touching && hit_at(k, begin))
       expected_.push({begin, k, versions});
     else

@@ -132,18 +132,23 @@ class Impacts {
   Approach approach_of(std::size_t k);
   Vector normal_of(const Approach& approach, double t) const;
   double gap_of(const Approach& approach, double t) const;
+  Vector surface_of(const Approach& approach, double t) const;
   Vector velocity_of(const Approach& approach, double t) const;
   double acceleration_of_gap(const Approach& approach, double t) const;
   std::optional<double> time_of_meeting(const Approach& approach, double from, double until) const;
   void expect(std::size_t k, double from);
   std::optional<Hit> hit_at(std::size_t k, double time);
   void strike(const std::vector<Hit>& hits, double time);
-  ConstraintProblem<D> problem_of(const std::vector<Hit>& hits, std::vector<std::int32_t>& unit_of);
+  Vector offset_at(std::int32_t k, double t) const;
+  Vector turning_velocity(std::int32_t k, double t) const;
+  ConstraintProblem<D> problem_of(const std::vector<Hit>& hits, double time,
+                                  std::vector<std::int32_t>& unit_of);
   void move_unit(std::int32_t particle, const Motion<D>& change, double time);
   void finish();
 
   State& state_;
   ImpactStep step_;
+  std::vector<BodyStep> free_bodies_;  // step_.bodies without blows
   std::priority_queue<Expected, std::vector<Expected>, std::greater<>> expected_;
   std::vector<std::int32_t> flight_of_;  // of each particle, -1: none; empty without a blow
   std::vector<Flight> flights_;

@@ -14,10 +14,36 @@
 
 namespace viscontact::particles {
 
+/// Vector from the centre of its body to a member at the time `t` of the step [L]; 0 without a body.
+template <int D>
+Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
+  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
+  if (body < 0) return {};
+  const auto& rigid = state_.particles.bodies.bodies[index_of(body)];
+  const auto m = std::ranges::find(rigid.members, k) - rigid.members.begin();
+  const Vector offset = present_offset(rigid, static_cast<std::size_t>(m), D);
+  return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
+}
+
+/// What the velocity of a member of a body at the time `t` of the step has beyond that of its flight on a
+/// parabola. An impulse must see the velocity of the point at which it acts, so that e_d = 1 keeps the
+/// energy.
+template <int D>
+Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
+  const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
+  if (body < 0) return {};
+  const auto& free = free_bodies_[index_of(body)];
+  const Vector mean = (1 / step_.h) * free.displacement;
+  const Vector pull =
+      (1 / step_.kick) * (mean - state_.particles.bodies.bodies[index_of(body)].velocity);
+  const Vector turns = cross((1 / step_.h) * free.turn, offset_at(k, t));
+  return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
+}
+
 /// The contacts of a blow as constraints on the changes of h times the velocities. `unit_of` becomes a
 /// particle of each unit.
 template <int D>
-ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits,
+ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
   const auto& p = state_.particles;
   ConstraintProblem<D> problem;
@@ -44,13 +70,7 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits,
         problem.units.push_back(unit_of_body<D>(still));
       }
     }
-    Vector offset{};
-    if (body >= 0) {
-      const auto& members = p.bodies.bodies[index_of(body)].members;
-      const auto m = std::ranges::find(members, k) - members.begin();
-      offset = present_offset(p.bodies.bodies[index_of(body)], static_cast<std::size_t>(m), D);
-    }
-    return {at->second, offset};
+    return {at->second, offset_at(k, time)};
   };
   for (const auto& hit : hits) {
     const auto& of = pair(hit.pair);
@@ -59,13 +79,15 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits,
     contact.obstacle = of.first < 0 ? -1 - of.first : 0;
     const auto tangents = tangents_of(contact, p, step_.obstacles, step_.begin, step_.end);
     const auto first = side_of(contact.first), second = side_of(contact.second);
+    const Vector turning =
+        turning_velocity(contact.second, time) - turning_velocity(contact.first, time);
     ConstraintBlock block;
     block.row = problem.rows.size();
     block.rows = static_cast<std::size_t>(D);
     for (std::size_t k = 0; k < block.rows; ++k) {
       add_contact_row(contact, tangents, first, second, k, 0, problem);
       auto& row = problem.rows.back();
-      row.offset = step_.h * hit.approach;
+      row.offset = step_.h * (hit.approach + dot(hit.normal, turning));
       if (k > 0) {
         // The slip of the surfaces before the blow.
         const Vector slip = hit.relative +
@@ -123,7 +145,7 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   constexpr double kExact = 1e-13, kSolved = 1e-8;
   const auto& laws = step_.laws;
   std::vector<std::int32_t> unit_of;
-  auto problem = problem_of(hits, unit_of);
+  auto problem = problem_of(hits, time, unit_of);
   double fastest = 0, fastest_slip = 0;
   for (const auto& hit : hits) {
     fastest = std::max(fastest, -hit.approach);

@@ -477,6 +477,75 @@ TEST(RestitutionOfDiscs, OnAPlaneThatTurnsIsThatOfItsSurface) {
   }
 }
 
+TEST(RestitutionOfDiscs, AtAPlaneThatTurnsRubsOnThePointOfContact) {
+  // The disc sticks to the point of the plane that is 0.25 below the pivot.
+  Scene scene{no_particles(2), {}};
+  add_particle(scene.state, {0, 0.501, 0}, 0.5, 1, {0, -5, 0});
+  add_rotation(scene.state.particles);
+  scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  scene.setting.planes[0].angular_velocity = {0, 0, 1};
+  scene.setting.planes[0].pivot = {0, 0.25, 0};
+  scene.setting.laws.film.gamma_min = 0;
+  scene.setting.laws.friction = FrictionLaw{50};
+  scene.setting.laws.restitution.coefficient = 0.5;
+  scene.setting.time_step = 1e-3;
+  Simulation simulation(scene.setting, scene.state, 1);
+  run(simulation, 0.002);
+  // 2/3 of the slip is left of the motion and 4/3 of it over the diameter of the rotation.
+  EXPECT_NEAR(simulation.state().particles.velocity(0)[0], 0.25 / 3, 2e-3);
+  EXPECT_NEAR(simulation.state().particles.angular_velocities[0], 1.0 / 3, 2e-3);
+}
+
+TEST(RestitutionOfDiscs, OfAFlatDumbbellAtTheEndOfAStepIsOneBlow) {
+  // It arrives at t = 2 h but for rounding errors, in scenes that are turned.
+  for (int k = 0; k < 40; ++k) {
+    const double angle = 0.37 + 0.37 * k;
+    const Vector n{-std::sin(angle), std::cos(angle), 0}, t{n[1], -n[0], 0};
+    Scene scene{no_particles(2), {}};
+    for (const double side : {-0.55, 0.55})
+      add_particle(scene.state, side * t + 0.7 * n, 0.5, 1, -1.0 * n);
+    auto& p = scene.state.particles;
+    add_rotation(p);
+    add_rigid_body(p, {.members = {0, 1}});
+    scene.setting.planes = {plane_at_rest({}, n)};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 1;
+    scene.setting.time_step = 0.1;
+    Simulation simulation(scene.setting, scene.state, 1);
+    run(simulation, 1.5);
+    const auto& body = simulation.state().particles.bodies.bodies[0];
+    EXPECT_NEAR(dot(n, body.velocity), 1, 1e-12) << angle;
+    EXPECT_NEAR(body.angular_velocity[2], 0, 1e-12) << angle;
+  }
+}
+
+TEST(RestitutionOfDiscs, OfABodyThatTurnsKeepsItsEnergyAtEachStep) {
+  for (const double step : {0.04, 0.01, 0.0025}) {
+    Scene scene{no_particles(2), {}};
+    add_particle(scene.state, {0.477668, 2.147760, 0}, 0.3, 1, {-0.443280, 0.433005, 0});
+    add_particle(scene.state, {-0.477668, 1.852240, 0}, 0.3, 1, {0.443280, -2.433005, 0});
+    auto& p = scene.state.particles;
+    add_rotation(p);
+    p.angular_velocities = {3, 3};
+    add_rigid_body(p, {.members = {0, 1}});
+    scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+    scene.setting.laws.film.gamma_min = 0;
+    scene.setting.laws.restitution.coefficient = 1;
+    scene.setting.time_step = step;
+    Simulation simulation(scene.setting, scene.state, 1);
+    const auto energy_of = [](const RigidBody& body) {
+      return body.mass * dot(body.velocity, body.velocity) / 2 +
+             body.inertia[8] * body.angular_velocity[2] * body.angular_velocity[2] / 2;
+    };
+    const double before = energy_of(simulation.state().particles.bodies.bodies[0]);
+    std::size_t rebounds = 0;
+    run(simulation, 1.3, [&](const StepReport&) { rebounds += simulation.rebounds().size(); });
+    EXPECT_GE(rebounds, 1U);
+    EXPECT_NEAR(energy_of(simulation.state().particles.bodies.bodies[0]), before, 1e-9 * before)
+        << step;
+  }
+}
+
 TEST(RestitutionOfDiscs, EndsOnAPlaneThatTurnsAndCarriesADisc) {
   for (const double step : {0.01, 0.0025}) {
     Scene scene{no_particles(2), {}};
