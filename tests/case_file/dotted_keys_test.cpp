@@ -49,10 +49,9 @@ TEST(DottedKeys, OfQuotedPartsWithSpacesBetweenCountToo) {
 TEST(DottedKeys, DotsInTextCommentsAndNumbersAreNoKeys) {
   const std::string dots = key_of(100);
   const std::string numbers = "x = [" + key_of(1000, "0.5", ", ") + "]\n";
-  for (const auto& text :
-       {"x = \"" + dots + "\"\n", "x = '" + dots + "'\n", "x = \"\"\"\n" + dots + "\n\"\"\"\n",
-        "x = '''\n" + dots + "'\n'''\n", "x = 1  # " + dots + "\n", numbers,
-        "x = \"a \\\" " + dots + "\"\n"})
+  for (const auto& text : {"x = \"" + dots + "\"\n", "x = '" + dots + "'\n",
+                           "x = \"\"\"\n" + dots + "\n\"\"\"\n", "x = '''\n" + dots + "'\n'''\n",
+                           "x = 1  # " + dots + "\n", numbers, "x = \"a \\\" " + dots + "\"\n"})
     EXPECT_NO_THROW((void)TomlSection::parse(text, "f")) << text.substr(0, 60);
 }
 
