@@ -1,5 +1,5 @@
-// What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and from
-// which cases with other numbers are made. A kind of case takes part by a specialisation of
+// What sweeps ask of any kind of case: its section [sweep], and a case file that is read once and
+// from which cases with other numbers are made. A kind of case takes part by a specialisation of
 // case_of_root(), which its own header declares.
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace viscontact::case_file {
 
-/// What the section [sweep] of a case asks of `viscontact sweep`. Options on the command line replace
-/// these values. Each kind of case has some of these keys.
+/// What the section [sweep] of a case asks of `viscontact sweep`. Options on the command line
+/// replace these values. Each kind of case has some of these keys.
 struct SweepRequest {
   std::vector<std::string> vary;    ///< "KEY=RANGE" each, as on the command line
   std::vector<std::string> models;  ///< names; empty: the default of the command
@@ -61,8 +61,8 @@ class CaseTemplate {
   const std::string& text() const { return file_.text; }       ///< content of the file
 
   /// The case with these numbers at these keys, such as "fluid.viscosity" or
-  /// "motion.external_force[0].value". Throws the errors of case_of_root(), and Error(kBadInput) for
-  /// a key that the case cannot have.
+  /// "motion.external_force[0].value". Throws the errors of case_of_root(), and Error(kBadInput)
+  /// for a key that the case cannot have.
   CaseType with(std::span<const std::pair<std::string, double>> numbers) const {
     return case_of_root<CaseType>(root_with(numbers), file_.text, path_);
   }

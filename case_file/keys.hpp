@@ -59,9 +59,9 @@ struct KeyTable {
   std::string markdown() const;
 };
 
-/// A case with these sections that explains itself: each key is an example, under a comment with its
-/// meaning. Keys with a default are commented out. Sections that lack an example of a required key
-/// are left out, and so are tables of keys within a value.
+/// A case with these sections that explains itself: each key is an example, under a comment with
+/// its meaning. Keys with a default are commented out. Sections that lack an example of a required
+/// key are left out, and so are tables of keys within a value.
 std::string commented_case(std::span<const KeyTable> tables);
 
 /// What a declaration says about a key in words, in Markdown.
@@ -123,8 +123,8 @@ void read_keys(const TomlSection& section, const Declaration& declaration, Place
   section.finish();
 }
 
-/// Describes a section by its declaration, whose first place is new and has the defaults; `more` are
-/// its other places.
+/// Describes a section by its declaration, whose first place is new and has the defaults; `more`
+/// are its other places.
 template <class Place, class... More>
 KeyTable describe_keys(std::string section, void (*declaration)(Keys&, Place&, More...),
                        std::type_identity_t<More>... more) {
@@ -146,8 +146,8 @@ inline constexpr Allowed kFraction = {[](double v) { return v > 0 && v < 1; }, "
 /// A number as text for the tables, such as "1e-6".
 std::string number_in_words(double number);
 
-// Values of keys. They refer to their arguments, which must live until the declaration of the key is
-// done.
+// Values of keys. They refer to their arguments, which must live until the declaration of the key
+// is done.
 
 /// A value with a reader and words of its own. `read` is called with the section, the key and the
 /// places.

@@ -1,5 +1,5 @@
-// The section [tabulation] of a case of one sphere or of a rolling one (docs/case-file.md). Lengths,
-// masses and times are in the units of the case.
+// The section [tabulation] of a case of one sphere or of a rolling one (docs/case-file.md).
+// Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace viscontact::case_file {
 
-/// Reads [tabulation]. Throws Error(kBadInput) with file, line and key for a wrong value, and if the
-/// sphere and its neighbour do not fit into the container at the largest gap.
+/// Reads [tabulation]. Throws Error(kBadInput) with file, line and key for a wrong value, and if
+/// the sphere and its neighbour do not fit into the container at the largest gap.
 freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
                                         double radius);
 

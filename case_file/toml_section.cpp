@@ -71,11 +71,11 @@ std::size_t end_of_bare_word(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// Throws Error(kBadInput), which names `file` and the line, if a key or the name of a section in the
-/// TOML text has more than 16 parts joined by dots. The text is scanned before it is parsed, because
-/// toml++ 3.3 makes a nested table for each part and visits these tables by recursion, so that a key
-/// of 40 000 parts overflows the stack. toml++ itself limits nested arrays and inline tables to 256
-/// levels. Dots in strings and comments separate no keys.
+/// Throws Error(kBadInput), which names `file` and the line, if a key or the name of a section in
+/// the TOML text has more than 16 parts joined by dots. The text is scanned before it is parsed,
+/// because toml++ 3.3 makes a nested table for each part and visits these tables by recursion, so
+/// that a key of 40 000 parts overflows the stack. toml++ itself limits nested arrays and inline
+/// tables to 256 levels. Dots in strings and comments separate no keys.
 void check_dotted_keys(const std::string& text, const std::string& file) {
   constexpr int kMostParts = 16;  // the longest key of a case has five parts
   const std::string_view all = text;

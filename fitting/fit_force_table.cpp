@@ -39,8 +39,8 @@ struct FittedSystem {
   /// The argument of the loss: weight * (fit - table), without the loss's own weight, divided by
   /// the scale of all residuals.
   Eigen::VectorXd scaled_residual;
-  /// The coefficients with ln(q/r) in place of ln q. Their relative standard errors, unlike those of
-  /// the fit, are the same in all units of length.
+  /// The coefficients with ln(q/r) in place of ln q. Their relative standard errors, unlike those
+  /// of the fit, are the same in all units of length.
   std::vector<lubrication::FitTerm> fitted_terms{};
 };
 

@@ -25,8 +25,8 @@ namespace viscontact::freefem_flow {
 namespace {
 
 /// The units in which the solver computes: in them the smallest particle has a radius and the fluid
-/// a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes. The unit of time
-/// is that of the case.
+/// a viscosity between 0.7 and 1.5. Both are powers of 2, so that no digit changes. The unit of
+/// time is that of the case.
 struct SolverUnits {
   double length = 1;     ///< [L], > 0
   double viscosity = 1;  ///< [M/(L T)], > 0
@@ -257,8 +257,8 @@ SolverCommand solver_command(const particles::Fluid& fluid, int dimension) {
   const std::string script = script_of(fluid.mesh, dimension);
   const auto folder = freefem::find_script_folder("freefem_flow", script);
   auto command = freefem::make_command(freefem::executable_of_user(), folder, script, {});
-  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers, which go on
-  // from one system to the next, and orders with several threads differently each time.
+  // MUMPS lets Scotch order systems of more than 5000 rows. Scotch takes random numbers, which go
+  // on from one system to the next, and orders with several threads differently each time.
   command.environment.emplace_back("SCOTCH_PTHREAD_NUMBER=1");
   constexpr std::size_t kMostReproduced = 4000;
   return {std::move(command.arguments), std::move(command.environment), std::move(command.folder),

@@ -23,8 +23,9 @@ SolverLimits solver_limits(const StopToken& stop = {});
 
 /// Starts the solver of `fluid`, and waits until it is ready. FreeFEM computes in units of its own
 /// (ScaledSolver in freefem_solver.cpp); a solver of the user's own gets the units of the case.
-/// Parameters and errors are those of FlowProcess and of the functions above. Throws Error(kBadInput) if FreeFEM can make
-/// no mesh around the smallest particle, because the domain is too large.
+/// Parameters and errors are those of FlowProcess and of the functions above. Throws
+/// Error(kBadInput) if FreeFEM can make no mesh around the smallest particle, because the domain is
+/// too large.
 std::unique_ptr<particles::FluidSolver> start_fluid_solver(const particles::Fluid& fluid,
                                                            const particles::Domain& domain,
                                                            std::span<const double> radii,

@@ -1,7 +1,7 @@
-// What contact laws remember of a pair besides gamma, declared once: the restart file, contacts.csv,
-// final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add a row there and
-// its place in Remembered. A memory is dropped when gamma is 0 and the pair leaves the lists of close
-// pairs; a law must not rely on it longer. Units are those of the case.
+// What contact laws remember of a pair besides gamma, declared once: the restart file,
+// contacts.csv, final_contacts.csv and the frames learn it from kMemoryFields. To add a memory, add
+// a row there and its place in Remembered. A memory is dropped when gamma is 0 and the pair leaves
+// the lists of close pairs; a law must not rely on it longer. Units are those of the case.
 #pragma once
 
 #include <algorithm>
@@ -97,7 +97,8 @@ class PairMemories {
     static constexpr PairMemory kZeros{};
     return row == kNone ? kZeros : rows_[static_cast<std::size_t>(row)];
   }
-  /// The same to be changed. If `row` is kNone, a row of zeros is made and `row` becomes its number.
+  /// The same to be changed. If `row` is kNone, a row of zeros is made and `row` becomes its
+  /// number.
   PairMemory& make(std::int32_t& row) {
     if (row == kNone) {
       row = static_cast<std::int32_t>(rows_.size());
@@ -111,7 +112,8 @@ class PairMemories {
   }
   bool empty() const { return rows_.empty(); }  ///< whether nothing is remembered
 
-  /// Drops the rows of pairs that are in none of the lists, and those of zeros. The lists hold Pair.
+  /// Drops the rows of pairs that are in none of the lists, and those of zeros. The lists hold
+  /// Pair.
   template <class... Lists>
   void keep_only(Lists&... lists) {
     if (rows_.empty()) return;

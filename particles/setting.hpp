@@ -1,6 +1,6 @@
 // What moves the particles of a simulation, and how their motion is computed: the content of a case
-// file. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their states
-// read it. Lengths, masses and times are in any one consistent system of units.
+// file. Both simulations (simulation.hpp, fluid/fluid_simulation.hpp) and the output of their
+// states read it. Lengths, masses and times are in any one consistent system of units.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,17 @@
 #include "viscontact/particles/domain/periods.hpp"
 #include "viscontact/particles/domain/plane.hpp"
 #include "viscontact/particles/fluid.hpp"
-#include "viscontact/particles/given_motion.hpp"
 #include "viscontact/particles/links/links.hpp"
 #include "viscontact/particles/piecewise_constant.hpp"
 #include "viscontact/particles/solver_settings.hpp"
 
 namespace viscontact::particles {
+
+/// Velocities that a particle has whatever acts on it. Both are 0 after their last piece.
+struct GivenMotion {
+  PiecewiseConstant velocity;          ///< of the centre [L/T]
+  PiecewiseConstant angular_velocity;  ///< counter-clockwise, value[2] of each piece [1/T]
+};
 
 /// How the velocities of (5.3) are read, docs/physics.md (5.10).
 enum class Scheme {
@@ -43,7 +48,8 @@ struct Setting {
   SolverSettings solver;           ///< tolerances and limits of the projection
   std::optional<Fluid> fluid;      ///< around the particles; needs a domain
   /// Torques on single particles, by the number of the particle [M L^2/T^2]; for discs value[2],
-  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in `given_motions`.
+  /// counter-clockwise. Needs particles that turn. A particle with a torque has no entry in
+  /// `given_motions`.
   std::map<std::int32_t, PiecewiseConstant> torques;
   /// Motions of the particles that are driven through the fluid, by the number of the particle. A
   /// driven particle has no entry in `forces`, and gravity does not change its motion.

@@ -43,7 +43,8 @@ std::array<std::int32_t, 3> key_of(const Pair& pair) {
   return {pair.first, pair.second, pair.image};
 }
 
-/// Calls `change` for each number that `memory` keeps of the impulses of a step, with that of `other`.
+/// Calls `change` for each number that `memory` keeps of the impulses of a step, with that of
+/// `other`.
 template <class Change>
 void for_impulses(PairMemory& memory, const PairMemory& other, const Change& change) {
   for (std::size_t f = 0; f < kMemoryFields.size(); ++f)
@@ -92,7 +93,8 @@ void Simulation::take_impulses(const ProjectionResult& projected) {
   }
 }
 
-/// Updates what the laws remember of each pair in the projection. Returns the number of glued pairs.
+/// Updates what the laws remember of each pair in the projection. Returns the number of glued
+/// pairs.
 std::size_t Simulation::remember(const ProjectionResult& projected, double h) {
   std::size_t glued = 0;
   for (std::size_t f = 0; f < projected.pairs.size(); ++f) {
@@ -168,8 +170,8 @@ ProjectionResult Simulation::project(double h, double next) {
         gone = std::max(gone, length_of(index_of(body)));
     if (gone <= margin && neighbour_list_is_valid(state_, displacements_, *pool_)) return projected;
     // The impulses moved particles further than the lists cover, so the step is repeated with
-    // longer lists. The loop ends because skins and margin only grow. The impulses are a good guess; but
-    // blows ask them which pairs bore a load in the step before.
+    // longer lists. The loop ends because skins and margin only grow. The impulses are a good
+    // guess; but blows ask them which pairs bore a load in the step before.
     if (!setting_.laws.restitution.is_on()) {
       save_impulses();
       take_impulses(projected);

@@ -66,13 +66,14 @@ class Simulation {
   const State& state() const { return state_; }        ///< after the last step
   const Setting& setting() const { return setting_; }  ///< as the constructor was given it
 
-  /// The blows of the last step in which solids touched, in order of time; empty without restitution.
+  /// The blows of the last step in which solids touched, in order of time; empty without
+  /// restitution.
   const std::vector<Rebound>& rebounds() const { return rebounds_; }
 
   /// The particles with their velocities at the present time. With kLeapfrog, velocities of the
-  /// state are those at an earlier time (State::velocity_lag); particles and bodies without links and
-  /// without an impulse of a contact in the last step get what forces, gravity and torques have given
-  /// them since then.
+  /// state are those at an earlier time (State::velocity_lag); particles and bodies without links
+  /// and without an impulse of a contact in the last step get what forces, gravity and torques have
+  /// given them since then.
   Particles reported_particles() const;
 
  private:
@@ -137,8 +138,8 @@ class Simulation {
   // If the particles turn: h w*, later h w [rad], and h/I [T/(M L^2)].
   std::vector<double> turns_, turn_mobilities_;
   std::vector<BodyStep> body_steps_;  // of the rigid bodies
-  // Forces of the links in the present part of a step, and the integral of the forces over the parts
-  // that are done [M L/T, M L^2/T], with the sum of the times for which they act.
+  // Forces of the links in the present part of a step, and the integral of the forces over the
+  // parts that are done [M L/T, M L^2/T], with the sum of the times for which they act.
   std::vector<double> link_forces_, link_impulses_;
   double link_time_ = 0;
   std::vector<double> arm_works_;  // of the arms in the parts of a step that are done [M L^2/T^2]
@@ -147,8 +148,8 @@ class Simulation {
   std::unique_ptr<Impacts<2>> impacts_in_plane_;
   std::unique_ptr<Impacts<3>> impacts_in_space_;
   std::vector<Rebound> rebounds_;
-  // By the numbers of both particles and of the image of a pair [M L/T]. If a step is divided: the sums
-  // of the impulses of its parts, and the state before the step.
+  // By the numbers of both particles and of the image of a pair [M L/T]. If a step is divided: the
+  // sums of the impulses of its parts, and the state before the step.
   struct Impulses {
     double of_contact = 0;
     PairMemory memory{};

@@ -1,6 +1,6 @@
-// How far the solution of a step misses its conditions, and whether the step is accepted: the same for
-// particles with masses (projection/) and in a fluid (fluid/). Lengths, masses and times are in the
-// units of the case.
+// How far the solution of a step misses its conditions, and whether the step is accepted: the same
+// for particles with masses (projection/) and in a fluid (fluid/). Lengths, masses and times are in
+// the units of the case.
 #pragma once
 
 #include <functional>
@@ -32,17 +32,18 @@ struct StepResiduals {
   void take_gap(double gap, const Pair& pair);
 };
 
-/// Adds the residuals of a step, or of one part of a divided step, to the report. `mean_radius` > 0 [L].
+/// Adds the residuals of a step, or of one part of a divided step, to the report. `mean_radius` > 0
+/// [L].
 void report_residuals(const StepResiduals& residuals, double mean_radius, StepReport& report);
 
-/// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an overlap
-/// of more than the mean radius [L]. `reason` says what may be the cause.
+/// Throws Error(kNotConverged) if a step that ends at `time` [T] has not converged and leaves an
+/// overlap of more than the mean radius [L]. `reason` says what may be the cause.
 void refuse_deep_overlap(const StepResiduals& residuals, const Particles& particles,
                          const Setting& setting, double mean_radius, double time,
                          const std::function<std::string()>& reason);
 
-/// "particles 3 and 4", "particle 3 and plane 1": a pair in messages, with the ids of its particles. All
-/// obstacles are called planes if the domain has no walls.
+/// "particles 3 and 4", "particle 3 and plane 1": a pair in messages, with the ids of its
+/// particles. All obstacles are called planes if the domain has no walls.
 std::string name_of_pair(const Pair& pair, const Particles& particles, const Setting& setting);
 
 }  // namespace viscontact::particles

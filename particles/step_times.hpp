@@ -1,5 +1,5 @@
-// The grid of time steps, docs/physics.md (5.10): where each step of a simulation ends. Times are in
-// the unit of the case.
+// The grid of time steps, docs/physics.md (5.10): where each step of a simulation ends. Times are
+// in the unit of the case.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,10 @@
 
 namespace viscontact::particles {
 
-/// Times > 0 that the steps of a case take care of [T], increasing, each once. With the leapfrog scheme
-/// they are those at which a force or torque jumps. Otherwise, if solids rebound, they are those at which
-/// the velocity of a plane jumps, because a plane moves evenly in a step; else there are none.
+/// Times > 0 that the steps of a case take care of [T], increasing, each once. With the leapfrog
+/// scheme they are those at which a force or torque jumps. Otherwise, if solids rebound, they are
+/// those at which the velocity of a plane jumps, because a plane moves evenly in a step; else there
+/// are none.
 std::vector<double> jump_times(const Setting& setting);
 
 /// The end of the step from `time` with Scheme::kLeapfrog, which without jumps is `grid_end`, one
@@ -39,8 +40,8 @@ struct StepInterval {
 /// The grid of the steps of a simulation.
 class StepGrid {
  public:
-  /// `time_step` > 0 is the length h of a step, and `jumps` are the jump_times(). With `leapfrog`, steps
-  /// are placed around them (leapfrog_step_end()); otherwise a step ends at each of them.
+  /// `time_step` > 0 is the length h of a step, and `jumps` are the jump_times(). With `leapfrog`,
+  /// steps are placed around them (leapfrog_step_end()); otherwise a step ends at each of them.
   explicit StepGrid(double time_step, bool leapfrog = false, std::vector<double> jumps = {})
       : time_step_(time_step), leapfrog_(leapfrog), jumps_(std::move(jumps)) {}
 

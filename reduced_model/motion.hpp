@@ -96,8 +96,8 @@ inline double step_time(int index, int count, double end, double step) {
   return index == count ? end : index * step;
 }
 
-/// The times of the rows of a model without a fixed step: 0, the multiples of `parameter`, the jumps
-/// of the force, and end_time.
+/// The times of the rows of a model without a fixed step: 0, the multiples of `parameter`, the
+/// jumps of the force, and end_time.
 std::vector<double> row_times(const Motion& motion,
                               const ModelParameter& parameter = kReferenceTimeStep);
 

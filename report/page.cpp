@@ -1,6 +1,6 @@
-// Draws plots by gnuplot and writes the page around them (page.hpp). The scripts in report/page read
-// the plots as JSON, whose keys and names of kinds of points must agree with them. Every text of the
-// user must pass through escaped(), because it could contain markup.
+// Draws plots by gnuplot and writes the page around them (page.hpp). The scripts in report/page
+// read the plots as JSON, whose keys and names of kinds of points must agree with them. Every text
+// of the user must pass through escaped(), because it could contain markup.
 #include "viscontact/report/page.hpp"
 
 #include <fmt/format.h>

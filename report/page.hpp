@@ -1,6 +1,6 @@
 // The writer of all reports: report.html, with plots that can be zoomed in a browser, and a still
-// picture plots/NAME.svg of each, for browsers without scripts and for printing. Pieces of HTML that
-// all pages share are here, too. Plots have no units; the labels of their axes name them.
+// picture plots/NAME.svg of each, for browsers without scripts and for printing. Pieces of HTML
+// that all pages share are here, too. Plots have no units; the labels of their axes name them.
 #pragma once
 
 #include <exception>
@@ -97,9 +97,9 @@ std::string source(const std::string& words);
 /// Items of HTML as a box with warnings; empty if there are none.
 std::string warnings_box(const std::vector<std::string>& items);
 
-/// The beginning of any page, up to its body: the title, `style` (CSS), `more` elements of the head,
-/// and a policy that forbids the browser to load anything from elsewhere, except images that are in
-/// the page if `has_images`.
+/// The beginning of any page, up to its body: the title, `style` (CSS), `more` elements of the
+/// head, and a policy that forbids the browser to load anything from elsewhere, except images that
+/// are in the page if `has_images`.
 std::string page_head(std::string_view title, std::string_view style, bool has_images,
                       std::string_view more = {});
 
@@ -112,9 +112,9 @@ class Report {
   /// Viscontact did not write.
   Report(std::filesystem::path folder, std::span<const std::string_view> names);
 
-  /// Draws the still pictures of these plots at the same time, each in a process of gnuplot, because
-  /// most of the time of such a process is its start. If one of them cannot be drawn, no figure has
-  /// a still picture. Throws Error(kInterrupted) if `stop` requests a stop.
+  /// Draws the still pictures of these plots at the same time, each in a process of gnuplot,
+  /// because most of the time of such a process is its start. If one of them cannot be drawn, no
+  /// figure has a still picture. Throws Error(kInterrupted) if `stop` requests a stop.
   void draw(std::vector<Plot> plots, const StopToken& stop);
 
   /// True if gnuplot drew all pictures.

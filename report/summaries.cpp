@@ -1,5 +1,5 @@
-// Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Scripts of
-// users read the JSON, whose keys must be kept.
+// Writes the columns and words of the summaries, and draws their pictures (summaries.hpp). Scripts
+// of users read the JSON, whose keys must be kept.
 #include "viscontact/report/summaries.hpp"
 
 #include <fmt/format.h>

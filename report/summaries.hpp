@@ -1,5 +1,5 @@
-// Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps and
-// times are in the units of the case.
+// Summaries of fits, shifts and comparisons: words and tables for the terminal, and pictures. Gaps
+// and times are in the units of the case.
 #pragma once
 
 #include <string>

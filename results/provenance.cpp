@@ -175,8 +175,8 @@ std::uint32_t crc_of(std::string_view bytes) {
   return ~crc;
 }
 
-/// The chunk of a PNG with the provenance. Its text is ASCII and ends with a newline, where the line
-/// of the provenance ends (find_line).
+/// The chunk of a PNG with the provenance. Its text is ASCII and ends with a newline, where the
+/// line of the provenance ends (find_line).
 std::string png_chunk(const Provenance& provenance) {
   const auto content = std::string(kChunk) + as_line(provenance, true) + "\n";
   constexpr std::size_t kType = 4;

@@ -89,16 +89,16 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& path);
 /// read.
 std::string change_of(const InputFile& input, const std::filesystem::path& folder);
 
-/// The folder in which the relative paths of the provenance of `file` lead to files: the one in which
-/// the command ran, unless `file` and the inputs lie in the same places below another folder, as in a
-/// copy or a clone of the project. If the provenance has no folder, it is the folder from which the
-/// output leads to `file`, or that of `file`.
+/// The folder in which the relative paths of the provenance of `file` lead to files: the one in
+/// which the command ran, unless `file` and the inputs lie in the same places below another folder,
+/// as in a copy or a clone of the project. If the provenance has no folder, it is the folder from
+/// which the output leads to `file`, or that of `file`.
 std::filesystem::path folder_to_run_in(const std::filesystem::path& file,
                                        const Provenance& provenance);
 
 /// The files that the user gave to the command that made the file at `path`, where they are now, in
-/// the order of the provenance. Throws Error(kBadInput) that names `path` if it cannot be read or has
-/// no provenance, or if one of these files has changed since or is missing.
+/// the order of the provenance. Throws Error(kBadInput) that names `path` if it cannot be read or
+/// has no provenance, or if one of these files has changed since or is missing.
 std::vector<std::filesystem::path> given_inputs(const std::filesystem::path& path);
 
 /// The text that write_output writes: `text` with the provenance and the current time. Throws

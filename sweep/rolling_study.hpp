@@ -1,6 +1,6 @@
-// The sweep of a sphere that moves along a plane and turns: the state of each model at the end of the
-// motion, from one fit of all motions of the pair. Lengths, masses and times are in the units of the
-// case. A change of the columns must keep their names, because scripts of users read them.
+// The sweep of a sphere that moves along a plane and turns: the state of each model at the end of
+// the motion, from one fit of all motions of the pair. Lengths, masses and times are in the units
+// of the case. A change of the columns must keep their names, because scripts of users read them.
 #pragma once
 
 #include <filesystem>
@@ -28,13 +28,13 @@ RollingPlan planned_rolling(const case_file::RollingCase& c);
 
 /// The study of a plan. Its results are, for each model, MODEL.gap [L], MODEL.smallest_gap [L],
 /// MODEL.position [L], MODEL.angle [radians], MODEL.velocity [L/T], MODEL.angular_velocity [1/T],
-/// MODEL.slip [L/T], MODEL.contact and MODEL.contact_time [T], as reduced_model::RollingEnd has them.
-/// Those of a model that fails are empty. `version` is that of Viscontact.
+/// MODEL.slip [L/T], MODEL.contact and MODEL.contact_time [T], as reduced_model::RollingEnd has
+/// them. Those of a model that fails are empty. `version` is that of Viscontact.
 ///
-/// Reads the case and the fit. Throws Error(kBadInput) if the first or the last point gives no valid
-/// case, or if the fit is not that of its radius above a plane. Throws Error(kWrongUsage) if nothing
-/// is varied, if a key is varied twice or changes the tables of the fit, or if a model is not known
-/// or is given twice.
+/// Reads the case and the fit. Throws Error(kBadInput) if the first or the last point gives no
+/// valid case, or if the fit is not that of its radius above a plane. Throws Error(kWrongUsage) if
+/// nothing is varied, if a key is varied twice or changes the tables of the fit, or if a model is
+/// not known or is given twice.
 Study rolling_study(RollingPlan plan, const std::string& version);
 
 }  // namespace viscontact::sweep

@@ -102,8 +102,8 @@ std::string identity_of(const SpherePlan& plan) {
 
 using SphereTemplate = case_file::CaseTemplate<case_file::Case>;
 
-/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit is not that
-/// of its radius.
+/// The case with these numbers. Throws Error(kBadInput) if it is not valid, or if the fit is not
+/// that of its radius.
 case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
                           const std::vector<std::pair<std::string, double>>& numbers) {
   case_file::Case c = cases.with(numbers);
@@ -116,8 +116,8 @@ case_file::Case case_with(const SphereTemplate& cases, const SpherePlan& plan,
   return c;
 }
 
-/// The trajectories of the models of a case. Those that fail are missing, and their reasons are added
-/// to the failure of the row.
+/// The trajectories of the models of a case. Those that fail are missing, and their reasons are
+/// added to the failure of the row.
 std::vector<reduced_model::Trajectory> run_models(const SpherePlan& plan, const case_file::Case& c,
                                                   const StopToken& stop, RowResults& results) {
   std::vector<reduced_model::Trajectory> trajectories;

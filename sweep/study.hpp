@@ -1,8 +1,8 @@
-// A sweep, whatever kind of case it runs: rows of named numbers at the points of a sweep, and the CSV
-// file in which they are kept (docs/file-formats.md). The file is written row by row, so that a later
-// call continues an interrupted sweep after its last row. A kind of case adds one function that
-// makes a Study: how a point becomes a case, and which numbers its row has. Numbers are in the units
-// of the case.
+// A sweep, whatever kind of case it runs: rows of named numbers at the points of a sweep, and the
+// CSV file in which they are kept (docs/file-formats.md). The file is written row by row, so that a
+// later call continues an interrupted sweep after its last row. A kind of case adds one function
+// that makes a Study: how a point becomes a case, and which numbers its row has. Numbers are in the
+// units of the case.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ struct RowResults {
   std::string failure;                           ///< why results are missing; empty: none is
 };
 
-/// Calls `part`, which computes some results of a row. If it fails, the reason is added to the failure
-/// of the row. Throws Error(kInterrupted) if `part` does.
+/// Calls `part`, which computes some results of a row. If it fails, the reason is added to the
+/// failure of the row. Throws Error(kInterrupted) if `part` does.
 template <class Part>
 void add_part(RowResults& results, const Part& part) {
   try {
@@ -56,8 +56,8 @@ struct Study {
   std::string row(std::uint64_t index, const StopToken& stop = {}) const;
 };
 
-/// The comments that every study has: its kind, the case file, the number of rows, a hash of all that
-/// determines the rows, and the version of Viscontact.
+/// The comments that every study has: its kind, the case file, the number of rows, a hash of all
+/// that determines the rows, and the version of Viscontact.
 std::map<std::string, std::string> head_of(const std::string& kind, const std::string& case_text,
                                            const Points& points, const std::string& identity,
                                            const std::string& version);
@@ -65,13 +65,13 @@ std::map<std::string, std::string> head_of(const std::string& kind, const std::s
 /// Throws Error(kWrongUsage) if a name occurs twice. `kind` is what the names are, as "the key".
 void refuse_doubles(const std::vector<std::string>& names, std::string_view kind);
 
-/// The ranges of the section [sweep] of a case. Throws Error(kBadInput), which names the case, if one
-/// is not valid.
+/// The ranges of the section [sweep] of a case. Throws Error(kBadInput), which names the case, if
+/// one is not valid.
 std::vector<Variation> variations_of_case(const std::vector<std::string>& ranges,
                                           const std::filesystem::path& case_path);
 
-/// Returns `make(numbers)` for the numbers of a row. An Error that it throws is thrown again with the
-/// point in its message.
+/// Returns `make(numbers)` for the numbers of a row. An Error that it throws is thrown again with
+/// the point in its message.
 template <class Make>
 auto at_point(const Points& points, std::uint64_t index, const Make& make) {
   const auto numbers = points.numbers(index);

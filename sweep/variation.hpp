@@ -50,13 +50,14 @@ std::vector<std::pair<std::string, double>> random_point(const std::vector<Varia
 /// Number of points of the grid. Throws Error(kWrongUsage) if it exceeds 1e12.
 std::uint64_t grid_size(const std::vector<Variation>& variations);
 
-/// The points of a sweep: a grid, or random points, each of them once or with several draws. Each draw
-/// at a point is a row, and the draws of a point follow each other.
+/// The points of a sweep: a grid, or random points, each of them once or with several draws. Each
+/// draw at a point is a row, and the draws of a point follow each other.
 struct Points {
   std::vector<Variation> variations;  ///< the varied keys
   std::uint64_t samples = 0;          ///< number of random points; 0: the whole grid
   std::uint64_t seed = 1;             ///< seed of the random points
-  /// Number of random arrangements of particles at each point; 0: the arrangement of the case alone.
+  /// Number of random arrangements of particles at each point; 0: the arrangement of the case
+  /// alone.
   std::uint64_t draws = 0;
   /// arrangement.seed of the first draw; the next draws have the following numbers.
   std::uint64_t first_draw = 1;

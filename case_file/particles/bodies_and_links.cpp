@@ -1,5 +1,5 @@
-// Reads and checks rigid bodies, hinges, springs and arms (particles_sections.hpp). Lengths, masses and
-// times are in the units of the case.
+// Reads and checks rigid bodies, hinges, springs and arms (particles_sections.hpp). Lengths, masses
+// and times are in the units of the case.
 #include <algorithm>
 #include <array>
 #include <cmath>

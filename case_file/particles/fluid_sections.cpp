@@ -1,6 +1,6 @@
-// Reads [domain] and [fluid] of a case of many particles (particles_sections.hpp). Lengths, masses and
-// times are in the units of the case. A change must keep the keys and their defaults, because users
-// have written cases with them.
+// Reads [domain] and [fluid] of a case of many particles (particles_sections.hpp). Lengths, masses
+// and times are in the units of the case. A change must keep the keys and their defaults, because
+// users have written cases with them.
 #include <algorithm>
 #include <array>
 #include <system_error>

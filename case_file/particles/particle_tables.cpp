@@ -1,6 +1,6 @@
 // Reads the particles of a case: [particles], [[particle]], [arrangement] and [[force]]
-// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A change must keep
-// the keys and their defaults, because users have written cases with them.
+// (particles_sections.hpp). Lengths, masses and times are in the units of the case. A change must
+// keep the keys and their defaults, because users have written cases with them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -189,7 +189,8 @@ void read_file_of_particles(const TomlSection& section, ParticlesCase& c, Partic
   if (!in_fluid && p.turn()) particles::add_rotation(p);
 }
 
-/// What [arrangement] says before the discs are placed: their number, or the area of their fraction.
+/// What [arrangement] says before the discs are placed: their number, or the area of their
+/// fraction.
 struct ArrangementKeys {
   particles::Arrangement asked;
   double area_fraction = 0, mass = 0;

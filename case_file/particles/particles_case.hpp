@@ -51,9 +51,9 @@ ParticlesCase case_of_root(const TomlSection& root, std::string text,
 /// What docs/case-file.md says about the keys of each section.
 std::vector<KeyTable> tables_of_particles_case();
 
-/// The text of the case in a file at `path` with the root table `root`. A file with this text may be in
-/// any folder, because the files that it names have absolute paths. Equal cases give equal texts,
-/// whatever their comments are.
+/// The text of the case in a file at `path` with the root table `root`. A file with this text may
+/// be in any folder, because the files that it names have absolute paths. Equal cases give equal
+/// texts, whatever their comments are.
 std::string text_for_any_folder(const TomlSection& root, const std::filesystem::path& path);
 
 }  // namespace viscontact::case_file

@@ -16,8 +16,8 @@
 namespace viscontact::case_file {
 
 /// Reads [domain]. `dimension` is that of the case: 1 (spheres on an axis), 2 or 3. Also throws if
-/// not exactly one shape is given, and for a shape that does not belong to the dimension: discs move
-/// in a disc or a box, spheres on an axis in a cylinder, and no domain has dimension 3.
+/// not exactly one shape is given, and for a shape that does not belong to the dimension: discs
+/// move in a disc or a box, spheres on an axis in a cylinder, and no domain has dimension 3.
 particles::Domain read_domain(const TomlSection& section, int dimension);
 
 /// Reads [fluid]. `domain` holds the fluid and must not be empty. If the section does not give
@@ -33,8 +33,8 @@ particles::Fluid read_fluid(const TomlSection& section, const particles::Domain&
 std::vector<KeyTable> domain_and_fluid_tables();
 
 /// The command of a user's own fluid solver, with an absolute path in place of each word that names
-/// an existing file relative to `folder`, that of the case file. A first word without a slash stays,
-/// because it is the name of a program on PATH.
+/// an existing file relative to `folder`, that of the case file. A first word without a slash
+/// stays, because it is the name of a program on PATH.
 std::vector<std::string> with_absolute_files(std::vector<std::string> command,
                                              const std::filesystem::path& folder);
 
@@ -51,8 +51,8 @@ struct ParticleLines {
 ///
 /// Also throws if there is no particle; for a key of particles in a fluid if the case has no fluid;
 /// for a rotation on an axis; for a force, a torque or an initial velocity of a particle whose
-/// motion is given, because it has no effect; for an arrangement in a domain that is no disc or box;
-/// and if its discs do not fit.
+/// motion is given, because it has no effect; for an arrangement in a domain that is no disc or
+/// box; and if its discs do not fit.
 ParticleLines read_particles_of_case(const TomlSection& root, ParticlesCase& c);
 
 /// Reads [[force]]: the same force on all particles whose ids it names. The particles must have
@@ -83,15 +83,15 @@ void read_ids(const TomlSection& section, std::string_view key, std::vector<std:
               const ParticleIds& ids);
 
 /// Reads [[body]] into c.particles.bodies. The particles, and their motion, must have been read.
-/// Also throws for a particle that does not exist, is named twice or belongs to an earlier body; and
-/// for a motion that is given in a fluid.
+/// Also throws for a particle that does not exist, is named twice or belongs to an earlier body;
+/// and for a motion that is given in a fluid.
 void read_bodies(const TomlSection& root, ParticlesCase& c);
 
-/// Reads [[hinge]], [[spring]] and [[arm]] into c.setting.links. Particles and bodies must have been
-/// read. Also throws for particles and bodies that do not exist; for a hinge outside its body; for a
-/// spring or an arm between particles of one body; and for an arm whose length at the start is not
-/// the distance of its particles, is less than the sum of their radii at a later time, or breaks the
-/// triangle inequality with two other arms.
+/// Reads [[hinge]], [[spring]] and [[arm]] into c.setting.links. Particles and bodies must have
+/// been read. Also throws for particles and bodies that do not exist; for a hinge outside its body;
+/// for a spring or an arm between particles of one body; and for an arm whose length at the start
+/// is not the distance of its particles, is less than the sum of their radii at a later time, or
+/// breaks the triangle inequality with two other arms.
 void read_links(const TomlSection& root, ParticlesCase& c);
 /// Describes these sections.
 std::vector<KeyTable> body_and_link_tables();

@@ -15,8 +15,8 @@ namespace {
 
 using lubrication::MotionKind;
 
-/// What is read before it becomes a motion and a case: a force as two components, or the weight less
-/// the buoyancy and the angle of the plane, which falls towards +x.
+/// What is read before it becomes a motion and a case: a force as two components, or the weight
+/// less the buoyancy and the angle of the plane, which falls towards +x.
 struct WeightKeys {
   std::vector<double> force;
   double weight = 0, incline = 0;

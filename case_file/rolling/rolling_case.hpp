@@ -43,8 +43,9 @@ template <>
 RollingCase case_of_root(const TomlSection& root, std::string text,
                          const std::filesystem::path& path);
 
-/// The fit for the viscosity of the case. `file`, from which it was read, is named in messages. Throws
-/// Error(kBadInput) if the fit is that of another radius, or not that of a sphere above a plane.
+/// The fit for the viscosity of the case. `file`, from which it was read, is named in messages.
+/// Throws Error(kBadInput) if the fit is that of another radius, or not that of a sphere above a
+/// plane.
 lubrication::PairFit fit_for(const RollingCase& c, lubrication::PairFit fit,
                              const std::filesystem::path& file);
 

@@ -1,6 +1,6 @@
-// Reads the case of a swimmer (swimmer_case.hpp): spheres and arms, and strokes given by corners, an
-// ellipse or a file of samples. Lengths and times are in the units of the case. A change must keep
-// the arms of a grid bit for bit, because finished rows and tables are found by their gaps.
+// Reads the case of a swimmer (swimmer_case.hpp): spheres and arms, and strokes given by corners,
+// an ellipse or a file of samples. Lengths and times are in the units of the case. A change must
+// keep the arms of a grid bit for bit, because finished rows and tables are found by their gaps.
 #include "viscontact/case_file/swimmer/swimmer_case.hpp"
 
 #include <algorithm>

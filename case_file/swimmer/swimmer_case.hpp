@@ -35,8 +35,8 @@ struct SwimmerCase {
   std::vector<std::filesystem::path> stroke_files;  ///< files from which the stroke was read
 };
 
-/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its value
-/// and what is allowed.
+/// Reads and checks a case file. Throws Error(kBadInput) with the file, the line, the key, its
+/// value and what is allowed.
 SwimmerCase read_swimmer_case(const std::filesystem::path& path);
 
 /// The case of a swimmer whose root table is `root` (case_template.hpp).

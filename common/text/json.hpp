@@ -40,8 +40,8 @@ class JsonDocument {
 /// shortened to about 200 characters.
 std::string cause_in_words(const Json::exception& error);
 
-/// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file, if
-/// it is not valid JSON, or if a value that `read` asks for is missing or of another type.
+/// Calls `read` with the JSON in the file at `path`. Throws Error(kBadInput), which names the file,
+/// if it is not valid JSON, or if a value that `read` asks for is missing or of another type.
 void read_json(const std::filesystem::path& path, const std::function<void(const Json&)>& read);
 
 }  // namespace viscontact

@@ -20,8 +20,8 @@ struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs value[2]
   Vector angular_momentum{};  ///< at the end [M L^2/T]
-  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], because they
-  /// came late in it.
+  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], because
+  /// they came late in it.
   Vector late_velocity{};
   Vector late_momentum{};           ///< the same of the angular momentum, in the plane [M L^2/T]
   double mobility = 0;              ///< h/m [T/M]

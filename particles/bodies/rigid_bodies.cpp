@@ -266,4 +266,16 @@ void place_members(Particles& p) {
   }
 }
 
+std::size_t member_number(const RigidBody& body, std::int32_t particle) {
+  return static_cast<std::size_t>(std::ranges::find(body.members, particle) -
+                                  body.members.begin());
+}
+
+Vector offset_in_body(const Particles& particles, std::int32_t particle) {
+  const auto number = particles.bodies.body_of(particle);
+  if (number < 0) return {};
+  const auto& body = particles.bodies.bodies[index_of(number)];
+  return present_offset(body, member_number(body, particle), particles.dimension);
+}
+
 }  // namespace viscontact::particles

@@ -109,6 +109,12 @@ Periods periods_of_member(const RigidBody& body, std::size_t m, const Particles&
 /// Vector from the centre of a body to the centre of its member number `m` [L].
 Vector present_offset(const RigidBody& body, std::size_t m, int dimension);
 
+/// The number of a particle among the members of its body.
+std::size_t member_number(const RigidBody& body, std::int32_t particle);
+
+/// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
+Vector offset_in_body(const Particles& particles, std::int32_t particle);
+
 /// A vector of the body at the start in its present orientation.
 Vector turned_with(const RigidBody& body, const Vector& at_start, int dimension);
 
@@ -119,8 +125,8 @@ Matrix3 present_inertia(const RigidBody& body, int dimension);
 /// Sets the angular velocity from the angular momentum. A body without inertia keeps it.
 void update_angular_velocity(RigidBody& body, int dimension);
 
-/// The masses of the members [M], scaled so that their sum is that of the body. Equal parts of it if
-/// no member has a mass.
+/// The masses of the members [M], scaled so that their sum is that of the body. Equal parts of it
+/// if no member has a mass.
 std::vector<double> member_masses(const RigidBody& body, const Particles& particles);
 
 /// Sets positions, velocities, orientations and angular velocities of all members to those of their

@@ -60,7 +60,8 @@ struct RigidUnit {
 };
 
 /// The unit of a particle without a body: its mobility h/m [T/M] and turn mobility h/I [T/(M L^2)],
-/// and its motion without constraints, D numbers `displacement` [L] and kTurns numbers `turn` [rad].
+/// and its motion without constraints, D numbers `displacement` [L] and kTurns numbers `turn`
+/// [rad].
 template <int D>
 RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const double* displacement,
                               const double* turn);
@@ -69,17 +70,17 @@ RigidUnit<D> unit_of_particle(double mobility, double turn_mobility, const doubl
 template <int D>
 RigidUnit<D> unit_of_body(const BodyStep& free);
 
-/// The part of one unit in a row: it adds the product of `coefficients` and the motion of the unit to the
-/// value of the row.
+/// The part of one unit in a row: it adds the product of `coefficients` and the motion of the unit
+/// to the value of the row.
 template <int D>
 struct RowPart {
   std::int32_t unit = 0;     ///< number of a unit
   Motion<D> coefficients{};  ///< [1] for displacements, [L] for rotations
 };
 
-/// One scalar of a constraint after the motions of the units: `offset` and the products of its parts
-/// [L]. A contact has the parts of its two units, or of one at an obstacle; a constraint may have any
-/// number. What is at rest, like an obstacle, has no part.
+/// One scalar of a constraint after the motions of the units: `offset` and the products of its
+/// parts [L]. A contact has the parts of its two units, or of one at an obstacle; a constraint may
+/// have any number. What is at rest, like an obstacle, has no part.
 struct ConstraintRow {
   double offset = 0;           ///< value of the row if no unit moves [L]
   std::size_t first_part = 0;  ///< number of the first part in ConstraintProblem::parts
@@ -88,8 +89,8 @@ struct ConstraintRow {
 
 /// A contact or a bilateral constraint. A contact has one row for its gap, and with friction D - 1
 /// more for the tangential displacement of the surfaces; a bilateral constraint may have up to
-/// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have parts
-/// of the same units, each of them once, in the same order.
+/// kMostRows rows, which must be 0, or proportional to their impulses. The rows of a block have
+/// parts of the same units, each of them once, in the same order.
 struct ConstraintBlock {
   std::size_t row = 0;     ///< number of its first row
   std::size_t rows = 1;    ///< number of its rows
@@ -98,8 +99,8 @@ struct ConstraintBlock {
   double friction = 0;     ///< mu_s >= 0
   /// Impulse gamma^n - gamma_min that the film of the contact can still absorb [M L/T], >= 0.
   double capacity = 0;
-  /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows, and
-  /// of the tangential rows of a contact.
+  /// Largest residuals with which it counts as converged [L], > 0: of the gap or bilateral rows,
+  /// and of the tangential rows of a contact.
   double allowed = 0,    ///< of the gap or bilateral rows [L]
       allowed_slip = 0;  ///< of the tangential rows [L]
   /// Of a bilateral block: v + compliance p = 0 holds for the value v of each row and its impulse p

@@ -138,8 +138,8 @@ void ContactSweeps<D>::sweep(int count, const std::vector<double>& w) {
 }
 
 /// The mobilities of the rows, equal for the tangential rows of a contact, on which the projection
-/// acts together. With kLeastImpulses all gaps have the largest of theirs, so that contacts share an
-/// impulse as if all were equally stiff.
+/// acts together. With kLeastImpulses all gaps have the largest of theirs, so that contacts share
+/// an impulse as if all were equally stiff.
 template <int D>
 std::vector<double> scales_of_rows(const ConstraintProblem<D>& problem, ConstraintStart start) {
   auto w = row_mobilities(problem);

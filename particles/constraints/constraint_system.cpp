@@ -159,8 +159,8 @@ void ConstraintSystem<D>::move_particles(const ContactSystem<D>& system,
   }
 }
 
-/// Corrects the offsets of the rows by what finite turns change, and stores the changes. Returns the
-/// largest of them, divided by the allowed residual of its block.
+/// Corrects the offsets of the rows by what finite turns change, and stores the changes. Returns
+/// the largest of them, divided by the allowed residual of its block.
 template <int D>
 double ConstraintSystem<D>::correct(ContactSystem<D>& system,
                                     const ConstraintSolution<D>& solution) {

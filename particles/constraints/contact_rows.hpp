@@ -50,8 +50,8 @@ struct ContactSide {
 };
 
 /// Adds row number `k` of a contact, with a guess of its impulse [M L/T]: its gap (0), or the
-/// tangential displacement of the surface of the second particle relative to that of the first along
-/// direction `k` - 1.
+/// tangential displacement of the surface of the second particle relative to that of the first
+/// along direction `k` - 1.
 template <int D>
 void add_contact_row(const Contact<D>& contact, const ContactTangents<D>& tangents,
                      const ContactSide& first, const ContactSide& second, std::size_t k,

@@ -24,10 +24,10 @@ namespace viscontact::particles {
 /// P^{k+1} is to the solution, and the harder the equation is to solve; redundant contacts do no
 /// harm.
 ///
-/// Newton's method has a block of its matrix for each unit and two for each pair of units in
-/// one block of constraints (Alart & Curnier 1991, "A mixed formulation for frictional contact problems prone to
-/// Newton like solution methods"). As long as no contact opens, closes, sticks or slips, the
-/// factors of the iteration before serve again.
+/// Newton's method has a block of its matrix for each unit and two for each pair of units in one
+/// block of constraints (Alart & Curnier 1991, "A mixed formulation for frictional contact problems
+/// prone to Newton like solution methods"). As long as no contact opens, closes, sticks or slips,
+/// the factors of the iteration before serve again.
 template <int D>
 class ProximalStep {
  public:

@@ -13,8 +13,8 @@ enum class FrictionMethod {
   kConvex,
 };
 
-/// Coulomb's friction of all contacts. Only the part p_s of the normal impulse p_n rubs that the solids
-/// carry, because a film leaves no friction:
+/// Coulomb's friction of all contacts. Only the part p_s of the normal impulse p_n rubs that the
+/// solids carry, because a film leaves no friction:
 ///
 ///     p_s = max(p_n - (gamma^n - gamma_min), 0),   |p_t| <= mu_s p_s,
 ///     p_t = -mu_s p_s v_t/|v_t| if the surfaces slip with the velocity v_t.

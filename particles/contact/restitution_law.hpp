@@ -8,8 +8,8 @@
 
 namespace viscontact::particles {
 
-/// A blow has two phases. In the compression the film takes what it can, from gamma to gamma_min, and
-/// the solids take the rest s of the impulse p:
+/// A blow has two phases. In the compression the film takes what it can, from gamma to gamma_min,
+/// and the solids take the rest s of the impulse p:
 ///
 ///     s = max(p - (gamma - gamma_min), 0),   gamma_c = max(gamma - p, gamma_min).
 ///
@@ -32,10 +32,10 @@ struct RestitutionLaw {
     return gamma_c + coefficient * solid_impulse;
   }
 
-  /// gamma_c + e_d s - p' [M L/T], gamma after a blow, within [`gamma_min`, 0], for the impulse `p` of the
-  /// restitution phase and `lowest` = gamma_c + e_d s. Both may contain the impulse of the compression.
-  /// A film that is left with the rounding error of this difference has given back all: it is 0. `gamma`
-  /// is that before the blow.
+  /// gamma_c + e_d s - p' [M L/T], gamma after a blow, within [`gamma_min`, 0], for the impulse `p`
+  /// of the restitution phase and `lowest` = gamma_c + e_d s. Both may contain the impulse of the
+  /// compression. A film that is left with the rounding error of this difference has given back
+  /// all: it is 0. `gamma` is that before the blow.
   static double gamma_after(double lowest, double p, double gamma_min, double gamma) {
     const double left = lowest - p;
     const double rounding =

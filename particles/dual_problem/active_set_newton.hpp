@@ -18,13 +18,13 @@ namespace viscontact::particles {
 /// impulses at which g = 0 at all others, the free contacts. The method ends when all residuals are
 /// allowed. A chain of any length takes a few iterations.
 ///
-/// `factor` is like FreeSetFactor: factorise(problem, free) makes a factor of W between the contacts
-/// with free[c] != 0, and solve() applies it. It belongs to no other solution.
+/// `factor` is like FreeSetFactor: factorise(problem, free) makes a factor of W between the
+/// contacts with free[c] != 0, and solve() applies it. It belongs to no other solution.
 ///
 /// The method converges fast near the solution and may cycle far from it. It stops after
 /// `max_iterations` factorisations. If it has not converged then, or if W is singular or has no
 /// cheap factor, problem.z is what it was before the call, and the returned residual is infinite.
-template <Mobility Problem, class Factor>
+template <SolvableDualProblem Problem, class Factor>
 SolverResult active_set_newton(Problem& problem, Factor& factor, int max_iterations) {
   const auto start = problem.z;
   std::vector<double> displacements(problem.displacement_count()), gradient(problem.count()),

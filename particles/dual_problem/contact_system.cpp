@@ -58,7 +58,7 @@ void ContactSystem<D>::join(std::int32_t island, std::int32_t other) {
 
 template <int D>
 SolverResult ContactSystem<D>::solve(bool is_rough, int max_iterations, ThreadPool& pool) {
-  MassMobility<D> problem(contacts, free_, body_mobilities_, pool, body_of_);
+  MassDualProblem<D> problem(contacts, free_, body_mobilities_, pool, body_of_);
   problem.largest_island = largest_island_;
   problem.is_rough = is_rough;
   const auto solved = solve_dual_problem(problem, max_iterations, factor_);

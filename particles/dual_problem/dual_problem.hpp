@@ -1,7 +1,7 @@
-// The dual problem (5.4) of docs/physics.md of one time step, in scaled unknowns, and what its solvers
-// ask of it. How impulses move the particles is a Mobility: MassMobility where masses resist,
-// FluidMobility and DenseMobility (fluid/) where a fluid does. Lengths, masses and times are in
-// the units of the case.
+// The dual problem (5.4) of docs/physics.md of one time step, in scaled unknowns, and what its
+// solvers ask of it. It is the same whatever resists the impulses: masses (MassDualProblem), or a
+// fluid (FluidDualProblem and DenseDualProblem in fluid/contact_problem.cpp). Lengths, masses and
+// times are in the units of the case.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct SolverResult {
   double residual = 0;
 };
 
-/// The dual problem in impulses p = h lambda. Without contact, particles move by h u*, and impulses add
-/// the mobility S times G^T p, where G v is the velocity at which gaps open. The problem is
+/// The dual problem in impulses p = h lambda. Without contact, particles move by h u*, and impulses
+/// add the mobility S times G^T p, where G v is the velocity at which gaps open. The problem is
 ///
 ///     minimise  1/2 p^T W p + b^T p  over  p_ij >= gamma_ij^n,
 ///     W = G S G^T,   b = D + h G u*;   the gradient W p + b is D + h G v.
@@ -33,8 +33,8 @@ struct SolverResult {
 /// gamma_ij^n < 0, a pull of at most -gamma_ij^n keeps D_ij + h G_ij v = 0. If more would be
 /// needed, the pair separates within the step. All contacts are decided together.
 ///
-/// The problem is scaled so that W has about the diagonal 1. With w = Contact::w, the unknowns are z =
-/// sqrt(w) p, and the gradient of contact c is divided by sqrt(w).
+/// The problem is scaled so that W has about the diagonal 1. With w = Contact::w, the unknowns are
+/// z = sqrt(w) p, and the gradient of contact c is divided by sqrt(w).
 class DualProblem {
  public:
   std::vector<double> z;            ///< scaled impulses z = sqrt(w) p
@@ -55,8 +55,8 @@ class DualProblem {
     return per_allowed[c] * contact_residual(gradient, z_c - bound[c]);
   }
 
-  /// h lambda of contact c [M L/T]. A contact at its bound returns exactly gamma, so that no rounding
-  /// error of z/scale remains in the new gamma.
+  /// h lambda of contact c [M L/T]. A contact at its bound returns exactly gamma, so that no
+  /// rounding error of z/scale remains in the new gamma.
   double impulse(std::size_t c) const { return z[c] == bound[c] ? lowest_[c] : z[c] / scale[c]; }
 
  protected:
@@ -85,14 +85,15 @@ class DualProblem {
   std::vector<double> lowest_;  // Contact::lowest, as given
 };
 
-/// A dual problem whose products with W are known. A vector y = B z, of displacement_count() numbers,
-/// holds what the scaled impulses z cause, in a form of the problem's own that is linear in z:
+/// A dual problem whose products with W are known. A vector y = B z, of displacement_count()
+/// numbers, holds what the scaled impulses z cause, in a form of the problem's own that is linear
+/// in z:
 ///
 /// - to_bodies(z, y) computes y = B z and returns z^T W z,
 /// - combine(y, factor, into) replaces `into` by y + factor * into and returns z^T W z of the sum,
 /// - to_contact(c, y) is (W z)_c.
 template <class Problem>
-concept Mobility = std::derived_from<Problem, DualProblem> &&
+concept SolvableDualProblem = std::derived_from<Problem, DualProblem> &&
     requires(Problem& problem, std::span<const double> z, std::span<double> y, std::size_t c) {
   { problem.displacement_count() } -> std::convertible_to<std::size_t>;
   { problem.to_bodies(z, y) } -> std::convertible_to<double>;

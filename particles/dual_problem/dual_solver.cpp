@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/particles/dual_problem/active_set_newton.hpp"
-#include "viscontact/particles/dual_problem/mass_mobility.hpp"
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 #include "viscontact/particles/dual_problem/mprgp.hpp"
 
 namespace viscontact::particles {
@@ -27,7 +27,7 @@ class Preconditioner {
   static constexpr bool kMaySweep = true;
 
   /// Both arguments must outlive the object.
-  Preconditioner(const MassMobility<D>& problem, FreeSetFactor<D>& factor)
+  Preconditioner(const MassDualProblem<D>& problem, FreeSetFactor<D>& factor)
       : problem_(problem), factor_(factor), half_swept_(problem.count()) {}
 
   /// True if there is no factor.
@@ -88,7 +88,7 @@ class Preconditioner {
         });
   }
 
-  const MassMobility<D>& problem_;
+  const MassDualProblem<D>& problem_;
   FreeSetFactor<D>& factor_;
   std::vector<double> half_swept_;
 };
@@ -96,7 +96,7 @@ class Preconditioner {
 }  // namespace
 
 template <int D>
-SolverResult solve_dual_problem(MassMobility<D>& problem, int max_iterations,
+SolverResult solve_dual_problem(MassDualProblem<D>& problem, int max_iterations,
                                 FreeSetFactor<D>& factor) {
   Mprgp mprgp(problem, Preconditioner<D>(problem, factor));
   SolverResult solved;
@@ -146,7 +146,7 @@ SolverResult solve_dual_problem(MassMobility<D>& problem, int max_iterations,
   }
 }
 
-template SolverResult solve_dual_problem<2>(MassMobility<2>&, int, FreeSetFactor<2>&);
-template SolverResult solve_dual_problem<3>(MassMobility<3>&, int, FreeSetFactor<3>&);
+template SolverResult solve_dual_problem<2>(MassDualProblem<2>&, int, FreeSetFactor<2>&);
+template SolverResult solve_dual_problem<3>(MassDualProblem<3>&, int, FreeSetFactor<3>&);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,5 @@
 // Builds and applies the sparse Cholesky factor of W with Eigen. The scaling is that of
-// mass_mobility.hpp.
+// mass_dual_problem.hpp.
 #include "viscontact/particles/dual_problem/free_set_factor.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -15,7 +15,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 /// Lower triangle of W + epsilon between the `free` contacts. The rows of all other contacts are
 /// those of the identity, so that the pattern does not depend on which contacts are free.
 template <int D>
-SparseMatrix lower_triangle(const MassMobility<D>& problem, const std::vector<char>& free,
+SparseMatrix lower_triangle(const MassDualProblem<D>& problem, const std::vector<char>& free,
                             double epsilon) {
   const auto count = static_cast<Eigen::Index>(problem.count());
   SparseMatrix w(count, count);
@@ -71,7 +71,7 @@ bool FreeSetFactor<D>::exists() const {
 }
 
 template <int D>
-bool FreeSetFactor<D>::factorise(const MassMobility<D>& problem, const std::vector<char>& free) {
+bool FreeSetFactor<D>::factorise(const MassDualProblem<D>& problem, const std::vector<char>& free) {
   const auto w = lower_triangle(problem, free, epsilon_);
   if (factor_ == nullptr || factor_->free.size() != problem.count()) {
     factor_ = std::make_unique<Factor>();
@@ -100,7 +100,7 @@ void FreeSetFactor<D>::solve(std::span<const double> gradient, std::span<double>
 }
 
 template <int D>
-double FreeSetFactor<D>::precondition(const MassMobility<D>& problem,
+double FreeSetFactor<D>::precondition(const MassDualProblem<D>& problem,
                                       std::span<const double> gradient,
                                       std::span<double> solved) const {
   const std::size_t factored = factor_->free.size();

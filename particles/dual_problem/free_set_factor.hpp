@@ -1,13 +1,14 @@
-// A sparse Cholesky factor of the matrix W of mass_mobility.hpp (docs/physics.md (5.4)), between
-// chosen contacts and with diagonal 1. It serves as a solver and as a preconditioner. The chosen
-// contacts are those that are free: their z is above the bound, and their linearised gap is 0.
+// A sparse Cholesky factor of the matrix W of mass_dual_problem.hpp (docs/physics.md (5.4)),
+// between chosen contacts and with diagonal 1. It serves as a solver and as a preconditioner. The
+// chosen contacts are those that are free: their z is above the bound, and their linearised gap is
+// 0.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "viscontact/particles/dual_problem/mass_mobility.hpp"
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 namespace viscontact::particles {
 
@@ -26,7 +27,7 @@ class FreeSetFactor {
   /// the factor would have so many entries that iterations are cheaper (as in packings of spheres)
   /// or if W cannot be factorised. Calls with the same number of contacts share one order of
   /// elimination.
-  bool factorise(const MassMobility<D>& problem, const std::vector<char>& free);
+  bool factorise(const MassDualProblem<D>& problem, const std::vector<char>& free);
   /// True if the last factorise() succeeded.
   bool exists() const;
 
@@ -35,9 +36,9 @@ class FreeSetFactor {
 
   /// Applies the factor as a preconditioner, which is symmetric and positive definite on the
   /// contacts that are free now. Free contacts without a row in the factor keep their gradient;
-  /// contacts that are not free get 0. `problem` is that of factorise(), or this problem with further
-  /// contacts at its end. Returns solved.gradient.
-  double precondition(const MassMobility<D>& problem, std::span<const double> gradient,
+  /// contacts that are not free get 0. `problem` is that of factorise(), or this problem with
+  /// further contacts at its end. Returns solved.gradient.
+  double precondition(const MassDualProblem<D>& problem, std::span<const double> gradient,
                       std::span<double> solved) const;
 
  private:

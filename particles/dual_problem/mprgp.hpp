@@ -1,7 +1,8 @@
 // Modified proportioning with reduced gradient projections, MPRGP (Dostal & Schoeberl 2005,
 // "Minimizing quadratic functions subject to bound constraints with the rate of convergence and
 // finite termination"), for the dual problem (5.4) of docs/physics.md, scaled as in
-// dual_problem.hpp. Sums must be taken in blocks of the thread pool, so that the results do not depend on the number of threads.
+// dual_problem.hpp. Sums must be taken in blocks of the thread pool, so that the results do not
+// depend on the number of threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,9 +24,9 @@ namespace viscontact::particles {
 /// - otherwise a preconditioned conjugate gradient step;
 /// - expansion: if that step would leave the bounds, a projected step instead.
 ///
-/// `Preconditioner` has apply(gradient, swept, y). With kMaySweep it also has sweeps(), factorise() and
-/// both sweep_forward(), as in dual_solver.cpp.
-template <Mobility Problem, class Preconditioner>
+/// `Preconditioner` has apply(gradient, swept, y). With kMaySweep it also has sweeps(), factorise()
+/// and both sweep_forward(), as in dual_solver.cpp.
+template <SolvableDualProblem Problem, class Preconditioner>
 class Mprgp {
  public:
   /// Starts from problem.z, projected on its bounds. `problem` must outlive the object.

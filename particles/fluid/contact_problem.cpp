@@ -37,7 +37,7 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
 /// Other contacts of the group change the gap as well, but much less. Returns the number of
 /// products.
 int estimate_w(std::span<Contact<2>> contacts, std::size_t motions,
-               const MobilityFunction& mobility, const MotionLayout& layout) {
+               const Mobility& mobility, const MotionLayout& layout) {
   const auto group = disjoint_groups(contacts);
   const std::size_t groups = 1 + *std::ranges::max_element(group);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -60,14 +60,14 @@ int estimate_w(std::span<Contact<2>> contacts, std::size_t motions,
   return static_cast<int>(groups);
 }
 
-/// The dual problem with one question to the fluid for each product with W. A vector y = B z holds the
-/// displacements S G^T p that the impulses p cause, and after them the impulses G^T p on the particles.
-/// The product of both is z^T W z.
-class FluidMobility : public DualProblem {
+/// The dual problem with one question to the fluid for each product with W. A vector y = B z holds
+/// the displacements S G^T p that the impulses p cause, and after them the impulses G^T p on the
+/// particles. The product of both is z^T W z.
+class FluidDualProblem : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
-  FluidMobility(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                const MobilityFunction& mobility)
+  FluidDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
+                const Mobility& mobility)
       : DualProblem(contacts.size()),
         contacts_(contacts),
         motions_(conditions.free_velocities.size()),
@@ -106,16 +106,17 @@ class FluidMobility : public DualProblem {
  private:
   std::span<const Contact<2>> contacts_;
   std::size_t motions_;
-  const MobilityFunction& mobility_;
+  const Mobility& mobility_;
   MotionLayout layout_;
   mutable ThreadPool pool_{1};
 };
 
-/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then z.
-class DenseMobility : public DualProblem {
+/// The dual problem of few contacts, with the matrix W itself. A vector y = B z holds W z, and then
+/// z.
+class DenseDualProblem : public DualProblem {
  public:
   /// `responses` are the velocities that a unit force of each contact causes [T/M].
-  DenseMobility(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
+  DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
                 std::span<const std::vector<double>> responses)
       : DualProblem(contacts.size()), w(contacts.size(), contacts.size()) {
     for (std::size_t c = 0; c < contacts.size(); ++c)
@@ -160,14 +161,15 @@ class DenseFactor {
   explicit DenseFactor(double error_of_w) : error_of_w_(error_of_w) {}
 
   bool exists() const { return !free_.empty(); }
-  bool factorise(const DenseMobility& problem, const std::vector<char>& free) {
+  bool factorise(const DenseDualProblem& problem, const std::vector<char>& free) {
     free_ = free;
     chosen_.clear();
     for (std::size_t c = 0; c < free.size(); ++c)
       if (free[c] != 0) chosen_.push_back(static_cast<Index>(c));
     w_ = problem.w(chosen_, chosen_);
     // Redundant contacts make W singular but for its errors. A term as large as these bounds the
-    // impulses that such contacts exert on each other. Refinement removes what it changes elsewhere.
+    // impulses that such contacts exert on each other. Refinement removes what it changes
+    // elsewhere.
     Eigen::MatrixXd regular = w_;
     regular.diagonal() *= 1 + error_of_w_;
     factor_.compute(regular);
@@ -194,7 +196,7 @@ class DenseFactor {
 
 /// Conjugate gradients on the free contacts without a further preconditioner: W has about the
 /// diagonal 1 already.
-template <Mobility Problem>
+template <SolvableDualProblem Problem>
 class IdentityPreconditioner {
  public:
   /// Tells Mprgp to use apply() alone.
@@ -218,9 +220,9 @@ class IdentityPreconditioner {
   Problem* problem_;
 };
 
-/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are done.
-/// Returns their number.
-template <Mobility Problem>
+/// Improves problem.z by MPRGP until all residuals are allowed, or until `most` products with W are
+/// done. Returns their number.
+template <SolvableDualProblem Problem>
 int solve_by_gradients(Problem& problem, int most) {
   Mprgp mprgp(problem, IdentityPreconditioner<Problem>(problem));
   bool is_fresh = true;
@@ -295,7 +297,7 @@ bool ContactProblem::solve(bool is_rough) {
 }
 
 void ContactProblem::solve_dense() {
-  DenseMobility problem(contacts_, conditions_, responses_);
+  DenseDualProblem problem(contacts_, conditions_, responses_);
   DenseFactor factor(conditions_.velocity_error);
   const int most = conditions_.solver.max_iterations - iterations_;
   constexpr int kNewtonSteps = 50;
@@ -313,7 +315,7 @@ void ContactProblem::solve_dense() {
 }
 
 void ContactProblem::solve_by_products() {
-  FluidMobility problem(contacts_, conditions_, mobility_);
+  FluidDualProblem problem(contacts_, conditions_, mobility_);
   iterations_ += 1 + solve_by_gradients(problem, conditions_.solver.max_iterations - iterations_);
   std::vector<double> y(problem.displacement_count());
   problem.to_bodies(problem.z, y);

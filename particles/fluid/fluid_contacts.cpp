@@ -31,8 +31,8 @@ void keep_memory(std::vector<Pair>& pairs, std::vector<Pair> before) {
   pairs = std::move(merged);
 }
 
-/// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The side
-/// of a cylinder, whose normal has no component along the axis, is left out.
+/// Lists all pairs with a gap below `reach` [L] and those that are glued, with their memory. The
+/// side of a cylinder, whose normal has no component along the axis, is left out.
 void list_pairs(StepContacts& step, const State& state, std::span<const PlanePosition> obstacles,
                 double reach, ThreadPool& pool) {
   // Only the nearest images have a number, so that the search must stay below half a period.
@@ -105,7 +105,7 @@ void make_contacts(StepContacts& step, const Particles& p, double threshold,
 }
 
 /// Solves for contacts in rounds, in which those join whose gaps the others close.
-void solve_listed(StepContacts& step, const MobilityFunction& mobility,
+void solve_listed(StepContacts& step, const Mobility& mobility,
                   const ContactConditions& conditions) {
   ContactProblem problem(conditions, mobility);
   std::vector<std::size_t> chosen;
@@ -139,7 +139,7 @@ void solve_listed(StepContacts& step, const MobilityFunction& mobility,
 StepContacts solve_contacts(const State& state, double threshold,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
-                            const MobilityFunction& mobility, const ContactConditions& conditions,
+                            const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool) {
   const auto& p = state.particles;
   const double h = conditions.h;

@@ -1,6 +1,6 @@
-// The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses that
-// keep their gaps open, as forces on particles whose velocities depend linearly on forces. A gap of
-// a contact is D - D_c here, with the threshold gap D_c. Units are those of the case.
+// The contacts of a step in a fluid, docs/physics.md (6.4): which pairs take part, and impulses
+// that keep their gaps open, as forces on particles whose velocities depend linearly on forces. A
+// gap of a contact is D - D_c here, with the threshold gap D_c. Units are those of the case.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ inline double gap_after(const Contact<2>& contact, const double* velocities, dou
   return contact.gap + h * opening(contact, velocities, layout);
 }
 
-/// The largest speed of a particle [L/T], without its turning, which changes no gap; NaN if one is not a
-/// number.
+/// The largest speed of a particle [L/T], without its turning, which changes no gap; NaN if one is
+/// not a number.
 inline double fastest(std::span<const double> velocities, const MotionLayout& layout) {
   double largest = 0;
   for (std::size_t k = 0; k < velocities.size(); k += layout.components) {
@@ -60,7 +60,7 @@ inline void add_contact_force(const Contact<2>& contact, double force, std::span
 
 /// Velocities [L/T, 1/T] of all particles that forces and torques [M L/T^2, M L^2/T^2] add to those
 /// without contact; linear, symmetric and positive definite on the forces of contacts.
-using MobilityFunction = std::function<std::vector<double>(std::span<const double> forces)>;
+using Mobility = std::function<std::vector<double>(std::span<const double> forces)>;
 
 /// The step without contact, and how exact its contacts must be.
 struct ContactConditions {
@@ -74,12 +74,12 @@ struct ContactConditions {
   double velocity_error = 0;
 };
 
-/// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps holds
-/// for them.
+/// Sets Contact::allowed. Contacts with w = 0 take no part, and only the tolerance of the gaps
+/// holds for them.
 ///
-/// Returns the impulses at work in each contact [M L/T]: of its two particles the smaller one of the
-/// largest impulse on each. The impulses on a particle are those of its contacts, and those that
-/// would stop the motion without contact that changes a gap.
+/// Returns the impulses at work in each contact [M L/T]: of its two particles the smaller one of
+/// the largest impulse on each. The impulses on a particle are those of its contacts, and those
+/// that would stop the motion without contact that changes a gap.
 std::vector<double> set_allowed(std::span<Contact<2>> contacts,
                                 const ContactConditions& conditions);
 
@@ -96,12 +96,12 @@ inline constexpr std::size_t kMostDenseContacts = 24;
 /// D + h G v = 0 where p > gamma, with v = free velocities + mobility(G^T p/h). This is the dual
 /// problem (5.4) of docs/physics.md with W = G mobility G^T in place of h G M^-1 G^T.
 ///
-/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves, or
-/// MPRGP where Newton's method cycles. Many contacts: MPRGP with products by the mobility.
+/// Few contacts: W is assembled, and Newton's method on the set of contacts with p > gamma solves,
+/// or MPRGP where Newton's method cycles. Many contacts: MPRGP with products by the mobility.
 class ContactProblem {
  public:
   /// `mobility` and the velocities of `conditions` must outlive the object.
-  ContactProblem(const ContactConditions& conditions, const MobilityFunction& mobility)
+  ContactProblem(const ContactConditions& conditions, const Mobility& mobility)
       : conditions_(conditions),
         mobility_(mobility),
         velocities_(conditions.free_velocities.begin(), conditions.free_velocities.end()) {}
@@ -134,7 +134,7 @@ class ContactProblem {
   void solve_by_products();
 
   ContactConditions conditions_;
-  const MobilityFunction& mobility_;
+  const Mobility& mobility_;
   std::vector<Contact<2>> contacts_;
   std::vector<std::vector<double>> responses_;  // to a unit force of each contact [T/M]
   std::vector<double> velocities_;
@@ -156,12 +156,12 @@ struct StepContacts {
 
 /// Finds the impulses of all contacts, such that no gap closes that was not among the contacts
 /// either. `state` is that before the step, `threshold` is D_c >= 0 [L], `obstacles` are positions
-/// at the end of the step. Pairs for which `is_left_out` is true are no contacts, because no contact
-/// force changes their distance. Throws what `mobility` throws.
+/// at the end of the step. Pairs for which `is_left_out` is true are no contacts, because no
+/// contact force changes their distance. Throws what `mobility` throws.
 StepContacts solve_contacts(const State& state, double threshold,
                             std::span<const PlanePosition> obstacles,
                             const std::function<bool(const Pair&)>& is_left_out,
-                            const MobilityFunction& mobility, const ContactConditions& conditions,
+                            const Mobility& mobility, const ContactConditions& conditions,
                             ThreadPool& pool);
 
 }  // namespace viscontact::particles

@@ -1,5 +1,5 @@
-// What a step in a fluid computes before it changes the state (fluid_simulation.hpp). Units are those
-// of the case.
+// What a step in a fluid computes before it changes the state (fluid_simulation.hpp). Units are
+// those of the case.
 #pragma once
 
 #include <algorithm>

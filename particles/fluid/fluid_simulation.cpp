@@ -115,7 +115,7 @@ StepContacts FluidSimulation::solve_contacts_of(const StepEquation& equation,
     return k >= 0 && !equation.is_driven(k) &&
            !(is_split && equation.inertia()[layout_.at(k, 0)] == 0);
   };
-  const MobilityFunction mobility = [&](std::span<const double> loads) {
+  const Mobility mobility = [&](std::span<const double> loads) {
     if (!is_split) return solver_->velocities(loads, false);
     std::vector<double> velocities(loads.size());
     for (std::size_t i = 0; i < loads.size(); ++i)

@@ -42,9 +42,9 @@ struct ForceErrors {
 /// in which the second term is the change that the motion of the particles over half a step makes.
 /// Without inertia and with a constant force g* = g^n, so that this is the formula of Adams and
 /// Bashforth; it remains of second order where a force jumps. Links between particles with mass are
-/// those in the middle of the step, and U^{n-1} is brought to their directions (6.7). A particle that
-/// was in contact in the step before moves with U, of first order, and so do all where a given motion
-/// jumps.
+/// those in the middle of the step, and U^{n-1} is brought to their directions (6.7). A particle
+/// that was in contact in the step before moves with U, of first order, and so do all where a given
+/// motion jumps.
 class FluidSimulation {
  public:
   /// `setting.fluid` must be there. `state` is what read_restart returned, or a state of which only

@@ -74,16 +74,6 @@ void HeldMotion::turn_rows() {
   }
 }
 
-/// Vector from the centre of its body to the centre of a particle [L]; 0 without a body.
-Vector HeldMotion::offset_in_body(std::int32_t particle) const {
-  const auto number = particles_.bodies.body_of(particle);
-  if (number < 0) return {};
-  const auto& body = particles_.bodies.bodies[index_of(number)];
-  for (std::size_t m = 0; m < body.members.size(); ++m)
-    if (body.members[m] == particle) return present_offset(body, m, particles_.dimension);
-  return {};
-}
-
 /// The rows that give each member the rigid motion of the first one.
 void HeldMotion::add_body_rows(const RigidBody& body, std::size_t number,
                                std::vector<HeldRow>& rows) const {
@@ -117,7 +107,7 @@ void HeldMotion::add_entries(const LinkPart& part, HeldRow& row) const {
     if (part.direction[d] != 0)
       row.entries.emplace_back(layout_.at(part.particle, d), part.direction[d]);
   if (layout_.components != 3) return;
-  const Vector arm = part.arm - offset_in_body(part.particle);
+  const Vector arm = part.arm - offset_in_body(particles_, part.particle);
   if (const double moment = cross(arm, part.direction)[2]; moment != 0)
     row.entries.emplace_back(layout_.at(part.particle, 2), moment);
 }

@@ -15,12 +15,13 @@ namespace viscontact::particles {
 /// The rows of one step from the present places of the particles, and the motion of their units.
 ///
 /// A link of which a unit accelerates, that is has a mass and no given motion, has its rows at the
-/// places that the units reach in half the step with their velocities before it. The forces of links
-/// then turn with their units like their mean over the step, so that a mass that circles on a link
-/// neither gains nor loses energy up to the second order of the step (the implicit midpoint rule;
-/// Hairer, Lubich & Wanner 2006, section VII.1). In a step with theta = 1, after which velocities may
-/// have jumped, the rows are where the particles are, which keeps the angular momentum. So are those of
-/// particles without mass, because FluidSimulation extrapolates how their forces turn.
+/// places that the units reach in half the step with their velocities before it. The forces of
+/// links then turn with their units like their mean over the step, so that a mass that circles on a
+/// link neither gains nor loses energy up to the second order of the step (the implicit midpoint
+/// rule; Hairer, Lubich & Wanner 2006, section VII.1). In a step with theta = 1, after which
+/// velocities may have jumped, the rows are where the particles are, which keeps the angular
+/// momentum. So are those of particles without mass, because FluidSimulation extrapolates how their
+/// forces turn.
 class HeldMotion {
  public:
   /// `links` and `particles` must outlive this object. `times.kick` is not used. `link_times` are
@@ -40,28 +41,28 @@ class HeldMotion {
                               std::span<const double> row_forces,
                               std::span<const double> thetas) const;
 
-  /// Changes the velocities `at_end` at the end of the step, after the step with `velocities`, until
-  /// bodies are rigid, hinges and arms hold at that time, and the springs for which `is_stiff` is set,
-  /// one number for each row, have the mean rate of the step. The change is that by forces along the
-  /// rows as they are then, with the mobility `mobility` of each component [T/M, 1/(M L^2) T]. Returns
-  /// these forces [M L/T^2, M L^2/T^2].
+  /// Changes the velocities `at_end` at the end of the step, after the step with `velocities`,
+  /// until bodies are rigid, hinges and arms hold at that time, and the springs for which
+  /// `is_stiff` is set, one number for each row, have the mean rate of the step. The change is that
+  /// by forces along the rows as they are then, with the mobility `mobility` of each component
+  /// [T/M, 1/(M L^2) T]. Returns these forces [M L/T^2, M L^2/T^2].
   std::vector<double> hold_at_end(std::span<const double> velocities,
                                   std::span<const double> mobility,
                                   const std::vector<char>& is_stiff,
                                   std::span<double> at_end) const;
 
-  /// Replaces the velocities of members of bodies by their displacements in the step, divided by its
-  /// length.
+  /// Replaces the velocities of members of bodies by their displacements in the step, divided by
+  /// its length.
   std::vector<double> with_finite_turns(std::span<const double> velocities) const;
 
   /// Gives the members of each body the velocities at their present places of the rigid motion that
   /// is the mean of `velocities`, which may be those of an earlier step.
   void make_rigid(std::span<double> velocities) const;
 
-  /// Adds couples to `forces` on the members of bodies that accelerate, so that the forces `of_fluid`
-  /// of the particles on the fluid have the same torque about the centre of a body after the step
-  /// with `velocities` as before it. All have motion_components() numbers for each particle [M L/T^2,
-  /// M L^2/T^2], [L/T, 1/T].
+  /// Adds couples to `forces` on the members of bodies that accelerate, so that the forces
+  /// `of_fluid` of the particles on the fluid have the same torque about the centre of a body after
+  /// the step with `velocities` as before it. All have motion_components() numbers for each
+  /// particle [M L/T^2, M L^2/T^2], [L/T, 1/T].
   void keep_torques(std::span<const double> velocities, std::span<const double> of_fluid,
                     std::span<double> forces) const;
 
@@ -88,7 +89,6 @@ class HeldMotion {
   std::size_t arm(std::size_t k) const;
   double sum_of(const LinkRow& row, std::span<const double> velocities) const;
   std::vector<HeldRow> rows_of(const std::vector<LinkEquations>& equations) const;
-  Vector offset_in_body(std::int32_t particle) const;
   void add_entries(const LinkPart& part, HeldRow& row) const;
   void add_body_rows(const RigidBody& body, std::size_t number, std::vector<HeldRow>& rows) const;
 

@@ -20,12 +20,12 @@ namespace viscontact::particles {
 ///     M (u^{n+1} - u^n)/h = f - R U + contact forces,   U = theta u^{n+1} + (1 - theta) u^n,
 ///
 /// that is (R + M/(theta h)) U = f + M/(theta h) u^n + contact forces. A particle without mass has
-/// theta = 1 and u^{n+1} = U. The other particles have theta = (1 + z)/(2 + z) with z = h c/m: 1/2 +
-/// O(h), which makes the step one of second order, and close to 1 where the drag is stiff, so that
-/// velocities do not oscillate. c is the Stokes drag or, if it is larger, the drag in the step
-/// before, because near a wall it is many times the Stokes drag. In the first step, theta = 1, which
-/// does not change the order. A particle in contact has theta = 1,
-/// because its velocity jumps: it is U at the end of the step (implicit Euler).
+/// theta = 1 and u^{n+1} = U. The other particles have theta = (1 + z)/(2 + z) with z = h c/m: 1/2
+/// + O(h), which makes the step one of second order, and close to 1 where the drag is stiff, so
+/// that velocities do not oscillate. c is the Stokes drag or, if it is larger, the drag in the step
+/// before, because near a wall it is many times the Stokes drag. In the first step, theta = 1,
+/// which does not change the order. A particle in contact has theta = 1, because its velocity
+/// jumps: it is U at the end of the step (implicit Euler).
 class StepEquation {
  public:
   /// The step of length h > 0 ends at time `next`; `state` is that before the step. Both references
@@ -36,7 +36,8 @@ class StepEquation {
   FluidParticles bodies() const;
 
   /// f + M/(theta h) u^n of each component [M L/T^2]. Forces on the members of a body that
-  /// accelerates act where the members are in the middle of the step, if its velocity does not jump.
+  /// accelerates act where the members are in the middle of the step, if its velocity does not
+  /// jump.
   std::vector<double> right_side() const;
 
   /// M/(theta h) of each component [M/T]; 0 without inertia.
@@ -49,17 +50,17 @@ class StepEquation {
 
   /// The velocities at which the forces on the particles do their work in the step, for the
   /// velocities `flow` = U and `at_end` = u^{n+1} and the forces `drag` of the particles on the
-  /// fluid: U for the part of the forces that the fluid resists, (u^n + u^{n+1})/2 for the part that
-  /// accelerates. Work at U
-  /// alone would contain the energy that a step with theta > 1/2 loses where the velocity jumps.
+  /// fluid: U for the part of the forces that the fluid resists, (u^n + u^{n+1})/2 for the part
+  /// that accelerates. Work at U alone would contain the energy that a step with theta > 1/2 loses
+  /// where the velocity jumps.
   std::vector<double> velocities_of_work(std::span<const double> flow,
                                          std::span<const double> at_end,
                                          std::span<const double> drag) const;
 
-  /// Of each particle that accelerates, which has a mass, its own or a share of that of its body, and
-  /// no given motion: the time in the step at which its links act [T]. It is h/2 - (2 theta - 1)
-  /// (1 - theta) h, but 0 in the first step and where the velocity of the particle may jump. Of the
-  /// other particles -1. Empty if no particle accelerates.
+  /// Of each particle that accelerates, which has a mass, its own or a share of that of its body,
+  /// and no given motion: the time in the step at which its links act [T]. It is h/2 - (2 theta -
+  /// 1) (1 - theta) h, but 0 in the first step and where the velocity of the particle may jump. Of
+  /// the other particles -1. Empty if no particle accelerates.
   const std::vector<double>& link_times() const { return link_times_; }
 
   /// By how much a mean force in the step changes the velocity at its end, for each component [T/M,
@@ -70,9 +71,9 @@ class StepEquation {
   /// True if the velocity of particle `k` is prescribed.
   bool is_driven(std::int32_t k) const { return driven_.contains(k); }
   /// True if particle `k` has theta = 1 because its velocity may jump: it, or a particle that moves
-  /// with it because of rigid bodies, arms and stiff springs, has a contact in the step before or in
-  /// put_in_contact(), or the length of an arm of theirs has a kink, or one of their links leads to a
-  /// particle whose given velocity jumps.
+  /// with it because of rigid bodies, arms and stiff springs, has a contact in the step before or
+  /// in put_in_contact(), or the length of an arm of theirs has a kink, or one of their links leads
+  /// to a particle whose given velocity jumps.
   bool is_in_contact(std::int32_t k) const { return in_contact_[index_of(k)] != 0; }
 
   /// Sets theta = 1 for the particles of contacts with an impulse. Returns true if that changed the

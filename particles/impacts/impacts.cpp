@@ -14,8 +14,8 @@
 namespace viscontact::particles {
 namespace {
 
-// Times of a step that differ by less than this share of it are one. Symmetric blows are then decided
-// together although their times differ by rounding errors.
+// Times of a step that differ by less than this share of it are one. Symmetric blows are then
+// decided together although their times differ by rounding errors.
 constexpr double kSameTime = 1e-9;
 
 /// The root of a function that is positive at `from` and not at `until`, by the Illinois method.
@@ -82,8 +82,8 @@ Vector Impacts<D>::acceleration(std::int32_t k) const {
   return (1 / step_.kick) * (free_velocity(k) - state_.particles.velocity(index_of(k)));
 }
 
-/// Angular velocity before and after a blow apart from it, of discs about the third axis. Torques act
-/// evenly in the step.
+/// Angular velocity before and after a blow apart from it, of discs about the third axis. Torques
+/// act evenly in the step.
 template <int D>
 Vector Impacts<D>::spin(std::int32_t k) const {
   if (k < 0 || step_.turns.empty()) return {};
@@ -142,7 +142,8 @@ double Impacts<D>::gap_of(const Approach& approach, double t) const {
              : norm(x) - approach.sum;
 }
 
-/// Velocity of the surface of an obstacle at the point next to the second particle; 0 if there is none.
+/// Velocity of the surface of an obstacle at the point next to the second particle; 0 if there is
+/// none.
 template <int D>
 Vector Impacts<D>::surface_of(const Approach& approach, double t) const {
   if (approach.obstacle == nullptr) return {};
@@ -157,8 +158,9 @@ Vector Impacts<D>::velocity_of(const Approach& approach, double t) const {
   return approach.a + (2 * t) * approach.b - surface_of(approach, t);
 }
 
-/// Second derivative of the gap at an obstacle, or of the distance of two particles that do not move
-/// around each other [L/T^2]. In a circle, or at a plane that turns, it is not 0 without forces either.
+/// Second derivative of the gap at an obstacle, or of the distance of two particles that do not
+/// move around each other [L/T^2]. In a circle, or at a plane that turns, it is not 0 without
+/// forces either.
 template <int D>
 double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const {
   const Vector n = normal_of(approach, t);
@@ -178,8 +180,8 @@ double Impacts<D>::acceleration_of_gap(const Approach& approach, double t) const
   return acceleration + dot(turns, 2.0 * u + cross(obstacle.angular_velocity, arm));
 }
 
-/// The first time in (`from`, `until`] at which the gap of an approach closes, which is open at `from`. The
-/// velocity of an obstacle does not jump in between.
+/// The first time in (`from`, `until`] at which the gap of an approach closes, which is open at
+/// `from`. The velocity of an obstacle does not jump in between.
 template <int D>
 std::optional<double> Impacts<D>::time_of_meeting(const Approach& approach, double from,
                                                   double until) const {
@@ -235,15 +237,16 @@ std::optional<typename Impacts<D>::Hit> Impacts<D>::hit_at(std::size_t k, double
   const double pull = acceleration_of_gap(approach, time);
   const double ended =
       std::max(kShortestFlight * -step_.h * pull / (2 * step_.laws.restitution.coefficient), 0.0);
-  // `unseen`: an approach that moves the particles by less than a thousandth of `touching` in the step,
-  // or is a rounding error.
+  // `unseen`: an approach that moves the particles by less than a thousandth of `touching` in the
+  // step, or is a rounding error.
   constexpr double kUnseen = 1e-3, kRounding = 1e-12;
   const double speeds = norm(free_velocity(of.first)) + norm(free_velocity(of.second)) +
                         norm(flight_or_none(of.first).change) +
                         norm(flight_or_none(of.second).change);
   const double unseen = std::max(kUnseen * step_.touching / step_.h, kRounding * speeds);
-  // `rests`: the pair touched at the beginning of the step and hardly approached, or it bore a load. Only
-  // a blow that is faster than `pulled` hits it, because slower ones would keep a packing shaking.
+  // `rests`: the pair touched at the beginning of the step and hardly approached, or it bore a
+  // load. Only a blow that is faster than `pulled` hits it, because slower ones would keep a
+  // packing shaking.
   const double pulled = 5 * step_.h *
                         std::max({std::abs(dot(normal, acceleration(of.second))),
                                   std::abs(dot(normal, acceleration(of.first))), std::abs(pull)});
@@ -346,10 +349,8 @@ void Impacts<D>::finish() {
     Vector moves = step_.h * of.change - of.late, turns = step_.h * of.turn_change - of.late_turn;
     if (const auto body = p.bodies.body_of(particle); body >= 0) {
       const auto& step = step_.bodies[index_of(body)];
-      const auto& rigid = p.bodies.bodies[index_of(body)];
-      const auto m = std::ranges::find(rigid.members, particle) - rigid.members.begin();
-      const Vector moved = displacement_at(
-          step.displacement, step.turn, present_offset(rigid, static_cast<std::size_t>(m), D), D);
+      const Vector moved =
+          displacement_at(step.displacement, step.turn, offset_in_body(p, particle), D);
       moves = moved - point_of(step_.displacements.data(), k, D);
     }
     for (std::size_t i = 0; i < d; ++i) step_.displacements[k * d + i] += moves[i];

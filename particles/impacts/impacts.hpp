@@ -1,7 +1,7 @@
 // The blows of a step between solids that rebound, at their times within the step: docs/physics.md
-// (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the blows
-// leave. Lengths, masses and times are in any one consistent system of units. The results must not
-// depend on the order of the particles, but for the order of sums.
+// (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
+// blows leave. Lengths, masses and times are in any one consistent system of units. The results
+// must not depend on the order of the particles, but for the order of sums.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@
 
 namespace viscontact::particles {
 
-/// The step that the blows belong to. Arrays are those of the simulation and hold the motion without
-/// contacts; run() adds what the blows change.
+/// The step that the blows belong to. Arrays are those of the simulation and hold the motion
+/// without contacts; run() adds what the blows change.
 struct ImpactStep {
   const ContactLaws& laws;           ///< of all contacts
   std::span<const Plane> obstacles;  ///< they may move
@@ -43,17 +43,17 @@ struct ImpactStep {
 
 /// Finds the blows of a step in the order of their times. Between blows each particle flies on the
 /// parabola of the scheme: with the acceleration a of its forces, its velocity at the time t of the
-/// step is u* + a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that changes
-/// the velocity by d moves the particle by (h - t_c) d in the rest of the step.
+/// step is u* + a (t - h/2), plus the changes by its blows so far. A blow at the time t_c that
+/// changes the velocity by d moves the particle by (h - t_c) d in the rest of the step.
 ///
-/// A pair is hit when its gap closes. A pair that touches and bore no load is hit if it approached before
-/// the step. A pair that bore a load is hit only if it approaches faster than five times the velocity
-/// that forces give its particles in the step. Blows of one time with a common body are decided together,
-/// others one after the other. A touching neighbour is hit by what a blow leaves, so that a row of equal
-/// spheres passes a blow on (Newton's cradle).
+/// A pair is hit when its gap closes. A pair that touches and bore no load is hit if it approached
+/// before the step. A pair that bore a load is hit only if it approaches faster than five times the
+/// velocity that forces give its particles in the step. Blows of one time with a common body are
+/// decided together, others one after the other. A touching neighbour is hit by what a blow leaves,
+/// so that a row of equal spheres passes a blow on (Newton's cradle).
 ///
-/// The projection takes over when a bounce would last less than a twentieth of the step, and after 1000
-/// hits of a pair in a step (30 if it bore a load).
+/// The projection takes over when a bounce would last less than a twentieth of the step, and after
+/// 1000 hits of a pair in a step (30 if it bore a load).
 template <int D>
 class Impacts {
  public:
@@ -100,8 +100,9 @@ class Impacts {
       return time != other.time ? time > other.time : pair > other.pair;
     }
   };
-  // The flight of the second particle of a pair: c + a t + b t^2 at the time t of the step is the vector
-  // from the centre of the first particle, or the place of the centre if the first is an obstacle.
+  // The flight of the second particle of a pair: c + a t + b t^2 at the time t of the step is the
+  // vector from the centre of the first particle, or the place of the centre if the first is an
+  // obstacle.
   struct Approach {
     Vector c{}, a{}, b{};
     double sum = 0;  // of the radii; of the second particle alone at an obstacle [L]

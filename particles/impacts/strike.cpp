@@ -14,20 +14,19 @@
 
 namespace viscontact::particles {
 
-/// Vector from the centre of its body to a member at the time `t` of the step [L]; 0 without a body.
+/// Vector from the centre of its body to a member at the time `t` of the step [L]; 0 without a
+/// body.
 template <int D>
 Vector Impacts<D>::offset_at(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
   if (body < 0) return {};
-  const auto& rigid = state_.particles.bodies.bodies[index_of(body)];
-  const auto m = std::ranges::find(rigid.members, k) - rigid.members.begin();
-  const Vector offset = present_offset(rigid, static_cast<std::size_t>(m), D);
+  const Vector offset = offset_in_body(state_.particles, k);
   return offset + displacement_at({}, (t / step_.h) * free_bodies_[index_of(body)].turn, offset, D);
 }
 
-/// What the velocity of a member of a body at the time `t` of the step has beyond that of its flight on a
-/// parabola. An impulse must see the velocity of the point at which it acts, so that e_d = 1 keeps the
-/// energy.
+/// What the velocity of a member of a body at the time `t` of the step has beyond that of its
+/// flight on a parabola. An impulse must see the velocity of the point at which it acts, so that
+/// e_d = 1 keeps the energy.
 template <int D>
 Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   const auto body = k < 0 ? -1 : state_.particles.bodies.body_of(k);
@@ -40,8 +39,8 @@ Vector Impacts<D>::turning_velocity(std::int32_t k, double t) const {
   return mean + turns - free_velocity(k) + (t - step_.h / 2) * (pull - acceleration(k));
 }
 
-/// The contacts of a blow as constraints on the changes of h times the velocities. `unit_of` becomes a
-/// particle of each unit.
+/// The contacts of a blow as constraints on the changes of h times the velocities. `unit_of`
+/// becomes a particle of each unit.
 template <int D>
 ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double time,
                                             std::vector<std::int32_t>& unit_of) {
@@ -57,8 +56,8 @@ ConstraintProblem<D> Impacts<D>::problem_of(const std::vector<Hit>& hits, double
       unit_of.push_back(k);
       if (body < 0) {
         const std::array<double, 3> still{};
-        // Particles that do not turn have no moments but rounding errors, which this mobility leaves
-        // small in every unit.
+        // Particles that do not turn have no moments but rounding errors, which this mobility
+        // leaves small in every unit.
         const double r = p.radii[index_of(k)], moves = step_.mobilities[index_of(k)];
         const double turns =
             step_.turns.empty() ? moves / (r * r) : step_.turn_mobilities[index_of(k)];
@@ -131,8 +130,8 @@ void Impacts<D>::move_unit(std::int32_t particle, const Motion<D>& change, doubl
   step.displacement = step.displacement + rest * velocity;
   step.late_velocity = step.late_velocity + (time / step_.h) * velocity;
   step.turn = step.turn + rest * turn;
-  // I (time/h) turn is what the angular momentum has beyond I turn/h in the plane; in space the step
-  // holds the whole of it.
+  // I (time/h) turn is what the angular momentum has beyond I turn/h in the plane; in space the
+  // step holds the whole of it.
   const Vector momentum = step_.h * (step.inverse_turn_mobility * turn);
   step.angular_momentum = step.angular_momentum + momentum;
   step.late_momentum = step.late_momentum + (time / step_.h) * momentum;
@@ -167,9 +166,10 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
     of.impulses.assign(of.blocks.size(), 0.0);
   };
   keep_normal_rows(compression);
-  // Where several contacts share a body, only sums of their impulses are determined. What each of them
-  // takes, and with it what its solids give back, must not depend on their order. Newton's method may
-  // cycle where spheres rub; the sweeps that follow then have seldom more than one solution to choose.
+  // Where several contacts share a body, only sums of their impulses are determined. What each of
+  // them takes, and with it what its solids give back, must not depend on their order. Where
+  // spheres rub, Newton's method may cycle. Sweeps then solve the blow, whose impulses may depend
+  // on the order.
   const auto solve = [&](ConstraintProblem<D>& of) {
     const auto guess = of.impulses;
     const auto is_solved = [&](ConstraintStart start, int most_iterations) {
@@ -222,9 +222,9 @@ void Impacts<D>::strike(const std::vector<Hit>& hits, double time) {
   }
   solve(problem);
   auto changes = motions<D>(problem, problem.impulses);
-  // Work of the impulses at the mean of the velocities before and after. Friction and films in blows of
-  // several contacts could make it positive; then all impulses go back towards those of the
-  // compression, whose work is negative, until it is not.
+  // Work of the impulses at the mean of the velocities before and after. Friction and films in
+  // blows of several contacts could make it positive; then all impulses go back towards those of
+  // the compression, whose work is negative, until it is not.
   const auto work = [&](const std::vector<double>& impulses) {
     const auto y = motions<D>(problem, impulses);
     double sum = 0;

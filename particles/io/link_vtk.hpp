@@ -1,5 +1,5 @@
-// The links of a state as a VTK file for ParaView. Lengths, masses and times are in the units of the
-// case.
+// The links of a state as a VTK file for ParaView. Lengths, masses and times are in the units of
+// the case.
 #pragma once
 
 #include <string>

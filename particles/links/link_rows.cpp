@@ -21,16 +21,6 @@ Vector unit_centre(const Particles& p, std::int32_t particle) {
   return body < 0 ? p.position(index_of(particle)) : p.bodies.bodies[index_of(body)].centre;
 }
 
-/// Vector from the centre of its unit to the centre of a particle [L].
-Vector arm_of_centre(const Particles& p, std::int32_t particle) {
-  const auto body = p.bodies.body_of(particle);
-  if (body < 0) return {};
-  const auto& of = p.bodies.bodies[index_of(body)];
-  for (std::size_t m = 0; m < of.members.size(); ++m)
-    if (of.members[m] == particle) return present_offset(of, m, p.dimension);
-  return {};
-}
-
 /// Vector from the centre of its unit to a linked point [L].
 Vector arm_of_point(const Particles& p, const LinkedPoint& point) {
   const auto body = p.bodies.body_of(point.particle);
@@ -75,8 +65,8 @@ LinkRow row_between(const Particles& p, std::int32_t first, std::int32_t second,
                     const NearestImage& nearest) {
   const Vector direction = direction_of(nearest.apart);
   LinkRow row;
-  row.parts = {{first, -1 * direction, arm_of_centre(p, first)},
-               {second, direction, arm_of_centre(p, second), false, nearest.periods}};
+  row.parts = {{first, -1 * direction, offset_in_body(p, first)},
+               {second, direction, offset_in_body(p, second), false, nearest.periods}};
   return row;
 }
 
@@ -161,8 +151,7 @@ Periods periods_in_unit(const Particles& particles, std::int32_t particle) {
   const auto body = particles.bodies.body_of(particle);
   if (body < 0) return {};
   const auto& of = particles.bodies.bodies[index_of(body)];
-  const auto m = std::ranges::find(of.members, particle) - of.members.begin();
-  return periods_of_member(of, static_cast<std::size_t>(m), particles);
+  return periods_of_member(of, member_number(of, particle), particles);
 }
 
 double image_rate(const LinkRow& row, const PeriodicCell& cell) {

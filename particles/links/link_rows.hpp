@@ -34,8 +34,8 @@ struct LinkRow {
   double stiffness = 0;  ///< [M/T^2], [M L^2/T^2]
 };
 
-/// The equations of one link, and what they are called. All have parts of the same units in the same
-/// order.
+/// The equations of one link, and what they are called. All have parts of the same units in the
+/// same order.
 struct LinkEquations {
   /// The kind of link; kTorsion is the torsion spring of a hinge.
   enum class Kind { kHinge, kTorsion, kSpring, kArm };
@@ -60,8 +60,8 @@ struct LinkTimes {
 };
 
 /// The equations of all links. Springs are integrated by Newmark's method with beta = 1/4 (Newmark
-/// 1959, "A method of computation for structural dynamics"), which is stable for every stiffness and
-/// does not damp.
+/// 1959, "A method of computation for structural dynamics"), which is stable for every stiffness
+/// and does not damp.
 std::vector<LinkEquations> link_equations(const Links& links, const Particles& particles,
                                           const LinkTimes& times);
 
@@ -77,8 +77,8 @@ struct UnitMotion {
       turn{};             ///< [rad]; only the component z in the plane
 };
 
-// In the following, `motions` are those of the units of a link, in the order of its parts. The units
-// are the images that the rows mean, and turn by finite angles.
+// In the following, `motions` are those of the units of a link, in the order of its parts. The
+// units are the images that the rows mean, and turn by finite angles.
 
 /// Value of a part after the linear motion of its unit [L], [rad].
 double value_of(const LinkPart& part, const UnitMotion& motion);

@@ -16,8 +16,8 @@ namespace viscontact::particles {
 /// projection would find only the next one.
 class PairsOfParticles {
  public:
-  /// `state` must outlive the object, and its lists of pairs must not change. Particles at obstacles are
-  /// listed only `with_walls`, and serve only of().
+  /// `state` must outlive the object, and its lists of pairs must not change. Particles at
+  /// obstacles are listed only `with_walls`, and serve only of().
   explicit PairsOfParticles(const State& state, bool with_walls = false)
       : state_(&state), pair_count_(state.pairs.size()), offsets_(state.particles.count() + 1, 0) {
     const std::size_t count = pair_count_ + (with_walls ? state.walls.size() : 0);

@@ -1,4 +1,5 @@
-// Measures the residuals of the contacts and links of a step after a solution (step_projection.hpp).
+// Measures the residuals of the contacts and links of a step after a solution
+// (step_projection.hpp).
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -90,8 +91,8 @@ std::vector<std::size_t> StepProjection<D>::examine(const SolverSettings& settin
                                 ? constraints_->residual(c).normal
                                 : contact_residual(gap, here.w * (here.impulse - here.lowest));
     take(residual, scale, settings, mean_radius, result);
-    // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in packings,
-    // and no memory depends on it.
+    // A sticking contact may slip by the tolerance of the gaps: its impulse is not unique in
+    // packings, and no memory depends on it.
     if (constraints_)
       result.residuals.take(constraints_->residual(c).tangential,
                             settings.tolerance * mean_radius / 2);

@@ -74,8 +74,8 @@ ResidualScale ResidualScales<D>::of(std::span<const std::int32_t> particles, dou
     if (body >= 0) around = std::max(around, island_impulses_[index_of(system_.island(body))]);
   }
   scale.rounding += std::sqrt(scale.w) * around;
-  // Solvers take squares of displacements, and products of these. Below this length they underflow. In
-  // any unit that a case may have, a particle that moves by less is at rest.
+  // Solvers take squares of displacements, and products of these. Below this length they underflow.
+  // In any unit that a case may have, a particle that moves by less is at rest.
   constexpr double kAtRest = 1e-100;
   scale.rounding = std::max(kRounding * scale.rounding, kAtRest);
   return scale;

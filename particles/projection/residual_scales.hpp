@@ -36,11 +36,12 @@ class ResidualScales {
   ResidualScales(const State& state, double h, std::span<const double> displacements,
                  std::span<const double> mobilities, ContactSystem<D>& system);
 
-  /// Scales of a contact or link between `particles`, of which negative numbers are obstacles, and which
-  /// need not take part. `w` is the change of its gap per impulse [T/M], `length` the size of the numbers
-  /// that the gap is the difference of [L]. Of the impulses at work on the particles the smallest counts, because an impulse that is small for a heavy particle
-  /// may be all that moves a light one. The rounding errors are those of the gap, of the
-  /// displacements of its particles, and of a solution for all impulses of its island.
+  /// Scales of a contact or link between `particles`, of which negative numbers are obstacles, and
+  /// which need not take part. `w` is the change of its gap per impulse [T/M], `length` the size of
+  /// the numbers that the gap is the difference of [L]. Of the impulses at work on the particles
+  /// the smallest counts, because an impulse that is small for a heavy particle may be all that
+  /// moves a light one. The rounding errors are those of the gap, of the displacements of its
+  /// particles, and of a solution for all impulses of its island.
   ResidualScale of(std::span<const std::int32_t> particles, double w, double length);
   /// Those of a contact.
   ResidualScale of(const Contact<D>& contact) {

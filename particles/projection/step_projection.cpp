@@ -56,8 +56,8 @@ void StepProjection<D>::add_constraints(const ConstraintStep& step) {
   constraints_->join_linked(system_);
 }
 
-/// The contact of two particles in a step with blows: its normal is that where they are after the blows,
-/// and its gap is the linear one there, taken back to the beginning of the step.
+/// The contact of two particles in a step with blows: its normal is that where they are after the
+/// blows, and its gap is the linear one there, taken back to the beginning of the step.
 template <int D>
 Contact<D> StepProjection<D>::contact_at_end(std::size_t k) {
   const auto& p = state_.particles;

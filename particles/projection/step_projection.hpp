@@ -60,9 +60,9 @@ class StepProjection {
   /// Solves with friction, rigid bodies and links. Call it before solve(); `step` must outlive this
   /// object.
   void add_constraints(const ConstraintStep& step);
-  /// Solves a step in which blows have changed the displacements. A contact is then linearised at the
-  /// places where the blows leave its particles. Linearised at the beginning of the step, it would stop
-  /// particles that only pass each other. `impacts` must outlive this object.
+  /// Solves a step in which blows have changed the displacements. A contact is then linearised at
+  /// the places where the blows leave its particles. Linearised at the beginning of the step, it
+  /// would stop particles that only pass each other. `impacts` must outlive this object.
   void follow(const Impacts<D>& impacts) { impacts_ = &impacts; }
   /// Solves the projection and sets the displacements h v, but changes neither pairs nor memories.
   /// `mean_radius` [L], > 0, is the length

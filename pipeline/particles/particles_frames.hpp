@@ -70,8 +70,8 @@ class ParticleFrames {
   /// particles.
   void resume(const std::vector<FrameFile>& files, const particles::Setting& setting, double time);
 
-  /// Reads all frames, and the places of all flows, that a run has written, for its page and picture.
-  /// Throws as resume() does.
+  /// Reads all frames, and the places of all flows, that a run has written, for its page and
+  /// picture. Throws as resume() does.
   void read_all(const particles::Setting& setting);
 
   /// Adds a frame of the last state, unless the last frame shows it. Does nothing if no frame was

@@ -50,8 +50,8 @@ void check_rolling_files(const RollingFolder& folder) {
   report::check_rolling_report(folder.path);
 }
 
-/// Makes the fit of the case's tables, unless the case names a fit. `failure` is set to the rows that
-/// failed.
+/// Makes the fit of the case's tables, unless the case names a fit. `failure` is set to the rows
+/// that failed.
 void make_fit(const case_file::RollingCase& c, const RollingFolder& folder,
               const RollingRequest& request, RowFailure& failure) {
   if (c.fit) return;

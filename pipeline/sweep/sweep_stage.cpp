@@ -1,6 +1,6 @@
 // Runs the rows of sweeps, and shares, gathers and submits those of particles (sweep_stage.hpp).
-// Runs of particles are kept in their folders until the user deletes them, so that adding draws runs
-// the new ones only.
+// Runs of particles are kept in their folders until the user deletes them, so that adding draws
+// runs the new ones only.
 #include "viscontact/pipeline/sweep/sweep_stage.hpp"
 
 #include <fmt/format.h>

@@ -24,9 +24,9 @@ struct SweepStageRequest {
   StopToken stop{};
 };
 
-/// Computes the missing rows and writes their file, shows the progress, and says how many rows there
-/// are and how many failed. `part` is what a row has several of, any of which may fail, as "model".
-/// Throws Error(kNotConverged) after all is written if every part failed in every row, and
+/// Computes the missing rows and writes their file, shows the progress, and says how many rows
+/// there are and how many failed. `part` is what a row has several of, any of which may fail, as
+/// "model". Throws Error(kNotConverged) after all is written if every part failed in every row, and
 /// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part);

@@ -43,10 +43,10 @@ Trajectory simulate_inertial(const Motion& motion, const lubrication::Lubricatio
 inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRelativeTolerance,
                                                         kRestitution};
 
-/// The same with solids that touch at the gap r1 + r2 of the roughness: there the velocity u becomes
-/// -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight without drag
-/// would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it. Without roughness this
-/// is simulate_inertial().
+/// The same with solids that touch at the gap r1 + r2 of the roughness: there the velocity u
+/// becomes -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight
+/// without drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it.
+/// Without roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap
 /// without external force, before and after the impact; 0 if the film stops it before.

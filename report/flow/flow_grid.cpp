@@ -68,9 +68,9 @@ void for_each_pixel(const std::array<double, 3>& x, const std::array<double, 3>&
     }
 }
 
-/// Calls visit(point, nodes, shape, shift) for each point of the grid in a triangle of the mesh or of
-/// one of its images, which lies `shift` beside it. `shape` are the values of the shape functions of
-/// the six `nodes` at the point.
+/// Calls visit(point, nodes, shape, shift) for each point of the grid in a triangle of the mesh or
+/// of one of its images, which lies `shift` beside it. `shape` are the values of the shape
+/// functions of the six `nodes` at the point.
 template <class Visit>
 void for_each_point(const QuadraticMesh& mesh, const Grid& grid,
                     const particles::PeriodicCell& cell, const Visit& visit) {

@@ -46,8 +46,8 @@ struct FlowOnGrid {
 };
 
 /// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in the
-/// cell (docs/fluid-solver.md).
+/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in
+/// the cell (docs/fluid-solver.md).
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
                         const particles::PeriodicCell& cell = {});
 
@@ -55,8 +55,8 @@ FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
-/// Gives each point of a grid that is NaN the mean value of those of its up to eight neighbours that
-/// are not. The points are row by row, with `columns` in a row.
+/// Gives each point of a grid that is NaN the mean value of those of its up to eight neighbours
+/// that are not. The points are row by row, with `columns` in a row.
 void fill_next_to_known(std::vector<double>& values, std::size_t columns);
 
 }  // namespace viscontact::report

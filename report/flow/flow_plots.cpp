@@ -1,6 +1,6 @@
 // The pictures of a row: views of the half-plane (rho, z) and of its mirror image, colours of the
-// pressure or speed, and curves (flow_plots.hpp). Lengths, velocities and pressures are in the units
-// of the case.
+// pressure or speed, and curves (flow_plots.hpp). Lengths, velocities and pressures are in the
+// units of the case.
 #include "viscontact/report/flow/flow_plots.hpp"
 
 #include <fmt/format.h>
@@ -262,8 +262,8 @@ std::string draw(Panel panel, const PlotView& view, double right, const StopToke
                   static_cast<int>(std::lround(height)), stop);
 }
 
-/// The flow in a view on a grid of the half-plane, whose points are the centres of cells that are so
-/// small that they are hardly seen.
+/// The flow in a view on a grid of the half-plane, whose points are the centres of cells that are
+/// so small that they are hardly seen.
 struct ViewedFlow {
   PlotView view;
   Grid grid;

@@ -1,5 +1,5 @@
-// Level lines of fields, and the streamlines of a flow on a grid. Lengths and times are in the units
-// of the case.
+// Level lines of fields, and the streamlines of a flow on a grid. Lengths and times are in the
+// units of the case.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Draws the particles of a frame with planes, contacts, marks of rotation, rigid bodies and links as
-// SVG (frame_picture.hpp). Motions in space must be drawn from the back to the front, because SVG has
-// no depth. The scripts in report/particles/page draw the same.
+// Draws the particles of a frame with planes, contacts, marks of rotation, rigid bodies and links
+// as SVG (frame_picture.hpp). Motions in space must be drawn from the back to the front, because
+// SVG has no depth. The scripts in report/particles/page draw the same.
 #include "viscontact/report/particles/frame_picture.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Writes the page that plays a motion: chooses the frames, particles and contacts that fit into it,
 // encodes them as blocks of base64, and writes words, controls and scales. The layout of the data,
-// the keys of the JSON and the ids of elements must agree with the scripts in report/particles/page.
+// the keys of the JSON and the ids of elements must agree with the scripts in
+// report/particles/page.
 #include "viscontact/report/particles/particles_page.hpp"
 
 #include <fmt/format.h>

@@ -239,8 +239,8 @@ Window common_part(const Window& extent, const ViewBox& view) {
           std::max(extent.bottom, view.low[1]), std::min(extent.top, view.high[1])};
 }
 
-/// Reads the flows of the given frames one after the other, because all of them may be too large for
-/// the memory.
+/// Reads the flows of the given frames one after the other, because all of them may be too large
+/// for the memory.
 FlowFrames read_flows(const Playback& in_plane, bool has_axis, const Window& window,
                       const std::vector<std::size_t>& frames, std::size_t points) {
   constexpr int kLines = 18;  // streamlines in a picture, about

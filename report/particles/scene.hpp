@@ -66,8 +66,8 @@ struct ShownFlows {
 };
 ShownFlows shown_flows(const particles::Playback& playback);
 
-/// Colours and proportions that the still picture and the page have in common. The page gets them as
-/// JSON, by the same names.
+/// Colours and proportions that the still picture and the page have in common. The page gets them
+/// as JSON, by the same names.
 struct SceneStyle {
   using Colour = const char*;  ///< "#rrggbb"
   /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.
@@ -80,8 +80,8 @@ struct SceneStyle {
   /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
   /// radius of the disc; the radius of the dots at the axes of a sphere, over that of the sphere.
   double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
-  /// An axis is marked if its component towards the reader is larger; at the rim it is seen from the
-  /// side.
+  /// An axis is marked if its component towards the reader is larger; at the rim it is seen from
+  /// the side.
   double least_toward = 0.15;
   /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
   /// over the smaller radius of both ends.

@@ -20,8 +20,8 @@ struct ColourNode {
 };
 
 /// The colour "#rrggbb" at a place of a scale, whose nodes, at least two, have increasing places.
-/// Red, green and blue are linear between the nodes. A place before the first node or after the last
-/// one has the colour of that node.
+/// Red, green and blue are linear between the nodes. A place before the first node or after the
+/// last one has the colour of that node.
 std::string colour_between(const std::vector<ColourNode>& nodes, double place) {
   std::size_t i = 1;
   while (i + 1 < nodes.size() && nodes[i].place < place) ++i;

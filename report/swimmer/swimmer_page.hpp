@@ -42,8 +42,8 @@ struct SwimmerResults {
 /// write.
 void check_swimmer_report(const std::filesystem::path& folder);
 
-/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no still
-/// pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
+/// Writes report.html and plots/NAME.svg into `folder`. If gnuplot is missing, the page has no
+/// still pictures, and a warning says so; throws Error(kExternalProgram) if gnuplot fails.
 void write_swimmer_report(const SwimmerResults& results, const std::filesystem::path& folder,
                           const results::Provenance& provenance, const StopToken& stop);
 

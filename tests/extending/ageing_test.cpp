@@ -24,9 +24,9 @@ using ::testing::HasSubstr;
 
 constexpr double kStep = 0.01, kLowest = -2, kAgeingTime = 2, kPressedUntil = 2;
 
-/// Largest rounding error of a gamma or an age of magnitude 2 and less that is the sum of 400 terms:
-/// each sum is rounded by at most half a unit in the last place of 2. Each term, a force times a
-/// difference of two times up to 4, has an error of about the same size.
+/// Largest rounding error of a gamma or an age of magnitude 2 and less that is the sum of 400
+/// terms: each sum is rounded by at most half a unit in the last place of 2. Each term, a force
+/// times a difference of two times up to 4, has an error of about the same size.
 constexpr double kRounding = 400 * 4 * std::numeric_limits<double>::epsilon();
 
 /// The case of the page with a frame for each step: a force 1 presses the disc on the plane until
@@ -127,8 +127,8 @@ TEST_F(AgeingFilm, LetsGoEarlierThanOneThatDoesNotAge) {
   EXPECT_NEAR(last_velocity("does_not"), 4 - kPressedUntil + kLowest, kRounding);
 }
 
-// The film of a second contact is a new one: the disc is pulled off, pushed back, and meets a film of
-// age 0.
+// The film of a second contact is a new one: the disc is pulled off, pushed back, and meets a film
+// of age 0.
 TEST_F(AgeingFilm, IsNewAfterItHasLetGo) {
   auto text = pressed_and_pulled("4.0", kAgeing);
   const std::string force = text.substr(text.find("force = "));

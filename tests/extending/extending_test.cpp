@@ -124,8 +124,8 @@ TEST(ExtendedBasis, FindsTheSlipLengthFromATableByThePagesCommands) {
   EXPECT_NEAR(-coefficient("1/q^2") / coefficient("1/q"), 1e-4, 3e-6);
 }
 
-// A geometry, a term with a basis, a model with a parameter, and a contact law with a memory: each is
-// its own files and few lines elsewhere.
+// A geometry, a term with a basis, a model with a parameter, and a contact law with a memory: each
+// is its own files and few lines elsewhere.
 TEST(Extending, ChangesNoOtherFiles) {
   EXPECT_EQ(read_file(fs::path(VISCONTACT_EXTENDED).parent_path() / "source/changed_files"),
             "case_file/particles/particles_case.cpp\n"

@@ -48,8 +48,8 @@ TEST_F(RollingStudy, SphereEndsAtTheVelocitiesAtWhichTheFluidBalancesTheForce) {
     const auto numbers = study.points.numbers(i);
     const auto row = study.run(i, {});
     EXPECT_EQ(row.failure, "");
-    // The fit has the viscosity 1, to which all resistances are proportional. The sphere comes to its
-    // velocity as exp(-t R/m), where R/m > 180; CVODE's tolerance is a relative 1e-9.
+    // The fit has the viscosity 1, to which all resistances are proportional. The sphere comes to
+    // its velocity as exp(-t R/m), where R/m > 180; CVODE's tolerance is a relative 1e-9.
     const double impulse = numbers[1].second / numbers[0].second / determinant;
     const double velocity = r.roll * impulse, angular_velocity = r.slide_roll * impulse;
     EXPECT_NEAR(row.values.at("smooth.velocity") / velocity, 1, 1e-6);

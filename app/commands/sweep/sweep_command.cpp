@@ -36,8 +36,8 @@ void add_picture_options(CLI::App& command, SweepOptions& o) {
 
 /// What to draw. Options of the command line decide. Where they are missing, the section [sweep] of
 /// the case decides, provided that the sweep has the keys and columns that it names; otherwise the
-/// first varied keys are the axes, and the columns are those that the kind of the case draws. Throws
-/// Error(kWrongUsage) if a map of random samples was asked for.
+/// first varied keys are the axes, and the columns are those that the kind of the case draws.
+/// Throws Error(kWrongUsage) if a map of random samples was asked for.
 report::SweepPlot picture_of(const SweepOptions& o, const CaseStudy& s) {
   const auto& request = s.request;
   const auto& points = s.study.points;

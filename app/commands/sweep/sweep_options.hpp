@@ -1,4 +1,5 @@
-// What the command line of `sweep` says, and the studies between which the kind of the case decides.
+// What the command line of `sweep` says, and the studies between which the kind of the case
+// decides.
 #pragma once
 
 #include <cstdint>

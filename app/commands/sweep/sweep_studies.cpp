@@ -1,6 +1,6 @@
-// The studies of `sweep` from its options, for each kind of case (sweep_options.hpp). Options of the
-// command line decide; for those that are missing, the section [sweep] of the case decides. Rows are
-// computed by sweep/, and runs of particles by pipeline/sweep/.
+// The studies of `sweep` from its options, for each kind of case (sweep_options.hpp). Options of
+// the command line decide; for those that are missing, the section [sweep] of the case decides.
+// Rows are computed by sweep/, and runs of particles by pipeline/sweep/.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// [friction], rotation and the scheme of a case of many particles: what is read and what is refused.
+// [friction], rotation and the scheme of a case of many particles: what is read and what is
+// refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -118,8 +118,8 @@ TEST(FrictionCone, HasTheNearestPoint) {
 }
 
 TEST(RestitutionLaw, OfAParticleAtAPlaneIsThatOfTheClosedForm) {
-  // (4.13): both phases of a blow with the momentum p = m u on a film from gamma_min = -k; the particle
-  // leaves with e_d p - (1 + e_d) k, or stays with gamma = gamma_min + e_d (p - k).
+  // (4.13): both phases of a blow with the momentum p = m u on a film from gamma_min = -k; the
+  // particle leaves with e_d p - (1 + e_d) k, or stays with gamma = gamma_min + e_d (p - k).
   const RestitutionLaw law{0.8};
   const double k = 2;
   for (const double p : {1.0, 2.0, 3.0, 4.4, 4.6, 10.0, 1000.0}) {

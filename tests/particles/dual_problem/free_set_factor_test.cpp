@@ -22,7 +22,7 @@ TEST(FreeSetFactor, IsTheInverseBetweenContactsThatWereFreeAndStillAre) {
     SCOPED_TRACE(i);
     const auto problem = random_problem<2>(random);
     const auto dense = problem.dense();
-    MassMobility<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
+    MassDualProblem<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
     const auto choose_free = [&] {
       for (std::size_t c = 0; c < dual.count(); ++c)
         dual.z[c] = dual.bound[c] + (random.chance(0.7) ? 1 : 0);

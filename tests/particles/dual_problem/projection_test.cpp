@@ -26,7 +26,7 @@ Answer answer_of(const Problem<D>& problem, double tolerance, int threads = 1) {
   ThreadPool pool(threads);
   auto contacts = problem.contacts;
   for (auto& contact : contacts) contact.allowed = tolerance;
-  MassMobility<D> dual(contacts, problem.displacements, problem.mobilities, pool);
+  MassDualProblem<D> dual(contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<D> factor;
   Answer answer;
   answer.solved = solve_dual_problem(dual, 1'000'000, factor);
@@ -209,7 +209,7 @@ TEST(Projection, ThatCannotBeSaysSo) {
   }
   problem.set_w();
   ThreadPool pool(1);
-  MassMobility<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
+  MassDualProblem<2> dual(problem.contacts, problem.displacements, problem.mobilities, pool);
   FreeSetFactor<2> factor;
   const auto solved = solve_dual_problem(dual, 1000, factor);
   // In the middle each is violated by 0.1; nowhere both by less. The impulses are then about

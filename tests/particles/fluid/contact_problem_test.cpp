@@ -18,7 +18,7 @@ struct Row {
   bool solve(int max_iterations) {
     SolverSettings settings;
     settings.max_iterations = max_iterations;
-    const MobilityFunction mobility = [](std::span<const double> forces) {
+    const Mobility mobility = [](std::span<const double> forces) {
       return std::vector<double>(forces.begin(), forces.end());
     };
     ContactProblem problem({free, 0.1, {2}, settings, 1, 0}, mobility);
@@ -52,7 +52,8 @@ TEST(ContactProblem, HasTheImpulsesThatMakeAllVelocitiesEqual) {
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_NEAR(row.velocities[2 * k], 0.5, 1e-9);
-      // The first k discs push the others with what they lose: h times the sum of free velocities - 1/2.
+      // The first k discs push the others with what they lose: h times the sum of free velocities -
+      // 1/2.
       sum += 0.1 * (row.free[2 * k] - 0.5);
       if (k + 1 == count) break;
       EXPECT_NEAR(row.impulses[k], sum, 1e-8 * static_cast<double>(count));

@@ -121,7 +121,8 @@ TEST_P(Restitution, OfADryBallThatFallsEndsWhenTheSumOfItsFlightsDoes) {
 }
 
 TEST_P(Restitution, OfABallWithoutForcesIsExactWhereverTheStepsLie) {
-  // Numbers without a pattern: the gap, the speed, the step, the units and the direction of the plane.
+  // Numbers without a pattern: the gap, the speed, the step, the units and the direction of the
+  // plane.
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     const double length = random.decades(-5, 5), mass = random.decades(-5, 5);
@@ -291,8 +292,8 @@ TEST_P(Restitution, DoesNotDependOnTheOrderOfTheParticles) {
   Simulation one(scene.setting, scene.state, 1), two(other.setting, other.state, 1);
   run(one, 4);
   run(two, 4);
-  // Rounding errors grow by the ratio of flight and radius in each collision, of which a particle has
-  // about five.
+  // Rounding errors grow by the ratio of flight and radius in each collision, of which a particle
+  // has about five.
   for (std::size_t k = 0; k < order.size(); ++k)
     EXPECT_LE(norm(two.state().particles.position(k) - one.state().particles.position(order[k])),
               1e-8);
@@ -334,8 +335,8 @@ TEST(RestitutionOfDiscs, OfAHeavyOneAndALightOneAtAWallCountsTo314) {
 }
 
 TEST(RestitutionOfDiscs, TakesTheImpulseOfTheWholeBlowForFriction) {
-  // A disc without spin hits a plane obliquely. It slides through the blow if |v_t| > 3 mu (1 + e) |v_n|,
-  // and loses mu (1 + e) |v_n|; else it rolls after it, with 2/3 of its tangential velocity.
+  // A disc without spin hits a plane obliquely. It slides through the blow if |v_t| > 3 mu (1 + e)
+  // |v_n|, and loses mu (1 + e) |v_n|; else it rolls after it, with 2/3 of its tangential velocity.
   for (const double slip : {0.3, 5.0}) {
     Scene scene{no_particles(2), {}};
     add_particle(scene.state, {0, 1.5, 0}, 1, 2, {slip, -1, 0});
@@ -365,8 +366,8 @@ TEST(RestitutionOfDiscs, FromAPlaneThatMovesIsThatOfTheRelativeVelocity) {
 }
 
 TEST(RestitutionOfDiscs, FromAPlaneThatStartsIsExactWhereverTheStepsLie) {
-  // A disc at rest on a plane that starts to move at t = 1/3 is hit with the whole velocity, not with
-  // its mean over the step in which the plane starts.
+  // A disc at rest on a plane that starts to move at t = 1/3 is hit with the whole velocity, not
+  // with its mean over the step in which the plane starts.
   for (const auto scheme : {Scheme::kEuler, Scheme::kLeapfrog})
     for (const double step : {0.1, 0.013, 0.5}) {
       auto scene = flying(2, 3, 0, 0.6, step);
@@ -449,7 +450,8 @@ TEST(RestitutionOfDiscs, EndsWhereADiscSlidesAlongARoundWall) {
 }
 
 TEST(RestitutionOfDiscs, OnAPlaneThatTurnsIsThatOfItsSurface) {
-  // A blow at (10, 1) on the floor that turns about the origin, at the time at which the disc meets it.
+  // A blow at (10, 1) on the floor that turns about the origin, at the time at which the disc meets
+  // it.
   constexpr double kOmega = 0.5, kDry = 0.7, kSpeed = 2;
   for (const double step : {0.5, 0.1, 0.013}) {
     Scene scene{no_particles(2), {}};
@@ -561,15 +563,16 @@ TEST(RestitutionOfDiscs, EndsOnAPlaneThatTurnsAndCarriesADisc) {
       if (report.time > 1) late += simulation.rebounds().size();
     });
     EXPECT_EQ(late, 0U) << step;
-    // The distance from the pivot along the plane is cosh t. Errors of the projection, of first order in
-    // the step, grow as fast.
+    // The distance from the pivot along the plane is cosh t. Errors of the projection, of first
+    // order in the step, grow as fast.
     EXPECT_NEAR(norm(simulation.state().particles.position(0)), std::hypot(std::cosh(3), 0.3),
                 20 * step);
   }
 }
 
 TEST(RestitutionOfDiscs, OfABodyThatFallsFlatDoesNotDependOnTheOrderOfItsParticles) {
-  // Five discs of which each takes a fifth of the blow, 0.8 of it in its film and 0.2 in its solids.
+  // Five discs of which each takes a fifth of the blow, 0.8 of it in its film and 0.2 in its
+  // solids.
   std::vector<std::size_t> order{0, 1, 2, 3, 4};
   do {
     Scene scene{no_particles(2), {}};

@@ -1,5 +1,5 @@
-// VTK, and so ParaView, reads the frames that `viscontact particles` writes, with the numbers of the
-// other results.
+// VTK, and so ParaView, reads the frames that `viscontact particles` writes, with the numbers of
+// the other results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

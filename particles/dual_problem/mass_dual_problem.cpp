@@ -1,6 +1,6 @@
-// Builds the arrays of a MassMobility and combines displacements. Equations and units are those of
-// mass_mobility.hpp.
-#include "viscontact/particles/dual_problem/mass_mobility.hpp"
+// Builds the arrays of a MassDualProblem and combines displacements. Equations and units are those
+// of mass_dual_problem.hpp.
+#include "viscontact/particles/dual_problem/mass_dual_problem.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace viscontact::particles {
 
 template <int D>
-MassMobility<D>::MassMobility(std::span<const Contact<D>> contacts,
+MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
                               std::span<const double> displacements,
                               std::span<const double> mobilities, ThreadPool& pool,
                               std::span<const std::int32_t> body_of)
@@ -47,7 +47,7 @@ MassMobility<D>::MassMobility(std::span<const Contact<D>> contacts,
 /// Lists the shares of each body. Before the call, offsets_[b + 1] is the number of contacts of
 /// body b; after it, offsets_[b] is where the shares of body b begin.
 template <int D>
-void MassMobility<D>::list_shares() {
+void MassDualProblem<D>::list_shares() {
   const auto wall = static_cast<std::int32_t>(bodies() - 1);
   for (std::size_t b = 0; b + 1 < offsets_.size(); ++b) offsets_[b + 1] += offsets_[b];
   shares_.resize(static_cast<std::size_t>(offsets_.back()));
@@ -65,7 +65,7 @@ void MassMobility<D>::list_shares() {
 
 /// Numbers the bodies of each block in the order in which its contacts name them.
 template <int D>
-void MassMobility<D>::number_bodies_of_blocks() {
+void MassDualProblem<D>::number_bodies_of_blocks() {
   const bool is_single = rows_.size() <= ThreadPool::kBlock;  // the only block has all bodies
   std::vector<std::int32_t> number(bodies());
   std::vector<std::size_t> numbered_in(bodies(), 0);
@@ -88,7 +88,7 @@ void MassMobility<D>::number_bodies_of_blocks() {
 }
 
 template <int D>
-double MassMobility<D>::combine(std::span<const double> y, double factor,
+double MassDualProblem<D>::combine(std::span<const double> y, double factor,
                                 std::span<double> into) const {
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
@@ -104,7 +104,7 @@ double MassMobility<D>::combine(std::span<const double> y, double factor,
   });
 }
 
-template class MassMobility<2>;
-template class MassMobility<3>;
+template class MassDualProblem<2>;
+template class MassDualProblem<3>;
 
 }  // namespace viscontact::particles

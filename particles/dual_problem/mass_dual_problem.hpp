@@ -1,6 +1,7 @@
 // The dual problem of particles that only their masses resist: the two products with W that all
-// methods use, in flat arrays of contacts and bodies. Lengths, masses and times are in the units of the
-// case. A change must keep the order of all sums, because the results must not depend on the threads.
+// methods use, in flat arrays of contacts and bodies. Lengths, masses and times are in the units of
+// the case. A change must keep the order of all sums, because the results must not depend on the
+// threads.
 #pragma once
 
 #include <array>
@@ -14,21 +15,21 @@
 
 namespace viscontact::particles {
 
-/// The dual problem with the mobility S = h M^-1, so that w = W_cc = h/m_i + h/m_j of contact c. B z
-/// denotes the displacements y = h M^-1 G^T p that the scaled impulses z cause. The gradient of contact
-/// c and the quadratic form are then
+/// The dual problem with the mobility S = h M^-1, so that w = W_cc = h/m_i + h/m_j of contact c. B
+/// z denotes the displacements y = h M^-1 G^T p that the scaled impulses z cause. The gradient of
+/// contact c and the quadratic form are then
 ///
 ///     b_c/sqrt(w) + (e.(y_j - y_i))/sqrt(w),   z^T W z = sum over the bodies b of |y_b|^2 m_b/h.
 template <int D>
-class MassMobility : public DualProblem {
+class MassDualProblem : public DualProblem {
  public:
   /// D components of a vector in space.
   using Vec = std::array<double, D>;
 
   /// `displacements`: h u* of each body, a flat array [L]. `mobilities`: h/m of each body [T/M].
-  /// All planes together are one additional body, which does not move. `body_of` is the body of each
-  /// particle; without it the numbers in the contacts are those of bodies.
-  MassMobility(std::span<const Contact<D>> contacts, std::span<const double> displacements,
+  /// All planes together are one additional body, which does not move. `body_of` is the body of
+  /// each particle; without it the numbers in the contacts are those of bodies.
+  MassDualProblem(std::span<const Contact<D>> contacts, std::span<const double> displacements,
                std::span<const double> mobilities, ThreadPool& pool,
                std::span<const std::int32_t> body_of = {});
 
