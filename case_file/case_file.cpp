@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "viscontact/case_file/keys.hpp"
-#include "viscontact/case_file/tabulation_section.hpp"
+#include "viscontact/case_file/shared_sections.hpp"
 #include "viscontact/common/files/file.hpp"
 #include "viscontact/common/named.hpp"
 #include "viscontact/lubrication/terms.hpp"
@@ -305,12 +305,7 @@ void sweep_keys(Keys& keys, SweepRequest& sweep) {
   keys.optional("models", models(sweep.models), {"the models that are run", "that of the command"});
   keys.optional("reference", text(sweep.reference),
                 {"the model that others are compared with", "that of the command"});
-  keys.optional("samples", number(sweep.samples, kWholeNumber),
-                {"number of random points", "the whole grid"});
-  keys.optional("x", text(sweep.x),
-                {"key of the horizontal axis of the plot", "the first varied key"});
-  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
-  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
+  points_and_plot_keys(keys, sweep);
 }
 
 /// Checks that nothing uses the exact drag near a plane if the tabulation is that of another
@@ -348,10 +343,7 @@ CaseKind kind_of_case(const fs::path& path) {
 
 template <>
 Case case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
-  Case c;
-  c.path = path;
-  c.text = std::move(text);
-  c.title = root.text("title");
+  auto c = titled_case<Case>(root, std::move(text), path, true);
   read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
   double mass = 1;  // only the motion depends on it
   const bool needs_mass = root.has("motion");

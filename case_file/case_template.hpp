@@ -34,6 +34,18 @@ struct SweepRequest {
 template <class CaseType>
 CaseType case_of_root(const TomlSection& root, std::string text, const std::filesystem::path& path);
 
+/// A case with the text, the path and the title of its file. The title may be missing unless
+/// `needs_title`.
+template <class CaseType>
+CaseType titled_case(const TomlSection& root, std::string text, const std::filesystem::path& path,
+                     bool needs_title = false) {
+  CaseType c;
+  c.text = std::move(text);
+  c.path = path;
+  if (needs_title || root.has("title")) c.title = root.text("title");
+  return c;
+}
+
 /// Names of sections that a case may leave out although their keys can be varied.
 template <class CaseType>
 std::vector<std::string_view> sections_with_defaults() {

@@ -235,11 +235,7 @@ ParticlesCase read_particles_case(const fs::path& path) {
 
 template <>
 ParticlesCase case_of_root(const TomlSection& root, std::string text, const fs::path& path) {
-  ParticlesCase c;
-  c.path = path;
-  c.text = std::move(text);
-  c.title = root.text("title");
-
+  auto c = titled_case<ParticlesCase>(root, std::move(text), path, true);
   read_keys(root.section("space"), space_keys, c);
   read_domain_and_fluid(root, c);
   read_keys(root.section("viscous_contact"), contact_keys, c);

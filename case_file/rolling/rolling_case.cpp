@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscontact/case_file/tabulation_section.hpp"
+#include "viscontact/case_file/shared_sections.hpp"
 #include "viscontact/common/equal_up_to_rounding.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/named.hpp"
@@ -127,12 +127,7 @@ void pair_fit_keys(Keys& keys, RollingCase& c) {
 
 void rolling_sweep_keys(Keys& keys, SweepRequest& sweep) {
   keys.required("vary", texts(sweep.vary), {"`KEY=RANGE` each, as on the command line"});
-  keys.optional("samples", number(sweep.samples, kWholeNumber),
-                {"number of random points", "the whole grid"});
-  keys.optional("x", text(sweep.x),
-                {"key of the horizontal axis of the plot", "the first varied key"});
-  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
-  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
+  points_and_plot_keys(keys, sweep);
 }
 
 }  // namespace
@@ -144,11 +139,8 @@ RollingCase read_rolling_case(const std::filesystem::path& path) {
 template <>
 RollingCase case_of_root(const TomlSection& root, std::string text,
                          const std::filesystem::path& path) {
-  RollingCase c;
-  c.text = std::move(text);
-  c.path = path;
+  auto c = titled_case<RollingCase>(root, std::move(text), path);
   for (const auto& model : reduced_model::rolling_models()) c.models.emplace_back(model.name);
-  c.title = root.has("title") ? root.text("title") : "";
   read_keys(root.section("fluid"), viscosity_keys, c.viscosity);
   read_keys(root.section("sphere"), rolling_sphere_keys, c);
   const auto rolling = root.section("rolling");

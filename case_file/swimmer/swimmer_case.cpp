@@ -350,10 +350,7 @@ std::vector<KeyTable> tables_of_swimmer_case() {
 template <>
 SwimmerCase case_of_root(const TomlSection& root, std::string text,
                          const std::filesystem::path& path) {
-  SwimmerCase c;
-  c.text = std::move(text);
-  c.path = path;
-  c.title = root.has("title") ? root.text("title") : "";
+  auto c = titled_case<SwimmerCase>(root, std::move(text), path);
   read_keys(root.section("fluid"), viscosity_keys, c.spheres.viscosity);
   read_keys(root.section("swimmer"), swimmer_keys, c);
   if (root.has("stroke")) read_keys(root.section("stroke"), stroke_keys, c);

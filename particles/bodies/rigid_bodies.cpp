@@ -267,8 +267,7 @@ void place_members(Particles& p) {
 }
 
 std::size_t member_number(const RigidBody& body, std::int32_t particle) {
-  return static_cast<std::size_t>(std::ranges::find(body.members, particle) -
-                                  body.members.begin());
+  return static_cast<std::size_t>(std::ranges::find(body.members, particle) - body.members.begin());
 }
 
 Vector offset_in_body(const Particles& particles, std::int32_t particle) {

@@ -10,9 +10,9 @@ namespace viscontact::particles {
 
 template <int D>
 MassDualProblem<D>::MassDualProblem(std::span<const Contact<D>> contacts,
-                              std::span<const double> displacements,
-                              std::span<const double> mobilities, ThreadPool& pool,
-                              std::span<const std::int32_t> body_of)
+                                    std::span<const double> displacements,
+                                    std::span<const double> mobilities, ThreadPool& pool,
+                                    std::span<const std::int32_t> body_of)
     : DualProblem(contacts.size()),
       rows_(contacts.size()),
       in_block_(contacts.size()),
@@ -89,7 +89,7 @@ void MassDualProblem<D>::number_bodies_of_blocks() {
 
 template <int D>
 double MassDualProblem<D>::combine(std::span<const double> y, double factor,
-                                std::span<double> into) const {
+                                   std::span<double> into) const {
   return pool_->sum_of_blocks<double>(bodies(), [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin * D);
     const auto size = static_cast<Eigen::Index>((end - begin) * D);

@@ -30,8 +30,8 @@ class MassDualProblem : public DualProblem {
   /// All planes together are one additional body, which does not move. `body_of` is the body of
   /// each particle; without it the numbers in the contacts are those of bodies.
   MassDualProblem(std::span<const Contact<D>> contacts, std::span<const double> displacements,
-               std::span<const double> mobilities, ThreadPool& pool,
-               std::span<const std::int32_t> body_of = {});
+                  std::span<const double> mobilities, ThreadPool& pool,
+                  std::span<const std::int32_t> body_of = {});
 
   /// Number of bodies, of which the last one stands for all planes.
   std::size_t bodies() const { return offsets_.size() - 1; }

@@ -36,8 +36,8 @@ std::vector<std::size_t> disjoint_groups(std::span<const Contact<2>> contacts) {
 /// Estimates w of each contact by one product for each group of contacts without a common particle.
 /// Other contacts of the group change the gap as well, but much less. Returns the number of
 /// products.
-int estimate_w(std::span<Contact<2>> contacts, std::size_t motions,
-               const Mobility& mobility, const MotionLayout& layout) {
+int estimate_w(std::span<Contact<2>> contacts, std::size_t motions, const Mobility& mobility,
+               const MotionLayout& layout) {
   const auto group = disjoint_groups(contacts);
   const std::size_t groups = 1 + *std::ranges::max_element(group);
   for (std::size_t g = 0; g < groups; ++g) {
@@ -67,7 +67,7 @@ class FluidDualProblem : public DualProblem {
  public:
   /// `contacts` have w > 0 and `allowed` > 0.
   FluidDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                const Mobility& mobility)
+                   const Mobility& mobility)
       : DualProblem(contacts.size()),
         contacts_(contacts),
         motions_(conditions.free_velocities.size()),
@@ -117,7 +117,7 @@ class DenseDualProblem : public DualProblem {
  public:
   /// `responses` are the velocities that a unit force of each contact causes [T/M].
   DenseDualProblem(std::span<const Contact<2>> contacts, const ContactConditions& conditions,
-                std::span<const std::vector<double>> responses)
+                   std::span<const std::vector<double>> responses)
       : DualProblem(contacts.size()), w(contacts.size(), contacts.size()) {
     for (std::size_t c = 0; c < contacts.size(); ++c)
       set(c, contacts[c], free_gap(contacts[c], conditions));

@@ -1,9 +1,10 @@
-// The section [tabulation] of a case of one sphere or of a rolling one (docs/case-file.md).
-// Lengths, masses and times are in the units of the case.
+// Sections that cases of one sphere and of a rolling one share (docs/case-file.md): [tabulation],
+// and what both have in [sweep]. Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <vector>
 
+#include "viscontact/case_file/case_template.hpp"
 #include "viscontact/case_file/keys.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
 
@@ -14,7 +15,10 @@ namespace viscontact::case_file {
 freefem_axi::Tabulation read_tabulation(const TomlSection& section, double viscosity,
                                         double radius);
 
-/// What docs/case-file.md says about its keys.
+/// What docs/case-file.md says about the keys of [tabulation].
 std::vector<KeyTable> tables_of_tabulation();
+
+/// The keys of [sweep] that choose points and what is drawn of them.
+void points_and_plot_keys(Keys& keys, SweepRequest& sweep);
 
 }  // namespace viscontact::case_file

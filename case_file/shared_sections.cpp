@@ -1,7 +1,7 @@
-// Reads the section [tabulation]: gaps, velocities, geometry and container. Lengths are in the unit
-// of the case. A change must keep the gaps of a grid bit for bit, because finished rows and tables
+// Reads [tabulation], with gaps, velocities, geometry and container, and keys of [sweep]
+// (shared_sections.hpp). Lengths are in the unit of the case. A change must keep the gaps of a grid bit for bit, because finished rows and tables
 // are found again by their gaps.
-#include "viscontact/case_file/tabulation_section.hpp"
+#include "viscontact/case_file/shared_sections.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -199,6 +199,15 @@ std::vector<KeyTable> tables_of_tabulation() {
   return {describe_keys("[tabulation]", tabulation_keys),
           describe_keys("tabulation.gaps", grid_keys),
           describe_keys("tabulation.container", container_keys)};
+}
+
+void points_and_plot_keys(Keys& keys, SweepRequest& sweep) {
+  keys.optional("samples", number(sweep.samples, kWholeNumber),
+                {"number of random points", "the whole grid"});
+  keys.optional("x", text(sweep.x),
+                {"key of the horizontal axis of the plot", "the first varied key"});
+  keys.optional("y", text(sweep.y), {"key of the vertical axis of a map", "lines over `x`"});
+  keys.optional("plot", texts(sweep.plot), {"columns to draw", "that of the command"});
 }
 
 }  // namespace viscontact::case_file

@@ -1,0 +1,37 @@
+// Scenes of particles that rebound, and what they do until a time.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "tests/particles/systems.hpp"
+
+namespace viscontact::particles {
+
+struct Scene {
+  State state;
+  Setting setting;
+};
+
+/// A particle of the radius 1 that flies at the velocity -1 to the plane y = 0 with the film `k`
+/// ln(1/100), at the Stokes number m/k.
+inline Scene flying(int dimension, double stokes, double gap, double dry, double step) {
+  Scene scene{no_particles(dimension), {}};
+  add_particle(scene.state, {0, 1 + gap, 0}, 1, stokes, {0, -1, 0});
+  scene.setting.planes = {plane_at_rest({}, {0, 1, 0})};
+  scene.setting.laws.film.gamma_min = -std::log(100.0);
+  scene.setting.laws.restitution.coefficient = dry;
+  scene.setting.time_step = step;
+  return scene;
+}
+
+/// Lets the simulation go on until the time `end`. Returns the rebounds until then.
+inline std::vector<Rebound> rebounds_until(double end, Simulation& simulation) {
+  std::vector<Rebound> rebounds;
+  run(simulation, end, [&](const StepReport&) {
+    rebounds.insert(rebounds.end(), simulation.rebounds().begin(), simulation.rebounds().end());
+  });
+  return rebounds;
+}
+
+}  // namespace viscontact::particles
