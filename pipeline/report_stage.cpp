@@ -1,7 +1,7 @@
 // Finds out by the results in a folder which command wrote them (report_stage.hpp).
 #include "viscontact/pipeline/report_stage.hpp"
 
-#include "viscontact/pipeline/particles/particles_stage.hpp"
+#include "viscontact/pipeline/particles/particles_pages.hpp"
 #include "viscontact/pipeline/rolling/rolling_stage.hpp"
 #include "viscontact/pipeline/swimmer/swimmer_stage.hpp"
 #include "viscontact/report/report.hpp"

@@ -8,34 +8,32 @@
 
 #include "viscontact/case_file/particles/particles_case.hpp"
 #include "viscontact/particles/state.hpp"
-#include "viscontact/pipeline/particles/particles_frames.hpp"
 #include "viscontact/pipeline/particles/particles_record.hpp"
+#include "viscontact/pipeline/particles/run_log.hpp"
 
 namespace viscontact::pipeline {
 
-/// An interrupted or finished run: its last state, from which it can continue, and its files.
+/// An interrupted or finished run: its last state, from which it can continue, and its record.
 struct EarlierRun {
   particles::State state;
-  StepRecord record;
-  ParticleFrames frames;  ///< keeps a reference to the provenance given to find_earlier_run
+  RunRecord record;
 };
-
-/// The times at which frames are written, in a run of the case that began at `first_time` [T].
-FrameTimes frame_times(const case_file::ParticlesCase& c, double first_time);
 
 /// The state at the start: that of the case, or that of the restart file `restart` (empty: none).
 /// Throws Error(kBadInput) if the restart file has other particles than the case or contacts with
 /// planes that the case does not have, or if it is not earlier than the end of the case.
 particles::State first_state(const case_file::ParticlesCase& c, const std::string& restart);
 
-/// The run in the folder, if it was made from the same inputs by the same version; otherwise
-/// nothing. If the folder has a restart.bin that cannot be used, a message says why.
+/// The run in the folder, if it was made from the same inputs by the same version and the files of
+/// `log` are as it has left them; otherwise nothing. If the folder has a restart.bin that cannot be
+/// used, a message says why.
 std::optional<EarlierRun> find_earlier_run(const case_file::ParticlesCase& c,
                                            const std::filesystem::path& folder,
-                                           const results::Provenance& provenance);
+                                           const results::Provenance& provenance,
+                                           const RunLog& log);
 
-/// True if the run has reached the end time of the case and all its files exist.
-bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c,
+/// True if the run has reached the end time of the case, to `tiny` [T], and all its files exist.
+bool is_finished(const EarlierRun& run, const case_file::ParticlesCase& c, double tiny,
                  const std::filesystem::path& folder);
 
 }  // namespace viscontact::pipeline
