@@ -48,7 +48,7 @@ std::string frame_name(const FrameKind& kind, std::uint64_t number) {
 
 void check_results(const fs::path& folder) {
   for (const auto* name : kParticleResults) results::refuse_other_kind(folder / name, "", "result");
-  for (const auto& kind : {kParticles, kFlow, kLinks})
+  for (const auto& kind : {kFrameFile, kFlowFile, kLinksFile})
     for (const auto& file : frames_in(folder, kind, 0))
       results::refuse_other_kind(file, "", "result");
 }
@@ -78,7 +78,7 @@ void remove_results(const fs::path& folder) {
 
 void remove_later_frames(const fs::path& folder, std::uint64_t frames, std::uint64_t flows) {
   for (const auto& [kind, first] :
-       {std::pair{kParticles, frames}, {kLinks, frames}, {kFlow, flows}})
+       {std::pair{kFrameFile, frames}, {kLinksFile, frames}, {kFlowFile, flows}})
     for (const auto& file : frames_in(folder, kind, first)) remove_file(file);
 }
 

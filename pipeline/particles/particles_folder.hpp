@@ -23,8 +23,8 @@ struct FrameKind {
   const char* begin;  ///< also the name of the list of these files, without ".pvd"
   const char* end;    ///< with the dot
 };
-inline constexpr FrameKind kParticles{"particles", ".vtp"}, kFlow{"flow", ".vtu"},
-    kLinks{"links", ".vtp"};
+inline constexpr FrameKind kFrameFile{"particles", ".vtp"}, kFlowFile{"flow", ".vtu"},
+    kLinksFile{"links", ".vtp"};
 
 /// The name of the file of frame `number`, from 0: particles_NNNNN.vtp.
 std::string frame_name(const FrameKind& kind, std::uint64_t number);

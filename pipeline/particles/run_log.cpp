@@ -41,17 +41,17 @@ RunLog::RunLog(const case_file::ParticlesCase& c, fs::path folder,
   const auto add_list = [&](const FrameKind& kind) {
     add_file(list_of(kind), TextKind::kXml, std::string(particles::kPvdHead), particles::kPvdFoot);
   };
-  add_list(kParticles);
+  add_list(kFrameFile);
   add_file("steps.csv", TextKind::kHashComment, steps_header(c.setting.fluid.has_value()));
   if (c.setting.laws.restitution.is_on())
     add_file("rebounds.csv", TextKind::kHashComment, particles::kReboundsHeader);
-  if (!c.setting.links.empty()) add_list(kLinks);
+  if (!c.setting.links.empty()) add_list(kLinksFile);
   for (const auto& table : particles::time_tables(c.setting, c.particles))
     add_table(table.name, table.header, [&c, rows = table.rows](const auto& state, auto errors) {
       return rows(c.setting, state, errors);
     });
   if (!c.setting.fluid) return;
-  add_list(kFlow);
+  add_list(kFlowFile);
   add_table(
       "motion.csv", particles::motion_header(c.particles.dimension),
       [](const State& state, auto) { return particles::motion_rows(state.time, state.particles); });
@@ -77,9 +77,9 @@ void RunLog::check(const RunRecord& record) const {
     const auto end = record.files.find(name);
     file.check(end == record.files.end() ? FileEnd{} : end->second);
   }
-  check_frames(folder_, kParticles, record.frames);
-  check_frames(folder_, kLinks, case_.setting.links.empty() ? 0 : record.frames);
-  check_frames(folder_, kFlow, record.flows);
+  check_frames(folder_, kFrameFile, record.frames);
+  check_frames(folder_, kLinksFile, case_.setting.links.empty() ? 0 : record.frames);
+  check_frames(folder_, kFlowFile, record.flows);
 }
 
 void RunLog::resume(const RunRecord& record) {
@@ -113,19 +113,19 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
     results::write_output(folder_ / name, TextKind::kXml, text, provenance_);
     add_to_list(kind, state.time, name);
   };
-  write(kParticles,
+  write(kFrameFile,
         particles::write_vtp(state.particles, contacts, setting.laws.friction.has_value()));
-  if (!setting.links.empty()) write(kLinks, particles::write_links(setting, state));
+  if (!setting.links.empty()) write(kLinksFile, particles::write_links(setting, state));
   for (const auto& [name, rows] : tables_) files_.at(name).append(rows(state, link_force_errors));
   ++record_.frames;
   record_.last_frame = state.time;
 }
 
 void RunLog::add_flow(const FlowField& flow) {
-  const auto name = frame_name(kFlow, record_.frames - 1);
+  const auto name = frame_name(kFlowFile, record_.frames - 1);
   results::write_output(folder_ / name, TextKind::kXml,
                         write_flow(flow, case_.particles.dimension == 1), provenance_);
-  add_to_list(kFlow, record_.last_frame, name);
+  add_to_list(kFlowFile, record_.last_frame, name);
   record_.flows = record_.frames;
 }
 
