@@ -80,6 +80,7 @@ void remove_later_frames(const fs::path& folder, std::uint64_t frames, std::uint
   for (const auto& [kind, first] :
        {std::pair{kFrameFile, frames}, {kLinksFile, frames}, {kFlowFile, flows}})
     for (const auto& file : frames_in(folder, kind, first)) remove_file(file);
+  remove_unfinished(folder);
 }
 
 }  // namespace viscontact::pipeline

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
 #include "viscontact/particles/current_contacts.hpp"
 #include "viscontact/particles/io/link_file.hpp"
@@ -109,9 +110,7 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
   const auto& setting = case_.setting;
   const auto contacts = particles::contacts_of(setting, state);
   const auto write = [&](const FrameKind& kind, const std::string& text) {
-    const auto name = frame_name(kind, record_.frames);
-    results::write_output(folder_ / name, TextKind::kXml, text, provenance_);
-    add_to_list(kind, state.time, name);
+    write_frame(kind, record_.frames, state.time, text);
   };
   write(kFrameFile,
         particles::write_vtp(state.particles, contacts, setting.laws.friction.has_value()));
@@ -122,18 +121,23 @@ void RunLog::add_frame(const State& state, std::span<const double> link_force_er
 }
 
 void RunLog::add_flow(const FlowField& flow) {
-  const auto name = frame_name(kFlowFile, record_.frames - 1);
-  results::write_output(folder_ / name, TextKind::kXml,
-                        write_flow(flow, case_.particles.dimension == 1), provenance_);
-  add_to_list(kFlowFile, record_.last_frame, name);
+  write_frame(kFlowFile, record_.frames - 1, record_.last_frame,
+              write_flow(flow, case_.particles.dimension == 1));
   record_.flows = record_.frames;
 }
 
-void RunLog::add_to_list(const FrameKind& kind, double time, const std::string& name) {
+void RunLog::write_frame(const FrameKind& kind, std::uint64_t number, double time,
+                         const std::string& text) {
+  const auto name = frame_name(kind, number);
+  const auto path = folder_ / name;
+  write_unflushed(path, results::output_text(path, TextKind::kXml, text, provenance_));
+  unflushed_.push_back(path);
   files_.at(list_of(kind)).append(particles::pvd_line(time, name));
 }
 
 void RunLog::sync() {
+  flush_files(unflushed_);
+  unflushed_.clear();
   for (auto& [name, file] : files_) file.sync();
 }
 

@@ -2,6 +2,7 @@
 // tables. Nothing of it stays in memory. Lengths, masses and times are in the units of the case.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -63,13 +64,15 @@ class RunLog {
   void add_file(const std::string& name, TextKind kind, const std::string& head,
                 const std::string& foot = "");
   void add_table(const std::string& name, const std::string& header, Rows rows);
-  void add_to_list(const FrameKind& kind, double time, const std::string& name);
+  void write_frame(const FrameKind& kind, std::uint64_t number, double time,
+                   const std::string& text);
 
   const case_file::ParticlesCase& case_;
   std::filesystem::path folder_;
   const results::Provenance& provenance_;
   std::map<std::string, GrowingFile> files_;          // by name
   std::vector<std::pair<std::string, Rows>> tables_;  // names of those with rows of each frame
+  std::vector<std::filesystem::path> unflushed_;      // files of frames that may not be on disk
   RunRecord record_;                                  // without ends of files
 };
 
