@@ -1,5 +1,5 @@
-// Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths and times are in
-// the units of the case. It understands only that layout, not VTK's formats in general.
+// Reads the files that vtk.cpp writes, so that pages can be made from them. Lengths and times are
+// in the units of the case. It understands only that layout, not VTK's formats in general.
 #include <cstdint>
 #include <optional>
 #include <span>

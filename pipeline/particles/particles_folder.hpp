@@ -41,8 +41,8 @@ void check_inputs_stay(const case_file::ParticlesCase& c, const std::filesystem:
 /// Removes all results and frames, so that the folder never contains files of two runs.
 void remove_results(const std::filesystem::path& folder);
 
-/// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and files
-/// that a killed process has not finished.
+/// Removes the files of all frames but the first `frames`, all flows but the first `flows`, and
+/// files that a killed process has not finished.
 void remove_later_frames(const std::filesystem::path& folder, std::uint64_t frames,
                          std::uint64_t flows);
 

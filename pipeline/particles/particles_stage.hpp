@@ -22,8 +22,9 @@ struct ParticlesRequest {
 /// inputs is left as it is; the files of any other run are removed at the beginning. Throws
 /// Error(kBadInput) before anything is written if the case or the restart file is wrong or a file
 /// must not be replaced, and after it if a file cannot be written; the same request then continues
-/// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step did
-/// not reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a stop.
+/// from the last restart.bin. Throws after everything is written: Error(kNotConverged) if a step
+/// did not reach the tolerance or cannot be computed, Error(kInterrupted) if `stop` requested a
+/// stop.
 void run_particles(const ParticlesRequest& request);
 
 }  // namespace viscontact::pipeline

@@ -172,6 +172,14 @@ TEST_F(InterruptedParticles, WithADamagedFileBeginAgainAndSayWhy) {
     }
 }
 
+TEST_F(InterruptedParticles, KilledOnesCanBeDrawn) {
+  ASSERT_EQ(run("out", {"KILL", 4}).exit_status, 128 + 9);
+  EXPECT_FALSE(fs::exists(path("out/particles.html")));
+  expect_done(run_viscontact({"report", path("out")}));
+  EXPECT_TRUE(fs::exists(path("out/particles.html")));
+  EXPECT_TRUE(fs::exists(path("out/particles.svg")));
+}
+
 TEST_F(InterruptedParticles, KilledBetweenTwoFilesGoOnFromTheOlderRestart) {
   run_half("out");
   const auto older = read_file(path("out/restart.bin"));
