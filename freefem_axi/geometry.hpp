@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "viscontact/common/allowed.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 

@@ -11,7 +11,7 @@
 
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/vtk/flow_vtk.hpp"
-#include "viscontact/freefem_axi/motions/motion_row.hpp"
+#include "viscontact/freefem_axi/motion_row.hpp"
 
 namespace viscontact::freefem_axi {
 namespace {

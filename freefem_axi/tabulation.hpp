@@ -10,7 +10,7 @@
 #include "viscontact/freefem_axi/freefem.hpp"
 #include "viscontact/freefem_axi/geometry.hpp"
 #include "viscontact/lubrication/force_table.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::freefem_axi {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viscontact/lubrication/failed_rows.hpp"
-#include "viscontact/lubrication/motions/motion_kind.hpp"
+#include "viscontact/lubrication/motion_kind.hpp"
 
 namespace viscontact::lubrication {
 

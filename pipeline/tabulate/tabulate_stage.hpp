@@ -3,15 +3,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "viscontact/case_file/case_file.hpp"
-#include "viscontact/case_file/rolling/rolling_case.hpp"
-#include "viscontact/case_file/swimmer/swimmer_case.hpp"
 #include "viscontact/common/error.hpp"
 #include "viscontact/common/stop_token.hpp"
 #include "viscontact/freefem_axi/journal/table_plan.hpp"
@@ -34,26 +31,6 @@ struct CaseTable {
 /// The table of the approach of a case. Throws Error(kBadInput) if it has no section [tabulation],
 /// or one with other motions.
 CaseTable case_table(const case_file::Case& c, const std::filesystem::path& table);
-
-/// The table of resistance matrices of a swimmer's case.
-CaseTable case_table(const case_file::SwimmerCase& c, const std::filesystem::path& table);
-
-/// The file for the table of a motion.
-using MotionTablePath = std::function<std::filesystem::path(lubrication::MotionKind)>;
-
-/// The tables of all motions of a case, which must have the section [tabulation]. A table of
-/// sliding has that of rolling as its companion.
-std::vector<CaseTable> case_tables(const case_file::RollingCase& c, const MotionTablePath& path_of);
-
-/// Reads the cases. For one case of one motion, `output` is the file of the table; for one case of
-/// several motions it is a folder with a table MOTION.csv for each. For several cases it is a
-/// folder with CASE.csv or CASE/MOTION.csv, after the names of the case files. `motions`, unless it
-/// is empty, replaces the key `motion` of the cases (parse_motions). Throws Error(kWrongUsage) if
-/// two tables would have the same name, and Error(kBadInput) as read_case and read_swimmer_case do
-/// or if a case has neither [tabulation] nor [swimmer].
-std::vector<CaseTable> read_case_tables(const std::vector<std::string>& case_files,
-                                        const std::filesystem::path& output,
-                                        const std::vector<std::string>& motions = {});
 
 /// The points of each table's grid that belong to the share. The rows of all tables are numbered in
 /// one sequence from 0.

@@ -2,11 +2,11 @@
 // the units of the case.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "viscontact/common/vtk/flow_field.hpp"
-#include "viscontact/particles/domain/periods.hpp"
 
 namespace viscontact::report {
 
@@ -45,11 +45,17 @@ struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };
 
+/// How a flow is repeated in the plane.
+struct FlowPeriods {
+  std::array<double, 2> lengths{};  ///< periods along x and y [L]; 0 where there is no period
+  /// Mean velocity gradient du/dx, du/dy, dv/dx, dv/dy [1/T]: a repeated flow is faster by the
+  /// gradient times its shift.
+  std::array<double, 4> gradient{};
+};
+
 /// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in
-/// the cell (docs/fluid-solver.md).
-FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
-                        const particles::PeriodicCell& cell = {});
+/// `periods`, so that its triangles need not lie in the grid (docs/fluid-solver.md).
+FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid, const FlowPeriods& periods = {});
 
 /// Interpolates a field with these values at the nodes in the same way.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,

@@ -1,0 +1,19 @@
+// Writes the fit of a pair as one unit of code or data, with a function for each entry. Units are
+// those of the fit.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "viscontact/motions/pair_fit.hpp"
+
+namespace viscontact::motions {
+
+/// The text for one of export_targets(). The functions viscontact_squeeze, viscontact_slide,
+/// viscontact_roll, viscontact_slide_roll and viscontact_spin (without the prefix in Python) have
+/// the gap as argument; entries that the fit lacks have none. Outside the interval of gaps the code
+/// returns NaN (C, Fortran) or raises ValueError (Python). `source` is the name of the fit's file,
+/// which the text states. Throws Error(kBadInput) for an unknown target.
+std::string export_pair(const PairFit& fit, std::string_view target, std::string_view source);
+
+}  // namespace viscontact::motions

@@ -1,0 +1,45 @@
+// Readers of vectors and of piecewise constant vectors, and keys with such values, for the sections
+// of a case of many particles. Lengths, masses and times are in the units of the case.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "viscontact/case_file/keys.hpp"
+#include "viscontact/particles/piecewise_constant.hpp"
+#include "viscontact/particles/vector.hpp"
+
+namespace viscontact::particles {
+
+/// Squares and cubes of numbers within this bound, and of their inverses, are finite and not 0.
+inline constexpr double kLargestNumber = 1e100;
+/// A number whose magnitude is within the bound.
+inline constexpr Allowed kModerate = {[](double v) { return std::abs(v) <= kLargestNumber; },
+                                      "at most 1e100 in magnitude"};
+/// A number > 0 that is within the bound, and its inverse, too.
+inline constexpr Allowed kModeratelyPositive = {
+    [](double v) { return v >= 1 / kLargestNumber && v <= kLargestNumber; },
+    "from 1e-100 to 1e100"};
+/// The same, or 0.
+inline constexpr Allowed kModeratelyPositiveOr0 = {
+    [](double v) { return v == 0 || (v >= 1 / kLargestNumber && v <= kLargestNumber); },
+    "0, or from 1e-100 to 1e100"};
+
+/// Reads an array with one number for each dimension of space. In a case with dimension 1 a number
+/// without brackets is read, too.
+void read_vector(const case_file::TomlSection& section, std::string_view key, Vector& place,
+                 int dimension);
+
+// Values of keys (keys.hpp). They refer to their arguments.
+
+/// A vector, read by read_vector().
+case_file::KeyValue vector(Vector& place, const int& dimension);
+/// A constant vector, or pieces { until, value } that must last until `end_time` [T].
+case_file::KeyValue pieces(PiecewiseConstant& place, const int& dimension, const double& end_time);
+/// What turns: for discs a number, which becomes component 2, for spheres a vector.
+case_file::KeyValue turn(Vector& place, const int& dimension);
+/// The same, or pieces of it.
+case_file::KeyValue pieces_of_turn(PiecewiseConstant& place, const int& dimension,
+                                   const double& end_time);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,128 @@
+// What the still picture and the page show of a motion of particles: its frames in the plane, the
+// part of space that is seen, the flow, and the scales of colours. Lengths, masses and times are in
+// the units of the case.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "viscontact/particles/io/playback.hpp"
+#include "viscontact/report/flow/flow_grid.hpp"
+#include "viscontact/report/flow/stream_lines.hpp"
+#include "viscontact/report/pictures/colours.hpp"
+
+namespace viscontact::particles {
+
+/// An interval along an axis [L]; empty if low > high.
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double from, double to) {
+    low = std::min(low, from);
+    high = std::max(high, to);
+  }
+};
+
+/// A box [L].
+struct ViewBox {
+  Vector low{}, high{};
+};
+
+/// The flow around the particles of a frame, at the points of FlowFrames::grid.
+struct FlowFrame {
+  std::size_t frame = 0;  ///< its number in the playback
+  /// [L/T], [M/(L T^2)]; NaN where there is no flow. Single precision is enough for a picture. The
+  /// mean of the pressure over the points outside the particles is 0, because the pressure in a
+  /// closed domain is known up to a constant.
+  std::vector<float> speed, pressure;
+  std::vector<report::StreamLine> lines;
+};
+
+struct FlowFrames {
+  /// With an axis, the grid is in the half-plane x >= 0, and the flow has a mirror image.
+  report::Grid grid;
+  bool has_axis = false;
+  std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
+  /// Upper end of the scale of speeds [L/T]: the speed that one in a thousand points outside the
+  /// particles exceeds.
+  double top_speed = 0;
+  report::PressureColours pressure_colours;
+};
+
+/// The largest size of the flow in a page, before it is written in base64 [bytes], about: the
+/// points of all flows together, at one byte for the speed and one for the pressure. The
+/// streamlines add about a tenth.
+inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
+
+/// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are
+/// many, and the number of points of the grid of each.
+struct ShownFlows {
+  std::vector<std::size_t> frames;
+  std::size_t points = 0;
+};
+ShownFlows shown_flows(const Playback& playback);
+
+/// Colours and proportions that the still picture and the page have in common. The page gets them
+/// as JSON, by the same names.
+struct SceneStyle {
+  using Colour = const char*;  ///< "#rrggbb"
+  /// Fill and edge of a disc: outside a fluid, in a fluid, and of a rigid body.
+  std::array<Colour, 2> disc{"#a9c3da", "#4f728f"}, disc_in_fluid{"#f1ece0", "#3c3a34"},
+      disc_of_body{"#e0cda6", "#8a713b"};
+  /// Of a sphere from its brightest point to its rim, then of its edge; and of a rigid body's.
+  std::array<Colour, 4> ball{"#e3eef7", "#a3bfd8", "#5b7f9f", "#34536e"},
+      ball_of_body{"#f6ead0", "#dcc79c", "#a98d55", "#7a6231"};
+  Colour mark = "#4a4a44", spring = "#2b6e3f";
+  /// The dot that shows the angle of a disc: its distance from the centre and its radius, over the
+  /// radius of the disc; the radius of the dots at the axes of a sphere, over that of the sphere.
+  double mark_distance = 0.66, mark_radius = 0.13, axis_radius = 0.12;
+  /// An axis is marked if its component towards the reader is larger; at the rim it is seen from
+  /// the side.
+  double least_toward = 0.15;
+  /// Widths of the lines that join the particles of a body, of arms, and half the width of springs,
+  /// over the smaller radius of both ends.
+  double body_line = 0.18, arm = 0.25, spring_width = 0.35;
+  int spring_turns = 12;     ///< corners of the zigzag line of a spring
+  double spring_end = 0.12;  ///< length of its straight ends over the whole length
+};
+inline constexpr SceneStyle kStyle;
+
+/// The description of a motion from which the still picture and the page are drawn.
+struct Scene {
+  /// The motion in the plane or in space. Spheres on an axis are discs on the line x = 0, and the
+  /// side of their cylinder is two lines.
+  Playback playback;
+  bool has_axis = false;     ///< the motion is on an axis, at which the picture is symmetric
+  bool is_in_fluid = false;  ///< there is a flow
+  /// The box that should be seen: all particles of the shown frames (or the central 98 % of each
+  /// frame, if the others have flown far away), and the planes next to them. If there is a flow and
+  /// the particles can be seen in its domain, all of it. In the directions of periods it is the
+  /// cell. It has a positive size in each direction of the playback's dimension.
+  ViewBox box;
+  FlowFrames flows;             ///< the flow in the box
+  double lowest_gamma = 0;      ///< the most negative gamma of all frames; 0: no gamma < 0
+  const char* film_words = "";  ///< what the scale of gamma shows, with its dimension
+  bool touches = false;         ///< a contact of the shown frames has gamma = 0
+  bool slides = false;          ///< a contact of the shown frames slides
+};
+
+/// The scene of these frames with the flows of `flow_frames`, as far as they have one, on grids of
+/// `points` points each. Throws the errors of read_flow.
+Scene scene_of(const Playback& motion, const std::vector<std::size_t>& frames,
+               const std::vector<std::size_t>& flow_frames, std::size_t points);
+
+using Polygon = std::vector<Vector>;  ///< convex, its corners in order [L]
+
+/// The part of a polygon with normal.(x - point) >= 0.
+Polygon clipped(const Polygon& polygon, const Vector& point, const Vector& normal);
+
+/// The part of a polygon that is in the box and on the free side of all planes except plane number
+/// `own`, in which the polygon is.
+Polygon clipped_to_view(Polygon polygon, const ViewBox& box,
+                        const std::vector<PlanePosition>& planes, std::size_t own, int dimension);
+
+}  // namespace viscontact::particles
