@@ -15,8 +15,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator-;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 void check_members(const case_file::TomlSection& section, const std::vector<std::int32_t>& members,
                    const ParticlesCase& c) {

@@ -15,7 +15,6 @@ namespace viscontact::particles {
 namespace {
 
 namespace fs = std::filesystem;
-using particles::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 constexpr Allowed kNotPositive = {[](double v) { return v <= 0; }, "<= 0"};
 constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
