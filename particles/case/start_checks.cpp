@@ -13,7 +13,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// Smallest gap that the fitted mesh resolves, divided by the radius of the smaller particle.
 constexpr double kLeastGapOfMesh = 1e-3;

@@ -13,7 +13,6 @@
 namespace viscontact::particles {
 namespace {
 
-using particles::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy overlooks operators
 
 /// The extent of the particles of a frame along an axis, without the `cut` outermost particles at
 /// either end.
