@@ -1,4 +1,7 @@
-// The motion of rigid bodies in a time step, docs/physics.md (5.11). Units are those of the case.
+// The motion of rigid bodies in a time step, docs/physics.md (5.11). Lengths, masses and times are
+// in the units of the case. `dimension` is 2 or 3; in the plane only the third component of turns,
+// torques and angular momenta is used. Without constraints, momentum and angular momentum must stay
+// constant to rounding errors where no force and torque acts.
 #pragma once
 
 #include <vector>
@@ -8,14 +11,14 @@
 
 namespace viscontact::particles {
 
-/// Forces and torques on a body, about its centre, which act for a time [T] on its velocities.
+/// Mean force on a body in a step, and mean torque about its centre.
 struct BodyLoad {
   Vector force{};   ///< [M L/T^2]
   Vector torque{};  ///< [M L^2/T^2]
 };
 
-/// The motion of a body in a step of length h: first the one without constraints, then that of the
-/// solution.
+/// The motion of a body in a step of length h, with its velocity u, angular velocity w, mass m and
+/// moment of inertia I: first the motion without constraints, then that of the solution.
 struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs value[2]
@@ -33,7 +36,8 @@ struct BodyStep {
 /// `load` acts on its velocities for the time `kick` [T].
 ///
 /// In space the turn is that of the implicit midpoint rule: h w = h I^-1 L, with the moment of
-/// inertia of half the turn and the angular momentum L, which is constant where no torque acts.
+/// inertia I after half of the turn and the angular momentum L, which is constant where no torque
+/// acts.
 BodyStep free_step(const RigidBody& body, const BodyLoad& load, double h, double kick,
                    int dimension);
 
