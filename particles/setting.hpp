@@ -44,8 +44,8 @@ struct Setting {
   std::map<std::int32_t, PiecewiseConstant> forces;
   /// The laws of each pair. Friction needs particles that turn (add_rotation), and no fluid.
   ContactLaws laws;
-  Links links;  ///< hinges, springs and arms; need particles that turn, except on an axis
-  double time_step = 0;            ///< h [T], > 0
+  Links links;           ///< hinges, springs and arms; need particles that turn, except on an axis
+  double time_step = 0;  ///< h [T], > 0
   Scheme scheme = Scheme::kEuler;  ///< kLeapfrog only without a fluid
   SolverSettings solver;           ///< tolerances and limits of the projection
   std::optional<Fluid> fluid;      ///< around the particles; needs a domain

@@ -20,9 +20,9 @@ struct StepResiduals {
   double excess = 0;   ///< largest residual, divided by what is allowed for its contact or link
   /// Largest residual as an impulse, divided by the impulses at work in its contact or link.
   double of_impulses = 0;
-  double smallest_gap = 0;             ///< smallest linearised gap after the step [L], at most 0
-  Pair deepest_overlap;                ///< the pair with the smallest gap
-  bool converged = true;               ///< all residuals are allowed
+  double smallest_gap = 0;  ///< smallest linearised gap after the step [L], at most 0
+  Pair deepest_overlap;     ///< the pair with the smallest gap
+  bool converged = true;    ///< all residuals are allowed
   /// Of each contact [M L/T], >= 0: its residual divided by its mobility Contact::w.
   std::vector<double> impulse_errors;
 

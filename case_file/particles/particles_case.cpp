@@ -23,7 +23,7 @@ constexpr Allowed kTolerance = {[](double v) { return v >= 1e-12 && v <= 0.1; },
                                 "between 1e-12 and 0.1"};
 constexpr Allowed kShare = {[](double v) { return v >= 0 && v <= 1; }, "from 0 to 1"};
 
-/// 1 stands for "axisymmetric".
+/// Reads the dimension: 2, 3, or "axisymmetric", which becomes 1.
 void read_dimension(const TomlSection& space, std::string_view key, int& dimension) {
   if (!space.is_text(key)) {
     dimension = space.count(key, 2, 3);

@@ -1,6 +1,6 @@
 // Checks the state at the start of a case of many particles, and what a fluid needs of it
 // (particles_sections.hpp). Lengths are in the unit of the case. Messages must name the line of the
-// CSV file, because it can be long.
+// CSV file, because the file can be long.
 #include <algorithm>
 #include <array>
 #include <variant>
@@ -127,7 +127,7 @@ void check_radii_and_distances(const ParticlesCase& c, const ParticleNames& name
                                     names(k), farthest));
 }
 
-/// Says what is wrong with the place of a particle in the domain, or nothing.
+/// Says what is wrong with the place of a particle in the domain: a part of a sentence, or nothing.
 struct PlaceInDomain {
   particles::Vector x;
   double radius;
@@ -196,7 +196,8 @@ bool has_only_open_sides(const ParticlesCase& c) {
   return any_open;
 }
 
-/// True if the body is an obstacle or a particle whose motion is given, which no impulse moves.
+/// True for an obstacle (`body` < 0) and for a particle whose motion is given, which no impulse
+/// moves.
 bool is_driven(const ParticlesCase& c, std::int32_t body) {
   return body < 0 || c.setting.given_motions.contains(body);
 }
@@ -278,7 +279,8 @@ void check_side_of_cylinder(const ParticlesCase& c, const ParticleNames& names) 
   }
 }
 
-/// A mean flow deforms the lattice of images, but the cell of this version keeps its shape.
+/// Throws an error for a mean flow in a run of more than one step: the flow deforms the lattice of
+/// images, but the cell of this version keeps its shape.
 void check_mean_flow(const TomlSection& root, const ParticlesCase& c) {
   const auto* box = std::get_if<particles::BoxDomain>(&c.setting.domain);
   const auto* flow = std::get_if<particles::LinearFlow>(&c.setting.fluid->boundary);
@@ -299,7 +301,8 @@ void check_mean_flow(const TomlSection& root, const ParticlesCase& c) {
                c.end_time, c.setting.time_step);
 }
 
-/// An arrangement must be accepted or refused whatever its seed.
+/// Checks an arrangement in a fluid by its smallest gap that is asked for, and not by the gaps of
+/// its discs, so that it is accepted or refused whatever its seed is.
 void check_arrangement(const TomlSection& root, const ParticlesCase& c) {
   if (!c.arrangement) return;
   const auto& fluid = *c.setting.fluid;
@@ -351,7 +354,7 @@ void check_gap(const ParticlesCase& c, const ParticleNames& names, const StartGa
 /// Largest limit up to `asked` [L] for which gaps_at_start() can find all gaps.
 double limit_within_periods(const ParticlesCase& c, double asked) {
   const double diameter = 2 * std::ranges::max(c.particles.radii);
-  // A little less, because close_pairs_in_period() needs sums of extents below the period.
+  // close_pairs_in_period() needs sums of extents below the period; the factor leaves a margin.
   constexpr double kLess = 0.999;
   for (const double period : particles::periods_of(c.setting.domain))
     if (period > 0) asked = std::min(asked, kLess * (period - diameter));

@@ -19,7 +19,8 @@ void read_radii(const TomlSection& section, std::string_view key, std::vector<do
       radii.size() >= lubrication::kFewestSpheres && radii.size() <= lubrication::kMostSpheres, key,
       "has {} numbers; it must have {} to {}", radii.size(), lubrication::kFewestSpheres,
       lubrication::kMostSpheres);
-  // With a larger ratio the mesh around the small sphere would be too fine for FreeFEM's indices.
+  // With a larger ratio the mesh around the small sphere would have more elements than FreeFEM can
+  // number.
   constexpr double kLargestRatio = 100;
   const auto [smallest, largest] = std::ranges::minmax(radii);
   section.require(largest <= kLargestRatio * smallest, key,
@@ -53,7 +54,7 @@ std::vector<double> read_arm_gaps(const TomlSection& section, const std::vector<
                   "is {}; it must be greater than {}, the sum of the radii of spheres {} and {}, "
                   "which touch there",
                   from, both_radii, k + 1, k + 2);
-  constexpr double kLeastGap = 1e-6;  // over the smaller radius; as far as tests go
+  constexpr double kLeastGap = 1e-6;  // divided by the smaller radius; the tests go down to it
   const double least = kLeastGap * std::min(radii[k], radii[k + 1]);
   section.require(
       from - both_radii >= least, "from",
@@ -61,7 +62,7 @@ std::vector<double> read_arm_gaps(const TomlSection& section, const std::vector<
       "must be at least {}",
       from, from - both_radii, kLeastGap, both_radii + least);
   section.require(to > from, "to", "is {}; it must be greater than from, {}", to, from);
-  constexpr double kLargestArm = 1e4;  // over both radii
+  constexpr double kLargestArm = 1e4;  // divided by the sum of both radii
   section.require(to <= kLargestArm * both_radii, "to",
                   "is {}; it must be at most {} times the sum of both radii, {}", to, kLargestArm,
                   kLargestArm * both_radii);
@@ -113,7 +114,7 @@ void read_tube(const TomlSection& section, std::string_view key, SwimmerCase& c)
   auto& tube = c.spheres.tube.emplace();
   read_keys(table, tube_keys, tube);
   const auto& radii = c.spheres.radii;
-  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // over the largest radius
+  constexpr double kNarrowest = 1.01, kWidest = 1e3;  // divided by the largest radius
   const double largest = std::ranges::max(radii);
   table.require(tube.radius >= kNarrowest * largest && tube.radius <= kWidest * largest, "radius",
                 "is {}; it must be {} to {} times the largest radius of the spheres, {}, or the "
@@ -237,7 +238,8 @@ void read_corners(const TomlSection& section, std::string_view key, double perio
   c.stroke = reduced_model::polygon_stroke(corners, period);
 }
 
-/// Arms centre + semi_axes cos(t + phases), t from 0 to 2 pi.
+/// The loop of the arms centre + semi_axes cos(t + phases), with t from 0 to 2 pi; one number for
+/// each arm, [L] but for the phases [rad].
 struct Ellipse {
   Eigen::VectorXd centre, semi_axes, phases;
 };
