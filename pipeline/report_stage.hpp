@@ -1,4 +1,5 @@
-// The command `report`: makes the pages of a folder again from its files.
+// The command `report`: makes the pages of a folder again from its files. It computes nothing else;
+// a change must keep it able to do so without FreeFEM.
 #pragma once
 
 #include <filesystem>

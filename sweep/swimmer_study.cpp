@@ -1,4 +1,5 @@
-// Computes the strokes of a sweep (swimmer_study.hpp).
+// Computes the strokes of a sweep (swimmer_study.hpp). Lengths, masses and times are in the units
+// of the case. A change must keep the names of the columns, which scripts of users read.
 #include "viscontact/sweep/swimmer_study.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ void check_swimmer_key(const std::string& key) {
 RowResults swim_strokes(const case_file::SwimmerCase& c, lubrication::ResistanceFit fit,
                         const StopToken& stop) {
   RowResults results;
-  fit.viscosity = c.spheres.viscosity;  // R is proportional to it
+  fit.viscosity = c.spheres.viscosity;  // the resistances of the fit are proportional to it
   const reduced_model::Swimmer swimmer(fit);
   if (c.stroke) add_part(results, [&] { add_sums("", swim_sums(swimmer, *c.stroke), results); });
   if (c.optimal)

@@ -30,9 +30,9 @@ struct RerunOptions {
   bool changed_inputs = false, dry_run = false;
 };
 
-/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. `rerun`
-/// itself is refused, and so are the options by which a file could make this program run other
-/// programs (--launcher, --slurm-options).
+/// Throws Error(kBadInput) unless the command is a command of Viscontact that writes files. The
+/// command `rerun` is refused, and so are the options by which a file could make this program run
+/// other programs (--launcher, --slurm-options).
 void check_command(const std::string& file, const std::vector<std::string>& command) {
   constexpr auto kWriting = std::to_array<std::string_view>(
       {"run", "tabulate", "fit", "export", "shift", "simulate", "sweep", "compare", "report",

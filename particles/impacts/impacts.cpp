@@ -270,8 +270,8 @@ void Impacts<D>::expect(std::size_t k, double from) {
   const auto& of = pair(k);
   const std::array versions = {version(of.first), version(of.second)};
   if (!hits_of_.empty()) {
-    // A pair that is hit more often in a step is left to the projection: blows under load can go to
-    // and fro without end. Both numbers bound the time of a step and are chosen by experience.
+    // A pair that is hit more often in a step is left to the projection, because blows under load
+    // can go to and fro without end. Both numbers bound the computing time of a step.
     constexpr int kMostHits = 1000, kMostUnderLoad = 30;
     if (hits_of_[k] >= (of.impulse == 0 ? kMostHits : kMostUnderLoad)) return;
   }

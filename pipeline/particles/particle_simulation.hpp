@@ -1,5 +1,5 @@
-// A simulation of many particles, with or without a fluid, as a run sees it. Lengths, masses and
-// times are in the units of the case.
+// One interface to the simulations of many particles with and without a fluid, for runs and sweeps.
+// Lengths, masses and times are in the units of the case.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,10 @@ class ParticleSimulation {
   ParticleSimulation(const particles::Setting& setting, particles::State state, int threads,
                      const StopToken& stop);
 
-  /// See Simulation::step and FluidSimulation::step.
+  /// Computes a step that ends at the time `end` [T] at the latest; see Simulation::step and
+  /// FluidSimulation::step, which say what is thrown.
   particles::StepReport step(double end);
-  const particles::State& state() const;
+  const particles::State& state() const;  ///< after the last step
   /// The particles with their velocities at the present time; see Simulation::reported_particles
   /// and FluidSimulation::reported_particles.
   particles::Particles reported_particles() const {
@@ -35,7 +36,7 @@ class ParticleSimulation {
 
   /// True if there is a fluid. The functions below need one.
   bool has_fluid() const { return in_fluid_ != nullptr; }
-  particles::FluidSimulation& fluid() { return *in_fluid_; }
+  particles::FluidSimulation& fluid() { return *in_fluid_; }  ///< the simulation with a fluid
 
  private:
   std::unique_ptr<particles::Simulation> dry_;

@@ -1,6 +1,7 @@
 // The stages of sweeps. run_sweep computes the rows of any study. Those of a sweep of particles are
 // runs with folders of their own, which this process computes, or each task of a job on a cluster
-// computes a share of them; then gather_sweep puts the tables together.
+// computes a share of them; then gather_sweep puts the tables together. Numbers of rows are in the
+// units of the case.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +20,15 @@ namespace viscontact::pipeline {
 /// What is asked of a sweep, besides its study.
 struct SweepStageRequest {
   std::string output;     ///< file of the rows
-  int jobs = 1;           ///< number of rows at once
+  int jobs = 1;           ///< number of rows that are computed at once, >= 1
   bool keep_all = false;  ///< true: the files of finished runs of particles are kept
-  StopToken stop{};
+  StopToken stop{};       ///< a stop throws Error(kInterrupted)
 };
 
 /// Computes the missing rows and writes their file, shows the progress, and says how many rows
-/// there are and how many failed. `part` is what a row has several of, any of which may fail, as
-/// "model". Throws Error(kNotConverged) after all is written if every part failed in every row, and
-/// Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
+/// there are and how many failed. A row has several parts, any of which may fail; `part` is their
+/// name, such as "model". Throws Error(kNotConverged) after all is written if every part failed in
+/// every row, and Error(kInterrupted) if `stop` requests a stop; finished rows are kept.
 void run_sweep(const sweep::Study& study, const SweepStageRequest& request,
                const results::Inputs& inputs, const std::string& part);
 

@@ -36,7 +36,8 @@ struct Grid {
   }
 };
 
-/// A grid with about `points` points, which are about as far apart along x as along y.
+/// A grid of the window with about `points` points, which are about as far apart along x as along
+/// y.
 Grid grid_of(const Window& window, std::size_t points);
 
 /// Velocity [L/T] and pressure [M/(L T^2)] at the points of a grid, row by row from the bottom,
@@ -45,13 +46,13 @@ struct FlowOnGrid {
   std::vector<double> velocity_x, velocity_y, pressure;
 };
 
-/// Interpolates the flow by the shape functions of its quadratic triangles. The flow is repeated by
-/// the periods of `cell`, faster by its gradient times the period: its triangles need not lie in
-/// the cell (docs/fluid-solver.md).
+/// Interpolates the flow by the shape functions of its quadratic triangles. Where `cell` has
+/// periods, the flow is repeated by them, and its velocity then differs by the gradient times the
+/// period. The triangles need not lie in the cell (docs/fluid-solver.md).
 FlowOnGrid flow_on_grid(const FlowField& flow, const Grid& grid,
                         const particles::PeriodicCell& cell = {});
 
-/// Interpolates a field with these values at the nodes in the same way.
+/// Interpolates a field with these values at the nodes, as flow_on_grid() does without periods.
 std::vector<double> field_on_grid(const QuadraticMesh& mesh, const std::vector<double>& values,
                                   const Grid& grid);
 
