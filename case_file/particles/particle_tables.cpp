@@ -196,7 +196,7 @@ struct ArrangementKeys {
   double area_fraction = 0, mass = 0;
 };
 
-constexpr int kMostDiscs = 1000000;
+constexpr int kMostDiscs = 1000000;  // with which times and memory were measured (bench/README.md)
 
 void arrangement_keys(Keys& keys, ArrangementKeys& given, bool has_fluid) {
   auto& asked = given.asked;

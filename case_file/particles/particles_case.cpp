@@ -79,7 +79,7 @@ void contact_keys(Keys& keys, ParticlesCase& c) {
   keys.required("time_step", number(step, kModeratelyPositive), {"at most `end_time`"});
   keys.require(step <= c.end_time, "time_step", "is {}; it must be at most end_time, {}", step,
                c.end_time);
-  constexpr double kMostSteps = 1e9;
+  constexpr double kMostSteps = 1e9;  // more steps are taken for a slip in the unit of time
   keys.require(c.end_time / step <= kMostSteps, "time_step",
                "is {}, which makes {:.3g} steps to end_time; at most {:.0e} are allowed", step,
                c.end_time / step, kMostSteps);

@@ -158,8 +158,9 @@ struct PlaceInDomain {
 void check_domain(const ParticlesCase& c, const ParticleNames& names) {
   const auto& p = c.particles;
   const auto periods = particles::periods_of(c.setting.domain);
-  // The gap to an image never changes. Therefore it must be at least the threshold gap in a fluid,
-  // and wide enough for a mesh; without a fluid the neighbour list needs a little room in it.
+  // The gap to an image of the particle itself never changes. Therefore it must be at least the
+  // threshold gap in a fluid, and wide enough for a mesh. Without a fluid it must leave room for
+  // the skin of the neighbour list.
   constexpr double kLeastGapInRadii = 0.01;
   for (std::size_t k = 0; k < p.count(); ++k) {
     const auto wrong = std::visit(PlaceInDomain{p.position(k), p.radii[k]}, c.setting.domain);

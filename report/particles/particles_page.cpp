@@ -262,7 +262,7 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-constexpr int kScaleColours = 64;          // between which the page interpolates
+constexpr int kScaleColours = 64;          // of a scale; the page interpolates between them
 constexpr double kLevels = 254;            // highest level of a byte
 constexpr unsigned char kNothing = 255;    // level of a point without flow
 constexpr std::uint16_t kNoArrow = 65535;  // place of the arrow of a line without one
@@ -299,7 +299,8 @@ void append_lines(Bytes& bytes, const FlowFrame& frame, const Window& window) {
   const auto step = [](double share) {
     return static_cast<std::size_t>(std::lround(kLineSteps * std::clamp(share, 0.0, 1.0)));
   };
-  // A line with more points than a 16-bit number can count is left out; so would be many lines.
+  // A line with more points than a 16-bit number can count is left out, and so are lines beyond
+  // that number.
   constexpr std::size_t kMost = 65000;
   const auto is_short = [&](const StreamLine& line) { return line.points.size() < kMost; };
   const auto count = static_cast<std::size_t>(std::ranges::count_if(frame.lines, is_short));

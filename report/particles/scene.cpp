@@ -1,5 +1,5 @@
 // Finds the box that is seen, reads the flows in it, and chooses the scales of their colours
-// (scene.hpp).
+// (scene.hpp). Lengths, masses and times are in the units of the case.
 #include "viscontact/report/particles/scene.hpp"
 
 #include <algorithm>
@@ -187,7 +187,8 @@ particles::PlanePosition in_half_plane(const particles::PlanePosition& plane, do
           plane.radius};
 }
 
-/// A motion in the plane that looks like the given one.
+/// The motion as it is drawn: spheres on an axis become discs on the line x = 0 of the plane (x,
+/// z), and the side of their cylinder two lines. Other motions are returned unchanged.
 Playback in_plane(const Playback& playback) {
   if (playback.dimension != 1) return playback;
   auto plane = playback;
