@@ -41,8 +41,8 @@ struct WallVelocity {
     kOpen,       ///< no stress acts on this side, and fluid flows through it freely
   };
   Kind kind = Kind::kConstant;  ///< what is given
-  std::array<double, 2>
-      value{};  ///< x and y of a constant velocity; a parabola uses value[0] [L/T]
+  /// x and y of a constant velocity; of a parabola value[0] is the largest speed [L/T].
+  std::array<double, 2> value{};
 };
 
 /// The velocity E x of all walls, with the constant matrix E; where the domain is periodic both

@@ -53,11 +53,11 @@ class PairMemory {
  public:
   /// The number in one place, in the unit that Remembered says.
   double& operator[](Remembered field) { return values_[static_cast<std::size_t>(field)]; }
-  /// The same.
+  /// The number in one place, in the unit that Remembered says.
   double operator[](Remembered field) const { return values_[static_cast<std::size_t>(field)]; }
   /// All numbers, in the order of kMemoryFields.
   std::array<double, kMemoryFields.size()>& values() { return values_; }
-  /// The same.
+  /// All numbers, in the order of kMemoryFields.
   const std::array<double, kMemoryFields.size()>& values() const { return values_; }
 
   /// The numbers that files show.

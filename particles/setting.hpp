@@ -19,7 +19,7 @@
 
 namespace viscontact::particles {
 
-/// Velocities that a particle has whatever acts on it. Both are 0 after their last piece.
+/// Velocities of a driven particle, which no force changes. Both are 0 after their last piece.
 struct GivenMotion {
   PiecewiseConstant velocity;          ///< of the centre [L/T]
   PiecewiseConstant angular_velocity;  ///< counter-clockwise, value[2] of each piece [1/T]

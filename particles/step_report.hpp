@@ -22,7 +22,8 @@ struct FluidStepReport {
   double seconds = 0;  ///< wall time of the step: mesh, fluid solver and contacts [s]
   /// Errors of the velocities of the particles; < 0 if they were not estimated in this step.
   RelativeErrors velocity_errors;
-  RelativeErrors force_errors;  ///< the same of the forces of the fluid
+  /// Errors of the forces of the fluid; < 0 if they were not estimated in this step.
+  RelativeErrors force_errors;
 };
 
 /// What is recorded of one step. Here D + h G v is the linearised gap of a contact after the step

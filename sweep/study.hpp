@@ -1,4 +1,4 @@
-// A sweep, whatever kind of case it runs: rows of named numbers at the points of a sweep, and the
+// What sweeps of all kinds of cases share: rows of named numbers at the points of a sweep, and the
 // CSV file in which they are kept (docs/file-formats.md). The file is written row by row, so that a
 // later call continues an interrupted sweep after its last row. A kind of case adds one function
 // that makes a Study: how a point becomes a case, and which numbers its row has. Numbers are in the

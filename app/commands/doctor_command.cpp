@@ -23,9 +23,10 @@
 namespace viscontact::app {
 namespace {
 
+/// What one check has found.
 struct Finding {
-  bool good;
-  std::string what;
+  bool good;         ///< false: something is missing or wrong
+  std::string what;  ///< in words
 };
 
 using Report = std::function<void(const Finding&)>;

@@ -25,8 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The values of the options of `rerun`; add_rerun() says what each means.
 struct RerunOptions {
-  std::string file, output, folder;
+  std::string file,  ///< path of the file whose command is repeated
+      output,        ///< path of the new output; empty: the recorded one
+      folder;        ///< folder in which the command runs; empty: the recorded one
   bool changed_inputs = false, dry_run = false;
 };
 

@@ -63,7 +63,7 @@ class Places {
     return dx * dx + dy * dy <= radius_ * radius_;
   }
 
-  /// The same place in the box that is not repeated.
+  /// The image of `x` that is in the box, for an `x` less than a period outside.
   Point wrapped(Point x) const {
     for (const std::size_t d : {0U, 1U}) {
       if (periods_[d] == 0) continue;
@@ -158,9 +158,9 @@ class Discs {
     numbers_[now].push_back(k);
   }
 
-  /// Calls `visit` with the vector from `x` to each disc but disc `self`, and to each obstacle,
-  /// that is closer than `factor` times its least distance, with its number (obstacles: none) and
-  /// its least distance. Ends early if `visit` returns true; then returns true.
+  /// Calls `visit` for each disc except disc `self`, and for each obstacle, that is closer to `x`
+  /// than `factor` times its least distance: with the vector from `x` to it [L], its least distance
+  /// [L] and its number (obstacles have none). Ends early and returns true if `visit` returns true.
   template <class Visit>
   bool any_close(const Point& x, std::optional<std::size_t> self, double factor,
                  const Visit& visit) const {

@@ -23,13 +23,15 @@ struct BodyStep {
   Vector displacement{};      ///< h u of the centre [L]
   Vector turn{};              ///< h w [rad]; of discs value[2]
   Vector angular_momentum{};  ///< at the end [M L^2/T]
-  /// What blows within the step (impacts/) gave the velocity beyond displacement/h [L/T], because
-  /// they came late in it.
+  /// Velocity of the centre at the end of the step less displacement/h [L/T]. It is 0 unless blows
+  /// (impacts/) changed the velocity within the step.
   Vector late_velocity{};
-  Vector late_momentum{};           ///< the same of the angular momentum, in the plane [M L^2/T]
+  /// In the plane: angular momentum at the end of the step less I turn/h [M L^2/T]; 0 without
+  /// blows.
+  Vector late_momentum{};
   double mobility = 0;              ///< h/m [T/M]
   Matrix3 turn_mobility{};          ///< h I^-1 [T/(M L^2)]; discs use only the last entry
-  Matrix3 inverse_turn_mobility{};  ///< I/h
+  Matrix3 inverse_turn_mobility{};  ///< I/h [M L^2/T]
 };
 
 /// The motion without constraints of a body with mass and inertia in a step of length `h`, where
@@ -50,7 +52,8 @@ void constrain(BodyStep& step, const Vector& displacement, const Vector& turn, i
 Vector displacement_at(const Vector& displacement, const Vector& turn, const Vector& arm,
                        int dimension);
 
-/// Moves a body by a step of length h > 0 [T]. Its members stay where they are (place_members).
+/// Moves a body by a step of length h > 0 [T]. Its members stay where they are until
+/// place_members() is called.
 void move_body(RigidBody& body, const BodyStep& step, double h, int dimension);
 
 }  // namespace viscontact::particles

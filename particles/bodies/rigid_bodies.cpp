@@ -11,7 +11,7 @@
 namespace viscontact::particles {
 namespace {
 
-/// The part of a point mass in the inertia: m (|r|^2 - r r^T).
+/// Adds the inertia of the point mass m at the vector r from the centre: m (|r|^2 - r r^T).
 void add_point_mass(Matrix3& inertia, double mass, const Vector& r) {
   const double square = dot(r, r);
   for (std::size_t i = 0; i < 3; ++i)
@@ -71,8 +71,8 @@ Cut cut_of(const Particles& p, const std::vector<std::int32_t>& members, std::si
   const double from = begin < sorted.size() ? sorted[begin] : 0;
   for (std::size_t m = 0; m < places.size(); ++m)
     if (places[m] < from) cut.periods[m] -= 1;
-  // The body is where its first member is, so that members that need no images keep their places
-  // bit for bit.
+  // Images are chosen such that the first member is its own image. Members of a body that does not
+  // cross a side of the cell then keep their places bit for bit.
   const double shift = cut.periods[0];
   for (auto& periods : cut.periods) periods -= shift;
   return cut;

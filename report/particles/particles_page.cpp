@@ -28,7 +28,7 @@ namespace {
 
 using particles::Playback;
 
-/// The size of so many bytes in base64.
+/// The number of characters that `bytes` bytes have in base64.
 constexpr std::size_t base64_size(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
 using Bytes = std::vector<unsigned char>;
@@ -104,7 +104,7 @@ struct Contacts {
   Bytes pairs;    ///< int32, int32: as in CurrentContact, by number of the drawn particle
   Bytes images;   ///< int8: CurrentContact::image of each pair
   Bytes offsets;  ///< uint32: begin of each frame in `frames`, then the end
-  Bytes frames;   ///< as said above
+  Bytes frames;   ///< the contacts of the frames, in the form that the comment of Contacts says
 };
 
 using Pair = std::array<std::int32_t, 3>;  // both particles and the image of the second
