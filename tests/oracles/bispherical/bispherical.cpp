@@ -41,7 +41,8 @@ struct Surface {
   Real velocity = 0;  ///< over the sphere's
 };
 
-/// p and q times the determinant (times exp(-m sigma)) and 2, the latter with its sign changed.
+/// p and q, each times twice the determinant, which has the factor exp(-m sigma); q has its sign
+/// changed.
 struct Solution {
   Real p, q;
 };
