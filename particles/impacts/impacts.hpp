@@ -1,6 +1,6 @@
 // The blows of a step between solids that rebound, at their times within the step: docs/physics.md
 // (5.15) and (5.16). The projection of the step (projection/) follows with the motions that the
-// blows leave. A blow is an impact of solids, and its contacts. Lengths, masses and times are in
+// blows leave. A blow is an impact with all its contacts. Lengths, masses and times are in
 // any one consistent system of units. Results must depend on the order of the particles by rounding
 // errors only.
 #pragma once

@@ -42,15 +42,16 @@ struct FlowFrame {
   std::vector<StreamLine> lines;  ///< streamlines
 };
 
+/// The flows that are drawn, all on one grid.
 struct FlowFrames {
   /// With an axis, the grid is in the half-plane x >= 0, and the flow has a mirror image.
   Grid grid;
-  bool has_axis = false;
+  bool has_axis = false;          ///< whether the flow is symmetric about the line x = 0
   std::vector<FlowFrame> frames;  ///< in order of time; empty: there is no flow to draw
   /// Upper end of the scale of speeds [L/T]: the speed that one in a thousand points outside the
   /// particles exceeds.
   double top_speed = 0;
-  PressureColours pressure_colours;
+  PressureColours pressure_colours;  ///< scale of the pressure
 };
 
 /// The largest size of the flow in a page, before it is written in base64 [bytes]: two bytes for
@@ -61,8 +62,8 @@ inline constexpr std::size_t kFlowBytesOfPage = 9'000'000;
 /// The frames whose flow the page shows: all that have one, or evenly chosen ones if there are
 /// many, and the number of points of the grid of each.
 struct ShownFlows {
-  std::vector<std::size_t> frames;
-  std::size_t points = 0;
+  std::vector<std::size_t> frames;  ///< numbers of the frames in the playback
+  std::size_t points = 0;           ///< for each of them
 };
 ShownFlows shown_flows(const particles::Playback& playback);
 

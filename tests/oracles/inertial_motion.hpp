@@ -32,15 +32,15 @@ struct InertialProblem {
 ///
 /// by collocation at the 7 points of Radau IIA (order 13, L-stable, stiffly accurate; Hairer &
 /// Wanner, Solving Ordinary Differential Equations II, IV.8) in long double, started anew at each
-/// end of a piece. The step is chosen by doubling: each is done as two halves too, which are kept.
+/// end of a piece. To choose its length, each step is also computed as two halves, which are kept.
 class InertialMotion {
  public:
   /// `tolerance` is the largest difference of ln q, and of w relative to its largest value in the
-  /// step, between a step and its two halves. The error that it leaves in the halves is rounding: m
-  /// u + Gamma - P of the first integral, docs/physics.md (4.2), which should be 0, was below 1e-16
-  /// of the largest P on the way to a film of 1e-174 and back, and the tolerances 1e-13 and 1e-17
-  /// gave the same first 15 digits. Where |w| is below 1e-6 over the end time of the last piece,
-  /// the difference of w is compared with that value, because the motion may be dying out.
+  /// step, between a step and its two halves. The error that it leaves in the halves is rounding:
+  /// m u + Gamma - P of the first integral, docs/physics.md (4.2), which should be 0, was below
+  /// 1e-16 of the largest P on the way to a film of 1e-174 and back, and the tolerances 1e-13 and
+  /// 1e-17 gave the same first 15 digits. Where |w| is below 1e-6 over the end time of the last
+  /// piece, the difference of w is compared with that value, because the motion may be dying out.
   explicit InertialMotion(InertialProblem problem, long double tolerance = 1e-15L);
 
   /// Computes the motion until `time`, at which a step ends; not before the present time and not
@@ -48,11 +48,11 @@ class InertialMotion {
   /// time.
   void advance(long double time);
 
-  long double time() const { return from_ + elapsed_; }
-  long double log_gap() const { return state_[0]; }
-  long double gap() const;
-  long double velocity() const;
-  long steps() const { return steps_; }
+  long double time() const { return from_ + elapsed_; }  ///< present time [T]
+  long double log_gap() const { return state_[0]; }      ///< ln q
+  long double gap() const;                               ///< q [L]
+  long double velocity() const;                          ///< dq/dt [L/T]
+  long steps() const { return steps_; }                  ///< number of steps so far
 
  private:
   static constexpr int kStages = 7;

@@ -1,5 +1,5 @@
-// What the command line of `sweep` says, and the studies between which the kind of the case
-// decides.
+// The options of `sweep`, and the functions that make a study of them, one for each kind of case.
+// docs/command-line.md describes the options.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace viscontact::app {
 
-/// The values of the options, which are named after them; empty or 0: the option was not given.
+/// The values of the options, which are named after them. An empty text or list, or 0, means that
+/// the option was not given, and that the section [sweep] of the case decides.
 struct SweepOptions {
   std::string case_file,          ///< path of the case
       fit,                        ///< path of a fit file
@@ -36,8 +37,8 @@ struct SweepOptions {
 
 /// The study of a case with these options, and what the command says about it.
 struct CaseStudy {
-  sweep::Study study{};
-  std::vector<std::filesystem::path> files{};  ///< the inputs
+  sweep::Study study{};                        ///< points, and how rows are computed
+  std::vector<std::filesystem::path> files{};  ///< the inputs, for the provenance
   std::string part{};                 ///< name of the parts of a row that may fail, such as "model"
   case_file::SweepRequest request{};  ///< the section [sweep] of the case
   std::vector<std::string> columns{};  ///< columns that are drawn if nothing else is asked for
