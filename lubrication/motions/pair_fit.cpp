@@ -1,4 +1,5 @@
-// The names, bases and values of the resistances of a pair.
+// The names, bases and values of the resistances of a pair. Lengths, masses and times are in the
+// units of the tables.
 #include "viscontact/lubrication/motions/pair_fit.hpp"
 
 #include <fmt/format.h>
