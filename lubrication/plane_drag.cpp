@@ -104,7 +104,8 @@ constexpr std::array<Polynomial<20>, kPieces> kMean = {{
 // Far away, x >= kFar: R = sum_k b_k h^k with h = 1/(1 + eps) < 0.12. Because 1/eps = h + h^2 +
 // ..., the coefficients of K are 1 + b_k for k > 0: 9/8, 81/64, 473/512, 4113/4096, ... All are
 // dyadic fractions. They come from the expansion of Brenner's series in exp(-alpha), with
-// cosh(alpha) = 1/h, in rational arithmetic. clang-format off
+// cosh(alpha) = 1/h, in rational arithmetic.
+// clang-format off
 constexpr Polynomial<18> kFarRegular = {
     1, 0.125, 0.265625, -0.076171875, 0.004150390625, 0.215118408203125,
     -0.070064544677734375, -0.032443523406982422, 0.15412050485610962, -0.081113986670970917,
