@@ -1,4 +1,5 @@
-// The rows of motion tables, their numbers in the journal, and their tables.
+// The rows of motion tables, their numbers in the journal, and their tables. Lengths, masses and
+// times are in the units of the case.
 #include "viscontact/freefem_axi/motions/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +88,8 @@ MotionTable head_of(const Tabulation& tabulation, MotionGroup group, MotionKind 
   const auto leading = lubrication::leading_factors(
       motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
                geometry.is_shear_free, ratio});
-  // Theory's q is in sphere radii, so that q ln q has the coefficient per radius.
+  // In theory's coefficient q is in sphere radii; the coefficient of q ln q with q in the unit of
+  // the table is smaller by the radius.
   const double unit = motion == MotionKind::kSpin ? tabulation.radius : 1;
   table.leading_force_factor = leading.force / unit;
   table.leading_torque_factor = leading.torque / unit;
@@ -133,8 +135,8 @@ std::optional<MotionTable> finished_table(const std::filesystem::path& path, Mot
   }
 }
 
-/// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks
-/// for them.
+/// The rows of finished tables. The numbers of a motion that no table contains are set to 0,
+/// because no table that is written uses them.
 RowRecord finished_rows(const Tabulation& tabulation, MotionGroup group, const TablePath& path_of) {
   const auto motions = motions_of(group);
   const std::string hash = hash_of(tabulation, group);
