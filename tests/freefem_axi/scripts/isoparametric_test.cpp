@@ -1,4 +1,4 @@
-// The pull-back of isoparametric.idp by itself: isoparametric.edp of this folder, with curved edges
+// The pull-back of stokes_problem.idp by itself: isoparametric.edp of this folder, with curved edges
 // and with straight ones.
 #include <gtest/gtest.h>
 
