@@ -109,7 +109,7 @@ void read_container(const TomlSection& section, std::string_view key, Tabulation
                 "neighbour need",
                 container.height, space.container_height);
   // In larger containers FreeFEM's mesh generator cannot make edges that are short enough for the
-  // gap (graded_boundary.idp). The drag in a container of this size is nearly that in unbounded
+  // gap (boundary_edges.idp). The drag in a container of this size is nearly that in unbounded
   // fluid.
   constexpr double kLargestLength = 2e5;
   for (const auto& [name, length] :

@@ -43,7 +43,7 @@ ProcessResult run_freefem(const FreeFem& freefem, std::string_view script,
                           const std::vector<std::string>& arguments,
                           std::optional<std::chrono::seconds> time_limit = {});
 
-/// Appends the arguments of scripts/mesh_arguments.idp: the largest relative error estimate [1]
+/// Appends the arguments of scripts/arguments.idp: the largest relative error estimate [1]
 /// that is asked of each force, in (0, 1), and the numbers of cells of the meshes.
 void append_mesh_arguments(std::vector<std::string>& arguments, double relative_accuracy);
 

@@ -62,10 +62,10 @@ struct Geometry {
   bool has_exact_drag = false;
   /// Computing time of a row over that of a row above a plane [1], for estimates.
   double relative_cost = 1;
-  /// The motions for which the scripts impose the right conditions on the neighbour, in the order
-  /// of MotionKind. If the geometry's script changes a condition of axisymmetric_stokes.idp, this
-  /// is a change for the approach alone, because sideways_stokes.idp and swirl_stokes.idp have
-  /// conditions of their own.
+  /// The motions for which the script imposes the right conditions on the neighbour, in the order
+  /// of MotionKind. A script that changes a condition changes it for the approach alone
+  /// (solveStokes in axisymmetric_stokes.idp); solveSideways in sideways_stokes.idp and solveSwirl
+  /// in axisymmetric_stokes.idp have conditions of their own.
   std::span<const lubrication::MotionKind> motions = kApproachAlone;
   /// 1 over the neighbour's radius [1/L]: 0 of a plane, < 0 of a cavity. It gives theory's leading
   /// terms of sliding, rolling and spinning. Null: they are not known.
