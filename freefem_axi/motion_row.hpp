@@ -1,4 +1,6 @@
-// One row of the motions across the axis or around it, solved by FreeFEM (physics.md, section 2).
+// One row of the motions across the axis or around it, solved by FreeFEM (physics.md, section 2),
+// for motion_table_plan.hpp and row_picture.hpp. Lengths, masses and times are in the units of the
+// case. A change must agree with scripts/row.idp.
 #pragma once
 
 #include <optional>
@@ -17,9 +19,10 @@ enum class MotionGroup { kAcross = 1, kAround = 2 };
 /// The motions of the group, in the order of the solutions of scripts/row.idp.
 std::vector<lubrication::MotionKind> motions_of(MotionGroup group);
 
-/// Force and torque of one motion at one gap, for any viscosity and velocity.
+/// Factors of force and torque of one motion at one gap [1], which do not depend on viscosity and
+/// velocity.
 struct MotionResult {
-  /// Force and torque on the sphere.
+  /// On the sphere.
   lubrication::ActionFactors sphere;
   std::optional<lubrication::ActionFactors> neighbour;  ///< if the neighbour is a sphere
   /// Observed order of convergence in the mesh size [1].

@@ -1,4 +1,5 @@
-// Reads and writes the CSV file of a motion table (docs/file-formats.md).
+// Reads and writes the CSV file of a motion table (docs/file-formats.md). Lengths, masses and times
+// are in any one consistent system of units. A change must keep published tables readable.
 #include "viscontact/motions/motion_table.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ void require(bool holds, const FilePosition& here, const std::string& column, do
   if (!holds) throw_bad_input(here, fmt::format("{} is {}; it must be {}", column, value, what));
 }
 
-/// The fields from `first` on, which are factors and estimates of a body.
+/// The four fields from `first` on: the factors of a body and their error estimates.
 lubrication::ActionFactors factors_of(MotionFields fields, std::size_t first,
                                       const FilePosition& here) {
   const lubrication::ActionFactors factors = {
@@ -85,7 +86,7 @@ MotionTableRow motion_row_of(MotionFields fields, const MotionTable& table,
   return row;
 }
 
-/// The numbers of a body: force, torque, and what factors_of() reads.
+/// The columns of a body: force, torque, and the four columns that factors_of() reads.
 std::string action_text(const lubrication::ActionFactors& body, const ActionUnits& units,
                         double velocity) {
   return fmt::format("{},{},{},{},{},{}", format_number(-units.force * velocity * body.force),
@@ -119,7 +120,8 @@ bool is_motion_table(const std::filesystem::path& path) {
 
 MotionTable read_motion_table(const std::filesystem::path& path) {
   const std::string file = path.string();
-  // The head is needed for the units of the rows, so the rows are kept until it was read.
+  // The rows can be converted only after the head of the file was read, which has viscosity and
+  // radius.
   std::vector<std::pair<std::vector<std::optional<double>>, int>> lines;
   CsvComments comments;
   std::set<std::string> contradictions;

@@ -1,8 +1,9 @@
 // The table of the force and torque on a sphere in one of the motions across the axis or around it
 // (sliding, rolling, spinning), over a grid of gaps and velocities. The force is along x, the
-// torque about y and the centre of the body, or about z for spinning; the neighbour is below.
-// Lengths, masses and times are in any one consistent system of units. A change must keep the names
-// of the columns and header keys, because published tables use them.
+// torque about y and the centre of the body, or about z for spinning; z goes from the neighbour to
+// the sphere. freefem_axi/motions/ writes these tables and fitting/fit_pair.hpp fits them. Lengths,
+// masses and times are in any one consistent system of units. A change must keep the names of the
+// columns and header keys, because published tables use them.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,7 @@ struct MotionTableRow {
   double gap = 0;  ///< q [L], > 0
   /// u0 [L/T] of a sphere that slides, w0 [1/T] of one that turns; not 0.
   double reference_velocity = 0;
-  lubrication::ActionFactors sphere;                    ///< on the sphere
+  lubrication::ActionFactors sphere;                    ///< of force and torque on the sphere
   std::optional<lubrication::ActionFactors> neighbour;  ///< nothing if the neighbour is no sphere
   double degrees_of_freedom = 0;                        ///< unknowns on the finest mesh
   double seconds = 0;                                   ///< wall time of the row [s]
@@ -44,20 +45,22 @@ struct MotionTable {
   std::map<std::string, std::string> versions;  ///< program name to version
   /// The motions of the tabulation, if there were several: each has a table of its own.
   std::vector<lubrication::MotionKind> tabulated_motions;
-  lubrication::FailedRows failed_rows;  ///< rows that the table should have and has not
+  lubrication::FailedRows failed_rows;  ///< rows that could not be computed
   std::vector<MotionTableRow> rows;     ///< at least one
 };
 
-/// The dimensional unit of force and torque of a motion: force = -unit * u0 * force factor.
+/// The units of force and torque of a motion: F = -force * v * (force factor) and T = -torque * v *
+/// (torque factor), with the velocity v [L/T] of a sphere that slides or the angular velocity v
+/// [1/T] of one that turns.
 struct ActionUnits {
-  double force = 0;   ///< over the velocity or angular velocity of the motion
-  double torque = 0;  ///< likewise
+  double force = 0;   ///< 6 pi mu r [M/T] or 6 pi mu r^2 [M L/T]
+  double torque = 0;  ///< 8 pi mu r^2 [M L/T] or 8 pi mu r^3 [M L^2/T]
 };
-/// The units of a motion, which is not kApproach.
+/// The units of a motion, which is not kApproach, with `viscosity` mu [M/(L T)] and `radius` r [L].
 ActionUnits action_units(lubrication::MotionKind motion, double viscosity, double radius);
 
-/// True if the path is a regular file that begins as the tables that write_motion_table() writes. A
-/// pipe is not read, because it cannot be read a second time.
+/// True if the path is a regular file with the first line of a table of write_motion_table(). False
+/// for a pipe, which is not read, because it cannot be read a second time.
 bool is_motion_table(const std::filesystem::path& path);
 
 /// Reads a table. The columns gap, reference_velocity, force and torque are required. Throws

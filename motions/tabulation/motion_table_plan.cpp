@@ -1,4 +1,5 @@
-// The rows of motion tables, their numbers in the journal, and their tables.
+// The rows of motion tables, their numbers in the journal, and their tables. Lengths, masses and
+// times are in the units of the case.
 #include "viscontact/motions/tabulation/motion_table_plan.hpp"
 
 #include <fmt/format.h>
@@ -91,7 +92,8 @@ MotionTable head_of(const freefem_axi::Tabulation& tabulation, freefem_axi::Moti
   const auto leading = leading_factors(
       motion, {tabulation.radius * geometry.curvature(tabulation.geometry_parameters),
                geometry.is_shear_free, ratio});
-  // Theory's q is in sphere radii, so that q ln q has the coefficient per radius.
+  // In theory's coefficient q is in sphere radii; the coefficient of q ln q with q in the unit of
+  // the table is smaller by the radius.
   const double unit = motion == MotionKind::kSpin ? tabulation.radius : 1;
   table.leading_force_factor = leading.force / unit;
   table.leading_torque_factor = leading.torque / unit;
@@ -137,8 +139,8 @@ std::optional<MotionTable> finished_table(const std::filesystem::path& path, Mot
   }
 }
 
-/// The rows of finished tables. The numbers of a motion that no table contains are 0; nobody asks
-/// for them.
+/// The rows of finished tables. The numbers of a motion that no table contains are set to 0,
+/// because no table that is written uses them.
 freefem_axi::RowRecord finished_rows(const freefem_axi::Tabulation& tabulation,
                                      freefem_axi::MotionGroup group, const TablePath& path_of) {
   const auto motions = freefem_axi::motions_of(group);

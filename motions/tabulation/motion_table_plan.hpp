@@ -1,6 +1,7 @@
-// The tables of sliding, rolling and spinning as TablePlans. A row's point is { gap [L] }, because
-// forces and torques are proportional to viscosity and velocity. Numbers are in the units of the
-// case.
+// The tables of sliding, rolling and spinning as TablePlans (journal/table_plan.hpp), for the stage
+// `tabulate`. A row's point is { gap [L] }, because forces and torques are proportional to
+// viscosity and velocity. Lengths, masses and times are in the units of the case. A change must
+// keep journals of interrupted tabulations readable.
 #pragma once
 
 #include <filesystem>

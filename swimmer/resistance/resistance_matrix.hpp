@@ -1,4 +1,5 @@
-// The resistance matrix of a row of a table as a matrix of Eigen.
+// The resistance matrix of a row of a table as a matrix of Eigen. It is not in
+// resistance_table.hpp, because readers of tables need no Eigen.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +8,7 @@
 
 namespace viscontact::swimmer {
 
-/// The symmetric matrix R [M/T] of a row for so many spheres.
+/// The symmetric matrix R [M/T] of a row of a table of `spheres` spheres.
 inline Eigen::MatrixXd matrix_of(const ResistanceRow& row, std::size_t spheres) {
   const auto size = static_cast<Eigen::Index>(spheres);
   Eigen::MatrixXd matrix(size, size);

@@ -1,5 +1,5 @@
-// Reads and writes the CSV file of a resistance table (docs/file-formats.md). Units are those of
-// resistance_table.hpp.
+// Reads and writes the CSV file of a resistance table (docs/file-formats.md). Lengths, masses and
+// times are in any one consistent system of units.
 #include "viscontact/swimmer/resistance/resistance_table.hpp"
 
 #include <fmt/format.h>
@@ -50,7 +50,8 @@ struct Fields {
   int line = 0;
 };
 
-/// Reads any number of columns, as many at a time as the reader takes.
+/// Reads any number of columns, at most kMostCsvColumns at a time, because read_csv_rows() takes no
+/// more.
 std::vector<Fields> read_fields(const std::filesystem::path& path,
                                 const std::vector<std::string>& columns, std::size_t required,
                                 CsvComments& comments) {
@@ -71,7 +72,7 @@ std::vector<Fields> read_fields(const std::filesystem::path& path,
   return rows;
 }
 
-/// Checks the numbers of one row and sorts them into their places.
+/// Checks the numbers of one row and copies them into the members of a ResistanceRow.
 ResistanceRow read_row(const Fields& fields, const std::vector<std::string>& columns,
                        std::size_t spheres, const std::string& file) {
   const FilePosition here{file, fields.line};
@@ -93,7 +94,7 @@ ResistanceRow read_row(const Fields& fields, const std::vector<std::string>& col
       throw_bad_input(here, fmt::format("{} is {}; it must be >= 0", columns[next],
                                         row.relative_error_estimates.back()));
   }
-  ++next;  // the largest estimate follows from the others
+  ++next;  // skips relative_error_estimate, which is the largest of the estimates before
   row.degrees_of_freedom = fields.values[next++].value_or(0);
   row.seconds = fields.values[next++].value_or(0);
   row.observed_order = fields.values[next].value_or(0);

@@ -1,6 +1,8 @@
 // The table of resistance matrices of rigid spheres on a line, over the gaps between them
-// (physics.md, section 7). Lengths, masses and times are in any one consistent system of units. A
-// change must keep the names of the columns and header keys, because published tables use them.
+// (physics.md, section 7). freefem_axi/collinear_spheres.hpp writes it and
+// fitting/fit_resistance.hpp fits it. Lengths, masses and times are in any one consistent system of
+// units. A change must keep the names of the columns and header keys, because published tables use
+// them.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +21,8 @@ struct ResistanceRow {
   /// The entries R_ij [M/T] with i <= j: R11, R12, ..., R1N, R22, ..., RNN. R is symmetric and
   /// positive definite.
   std::vector<double> entries;
-  /// Estimates of the relative errors of the entries [1], >= 0. An entry smaller than 1e-3
-  /// sqrt(R_ii R_jj) counts as that large.
+  /// Estimates of the errors of the entries, relative to the entry [1], >= 0. Errors of an entry
+  /// smaller than 1e-3 sqrt(R_ii R_jj) are relative to this value instead.
   std::vector<double> relative_error_estimates;
   double degrees_of_freedom = 0;  ///< unknowns on the finest mesh
   double seconds = 0;             ///< wall time of the row [s]
@@ -43,7 +45,8 @@ struct ResistanceTable {
   std::vector<ResistanceRow> rows;
 };
 
-/// The fewest and the most spheres of a table.
+/// The fewest and the most spheres of a table. Ten spheres take 44 s and 3.6 GB a row
+/// (bench/README.md).
 inline constexpr std::size_t kFewestSpheres = 2,  ///< the fewest
     kMostSpheres = 10;                            ///< the most
 
@@ -54,8 +57,8 @@ std::size_t entry_position(std::size_t i, std::size_t j, std::size_t spheres);
 /// The number of entries on and above the diagonal.
 inline std::size_t entry_count(std::size_t spheres) { return spheres * (spheres + 1) / 2; }
 
-/// The names of the columns: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ..., and
-/// what a row says of its computation. Two numbers are separated by "_" if one of them is 10.
+/// The names of the columns: gap12, gap23, ..., R11, R12, ..., R11_relative_error_estimate, ...,
+/// and the last members of ResistanceRow. Two numbers are separated by "_" if one of them is 10.
 std::vector<std::string> resistance_columns(std::size_t spheres);
 
 /// Reads a table. Throws Error(kBadInput) with file and line if a value is missing, not finite or
