@@ -131,19 +131,12 @@ void compute_strokes(SwimmerResults& results, const StopToken& stop) {
   terminal::show_progress("swimmer: searching for the optimal stroke");
   results.optimal = with_place(place + ": [optimal]", [&] {
     const auto search = find_optimal_stroke(Swimmer(results.fit), *results.c.optimal, stop);
-                                                           *results.c.optimal, stop);
-                                                           // The search has the period 1. With another period an energy is divided by the period.
-                                                           const double period =
-                                                               results.c.optimal_period;
-                                                           results.energy_per_displacement =
-                                                               search.multiplier / period;
-                                                           results.convergence = search.convergence;
-                                                           for (auto& step : results.convergence)
-                                                             step.energy /= period;
-                                                           return result_of(
-                                                               results,
-                                                               stroke_of(search.loop, period),
-                                                               results.energy_per_displacement);
+    // The search has the period 1. With another period an energy is divided by the period.
+    const double period = results.c.optimal_period;
+    results.energy_per_displacement = search.multiplier / period;
+    results.convergence = search.convergence;
+    for (auto& step : results.convergence) step.energy /= period;
+    return result_of(results, stroke_of(search.loop, period), results.energy_per_displacement);
   });
   terminal::clear_progress();
 }
