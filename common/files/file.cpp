@@ -30,6 +30,7 @@ namespace {
   throw_bad_input({path.string()}, fmt::format("cannot be {} ({})", action, std::strerror(code)));
 }
 
+// A file NAME that is not finished is named NAME.viscontact-PID.tmp.
 constexpr std::string_view kUnfinishedOf = ".viscontact-", kUnfinished = ".tmp";
 
 /// Removes the files NAME.viscontact-PID.tmp in a folder that killed processes have left; those of

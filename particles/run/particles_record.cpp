@@ -1,0 +1,135 @@
+// Writes the rows of steps.csv, the record of restart.bin as JSON, and run.json.
+#include "viscontact/particles/run/particles_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/text/json.hpp"
+#include "viscontact/common/text/number.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+
+namespace viscontact {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileEnd, bytes, last_line)
+}  // namespace viscontact
+
+namespace viscontact::particles {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelativeErrors, best, of_one_mesh, of_penalty)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepTotals, steps, unconverged, iterations, most_iterations,
+                                   first_time, last_time, largest_residual, largest_overlap,
+                                   largest_impulse_residual, divided, unresolved, seconds,
+                                   peak_memory_mebibytes, fluid_seconds, unknowns,
+                                   first_velocity_errors, last_velocity_errors, first_force_errors,
+                                   last_force_errors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunRecord, totals, frames, flows, last_frame, rebounds, files)
+
+namespace {
+constexpr const char* kRecordOf = "# record after step ";
+}  // namespace
+
+void StepTotals::add(const StepReport& report) {
+  ++steps;
+  unconverged += report.converged ? 0 : 1;
+  iterations += report.iterations;
+  most_iterations = std::max(most_iterations, report.iterations);
+  largest_residual = std::max(largest_residual, report.residual);
+  largest_overlap = std::max(largest_overlap, report.largest_overlap);
+  largest_impulse_residual = std::max(largest_impulse_residual, report.impulse_residual);
+  divided += report.parts > 1 ? 1 : 0;
+  unresolved += static_cast<std::int64_t>(report.unresolved);
+  last_time = report.time;
+  const auto& fluid = report.fluid;
+  fluid_seconds += fluid.seconds;
+  if (fluid.velocity_errors.best < 0) return;
+  if (first_velocity_errors.best < 0) {
+    first_velocity_errors = fluid.velocity_errors;
+    first_force_errors = fluid.force_errors;
+  }
+  last_velocity_errors = fluid.velocity_errors;
+  last_force_errors = fluid.force_errors;
+}
+
+std::string steps_header(bool has_fluid) {
+  return std::string(
+             "step,time,contacts,glued,iterations,residual,largest_overlap,converged,"
+             "impulse_residual,parts,unresolved") +
+         (has_fluid ? ",dissipation,apparent_viscosity,fluid_seconds\n" : "\n");
+}
+
+std::string step_row(std::int64_t step, const StepReport& report, bool has_fluid) {
+  auto row =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", step, format_number(report.time),
+                  report.contacts, report.glued, report.iterations, format_number(report.residual),
+                  format_number(report.largest_overlap), report.converged ? 1 : 0,
+                  format_number(report.impulse_residual), report.parts, report.unresolved);
+  if (has_fluid)
+    row += fmt::format(",{},{},{:.3g}", format_number(report.fluid.dissipation),
+                       format_number(report.fluid.apparent_viscosity), report.fluid.seconds);
+  return row + "\n";
+}
+
+std::string record_comment(const RunRecord& record, std::int64_t step) {
+  return fmt::format("{}{}: {}\n", kRecordOf, step, nlohmann::json(record).dump());
+}
+
+RunRecord read_record(const std::string& head, const std::filesystem::path& restart) {
+  const auto line = head.find(kRecordOf);
+  const auto json = head.find('{', line);
+  if (line == std::string::npos || json == std::string::npos)
+    throw_bad_input({restart.string()}, "has no record of its run");
+  try {
+    return nlohmann::json::parse(head.substr(json, head.find('\n', json) - json));
+  } catch (const nlohmann::json::exception&) {
+    throw_bad_input({restart.string()}, "has a damaged record of its run");
+  }
+}
+
+std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state) {
+  const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
+  Json json;
+  json["title"] = c.title;
+  json["particles"] = state.particles.count();
+  json["dimension"] = state.particles.dimension;
+  json["from_time"] = totals.first_time;
+  json["to_time"] = totals.last_time;
+  json["time_step"] = c.setting.time_step;
+  json["steps"] = totals.steps;
+  json["unconverged_steps"] = totals.unconverged;
+  json["iterations"] = totals.iterations;
+  json["mean_iterations"] = static_cast<double>(totals.iterations) / steps;
+  json["largest_iterations"] = totals.most_iterations;
+  json["tolerance"] = c.setting.solver.tolerance;
+  json["impulse_tolerance"] = c.setting.solver.impulse_tolerance;
+  json["largest_residual"] = totals.largest_residual;
+  json["largest_impulse_residual"] = totals.largest_impulse_residual;
+  json["largest_gamma_error"] = largest_gamma_error(state);
+  json["divided_steps"] = totals.divided;
+  json["unresolved_contacts"] = totals.unresolved;
+  json["largest_overlap"] = totals.largest_overlap;
+  json["final_overlap"] = largest_overlap(c.setting, state);
+  json["seconds"] = totals.seconds;
+  json["peak_memory_mebibytes"] = totals.peak_memory_mebibytes;
+  if (c.setting.fluid) {
+    const auto add_estimates = [&](const std::string& key, const RelativeErrors& first,
+                                   const RelativeErrors& last) {
+      const auto number = [](double error) { return error < 0 ? Json() : Json(error); };
+      const auto add = [&](const std::string& name, double of_first, double of_last) {
+        json[name] = {{"first_step", number(of_first)}, {"last_step", number(of_last)}};
+      };
+      add(key, first.best, last.best);
+      add(key + "_of_one_mesh", first.of_one_mesh, last.of_one_mesh);
+      add(key + "_of_penalty", first.of_penalty, last.of_penalty);
+    };
+    add_estimates("velocity_error_estimate", totals.first_velocity_errors,
+                  totals.last_velocity_errors);
+    add_estimates("force_error_estimate", totals.first_force_errors, totals.last_force_errors);
+    json["unknowns"] = totals.unknowns;
+    json["fluid_seconds"] = totals.fluid_seconds;
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace viscontact::particles

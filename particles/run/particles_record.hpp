@@ -1,0 +1,66 @@
+// What a run of many particles has done so far: sums over its steps, for run.json, and where its
+// files end, for restart.bin (docs/file-formats.md). Times [T] are in the unit of the case,
+// computing times in seconds.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "viscontact/common/files/growing_file.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/state.hpp"
+#include "viscontact/particles/step_report.hpp"
+
+namespace viscontact::particles {
+
+/// Sums and largest values over the steps of a run: those of this call and those of the interrupted
+/// calls before it in the same folder.
+struct StepTotals {
+  /// Number of steps, of steps that did not converge, and of the iterations of all steps.
+  std::int64_t steps = 0, unconverged = 0, iterations = 0;
+  int most_iterations = 0;                           ///< largest number of iterations in one step
+  double first_time = 0, last_time = 0;              ///< at the start and after the last step [T]
+  double largest_residual = 0, largest_overlap = 0;  ///< divided by the mean radius
+  double largest_impulse_residual = 0;               ///< divided by the impulses at work
+  std::int64_t divided = 0;                          ///< steps that were divided into parts
+  std::int64_t unresolved = 0;                       ///< sum of StepReport::unresolved
+  double seconds = 0;                                ///< computing time of earlier calls [s]
+  double peak_memory_mebibytes = 0;                  ///< of earlier calls [MiB]
+  // With a fluid only.
+  double fluid_seconds = 0;    ///< sum of FluidStepReport::seconds [s]
+  std::uint64_t unknowns = 0;  ///< of the fluid solver, in the last step
+  /// Estimates of the relative errors of velocities and forces at the first and at the last step.
+  RelativeErrors first_velocity_errors, last_velocity_errors;
+  RelativeErrors first_force_errors, last_force_errors;
+
+  /// Adds a step.
+  void add(const StepReport& report);
+};
+
+/// What a run has done when a state was reached. A file that a run needs to continue, beside the
+/// state, has an entry in `files`.
+struct RunRecord {
+  StepTotals totals;
+  std::uint64_t frames = 0, flows = 0;   ///< number of frames, and of those whose flow is written
+  double last_frame = 0;                 ///< time of the last frame [T]
+  std::uint64_t rebounds = 0;            ///< number of rows of rebounds.csv
+  std::map<std::string, FileEnd> files;  ///< ends of the files that grow, by name
+};
+
+/// The line with the names of the columns of steps.csv.
+std::string steps_header(bool has_fluid);
+/// The row of steps.csv of the step with the number `step`.
+std::string step_row(std::int64_t step, const StepReport& report, bool has_fluid);
+
+/// The comment line of restart.bin that contains the record after the step with the number `step`.
+std::string record_comment(const RunRecord& record, std::int64_t step);
+/// Reads that line from `head`, the first lines of the file `restart`. Throws Error(kBadInput),
+/// which names the file, if it has no such line.
+RunRecord read_record(const std::string& head, const std::filesystem::path& restart);
+
+/// The text of run.json at the end of a run with these sums.
+std::string run_json(const ParticlesCase& c, const StepTotals& totals, const State& state);
+
+}  // namespace viscontact::particles

@@ -1,0 +1,288 @@
+// A run of many particles: checks, continues an earlier run, computes time steps, saves and writes
+// the results. restart.bin must be written after all files that a run needs to continue
+// (Run::save), so that a run that is killed at any time can be continued.
+#include "viscontact/particles/run/particles_stage.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "viscontact/common/error.hpp"
+#include "viscontact/common/files/file.hpp"
+#include "viscontact/common/files/locked_folder.hpp"
+#include "viscontact/particles/case/particles_case.hpp"
+#include "viscontact/particles/current_contacts.hpp"
+#include "viscontact/particles/io/particle_file.hpp"
+#include "viscontact/particles/io/restart.hpp"
+#include "viscontact/particles/run/particle_simulation.hpp"
+#include "viscontact/particles/run/particles_earlier_run.hpp"
+#include "viscontact/particles/run/particles_folder.hpp"
+#include "viscontact/particles/run/particles_pages.hpp"
+#include "viscontact/particles/run/run_log.hpp"
+#include "viscontact/results/provenance.hpp"
+#include "viscontact/results/run_folder.hpp"
+#include "viscontact/terminal/progress.hpp"
+
+namespace viscontact::particles {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Times of a run that differ by less [T] differ by rounding only.
+double tiny_time(const ParticlesCase& c) { return 1e-6 * c.setting.time_step; }
+
+/// A run with its state and its files, which can be saved after any step.
+class Run {
+ public:
+  /// `log` is that of a new run, or of the interrupted run that this one continues; it must outlive
+  /// this object.
+  Run(const ParticlesCase& c, ParticleSimulation& simulation, fs::path folder,
+      const results::Provenance& provenance, RunLog& log, const StopToken& stop)
+      : case_(c),
+        simulation_(simulation),
+        folder_(std::move(folder)),
+        provenance_(provenance),
+        log_(log),
+        stop_(stop) {}
+
+  /// Computes steps until the end time, until a stop is requested, or until a step cannot be
+  /// computed. Returns the error of that step, if there is one; the state is then that before it.
+  std::exception_ptr simulate() {
+    if (log_.record().frames == 0) add_frame();
+    save(with_costs(log_.record()));
+    double next_frame = frame_after(log_.record().last_frame);
+    while (!is_at_end() && !stop_.stop_requested()) {
+      StepReport report;
+      try {
+        report = simulation_.step(case_.end_time);
+      } catch (const Error&) {
+        return std::current_exception();
+      }
+      if (simulation_.has_fluid()) {
+        log_.totals().unknowns = simulation_.fluid().unknowns();
+        if (log_.lacks_flow()) log_.add_flow(simulation_.fluid().flow());
+      }
+      log_.add_step(report, simulation_.state(), simulation_.rebounds());
+      if (report.time >= next_frame - tiny_time(case_)) {
+        add_frame();
+        next_frame = frame_after(report.time);
+      }
+      tell(report);
+      constexpr double kSaveEvery = 60;  // [s]
+      if (!is_at_end() && seconds_since(last_saved_) > kSaveEvery) save(with_costs(log_.record()));
+    }
+    return {};
+  }
+
+  /// Writes all files of the run. Returns the text of run.json.
+  std::string write_results() {
+    terminal::clear_progress();
+    // A run that continues from here removes what only its end adds: a frame of its last state,
+    // unless the last frame shows it, and the flow around it.
+    auto record = log_.record();
+    const auto& state = simulation_.state();
+    if (record.last_frame < state.time) add_frame();
+    add_last_flow();
+    log_.sync();
+    write("final_particles.csv", TextKind::kHashComment, final_particles());
+    write("final_contacts.csv", TextKind::kHashComment,
+          write_contacts(state.particles, contacts_of(case_.setting, state)));
+    write_pages(case_, folder_, provenance_);
+    record = with_costs(std::move(record));
+    auto json = run_json(case_, record.totals, state);
+    // Forces of the fluid are not in restart.bin. A run that is killed before this line computes
+    // its last step again.
+    write("run.json", TextKind::kJson, json);
+    save(record);
+    return json;
+  }
+
+ private:
+  static double seconds_since(Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  }
+  bool is_at_end() const { return simulation_.state().time >= case_.end_time - tiny_time(case_); }
+  void write(const char* name, TextKind kind, const std::string& text) const {
+    results::write_output(folder_ / name, kind, text, provenance_);
+  }
+
+  /// The time of the frame after the one at `time` [T]: a frame is written after the first step
+  /// that reaches a multiple of the interval since the first time.
+  double frame_after(double time) const {
+    const double first = log_.totals().first_time;
+    const double interval = std::max(case_.frame_interval, case_.setting.time_step);
+    return first + (std::floor((time + tiny_time(case_) - first) / interval) + 1) * interval;
+  }
+
+  /// Adds the flow around the particles where they are at the end, which no step computes. A run
+  /// that was interrupted computes it in its next step, when it continues.
+  void add_last_flow() {
+    if (!is_at_end() || stop_.stop_requested() || !log_.lacks_flow()) return;
+    try {
+      log_.add_flow(simulation_.fluid().flow_at_present());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kExternalProgram) throw;
+      terminal::warn(fmt::format(
+          "particles: warning: the flow at the end of the run is missing ({})", error.what()));
+    }
+  }
+
+  void add_frame() {
+    std::span<const double> link_force_errors;
+    if (simulation_.has_fluid()) link_force_errors = simulation_.fluid().force_errors().of_links;
+    log_.add_frame(simulation_.state(), link_force_errors);
+  }
+
+  std::string final_particles() {
+    const auto reported = simulation_.reported_particles();
+    if (!simulation_.has_fluid()) return write_particles(reported);
+    const auto& fluid = simulation_.fluid();
+    return write_particles(reported,
+                           FluidForces{fluid.fluid_forces(), fluid.force_errors().of_fluid});
+  }
+
+  /// The record, with computing time and memory of this call and the calls before it.
+  RunRecord with_costs(RunRecord record) {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    auto& totals = record.totals;
+    totals.seconds += seconds_since(begin_);
+    double peak = static_cast<double>(usage.ru_maxrss) / 1024;
+    if (simulation_.has_fluid()) peak += simulation_.fluid().solver_peak_memory_mebibytes();
+    totals.peak_memory_mebibytes = std::max(totals.peak_memory_mebibytes, peak);
+    return record;
+  }
+
+  /// Writes restart.bin with the present state and a record of what was written until it, after
+  /// everything else is on disk: whenever the process is killed, the files contain what the record
+  /// says, and the run continues from there.
+  void save(const RunRecord& record) {
+    log_.sync();
+    const auto& state = simulation_.state();
+    write("restart.bin", TextKind::kHashComment,
+          record_comment(record, state.steps) + write_restart(state));
+    last_saved_ = Clock::now();
+  }
+
+  void tell(const StepReport& report) {
+    if (!progress_.is_due()) return;
+    terminal::show_progress(fmt::format(
+        "particles: t = {:.4g} of {:.4g}, {} contacts, {} iterations, {:.3g} s{}", report.time,
+        case_.end_time, report.contacts, report.iterations, seconds_since(begin_),
+        terminal::time_left(seconds_since(begin_),
+                            (report.time - first_time_) / (case_.end_time - first_time_))));
+  }
+
+  const ParticlesCase& case_;
+  ParticleSimulation& simulation_;
+  fs::path folder_;
+  const results::Provenance& provenance_;
+  RunLog& log_;
+  StopToken stop_;
+  double first_time_ = simulation_.state().time;  // of this call [T]
+  Clock::time_point begin_ = Clock::now(), last_saved_ = begin_;
+  terminal::ProgressTimer progress_;
+};
+
+/// Says how the run ended, after its files are written. Throws Error(kInterrupted) if the run was
+/// interrupted, Error(kNotConverged) if a step did not converge.
+void warn_or_fail_if_not_converged(const ParticlesCase& c, const StepTotals& record,
+                                   const fs::path& folder, const StopToken& stop) {
+  terminal::say(fmt::format(
+      "particles: {} steps to t = {:.6g}, {:.3g} iterations a step, largest residual {:.2g}, "
+      "largest overlap {:.2g} mean radii; {}",
+      record.steps, record.last_time,
+      static_cast<double>(record.iterations) /
+          static_cast<double>(std::max<std::int64_t>(record.steps, 1)),
+      record.largest_residual, record.largest_overlap, (folder / "particles.html").string()));
+  if (record.unconverged > 0)
+    terminal::warn(
+        fmt::format("particles: warning: {} of {} steps did not reach the tolerances {} and {}",
+                    record.unconverged, record.steps, c.setting.solver.tolerance,
+                    c.setting.solver.impulse_tolerance));
+  if (record.unresolved > 0)
+    terminal::warn(fmt::format(
+        "particles: warning: {} contacts were computed although their particles move past each "
+        "other by more than half the sum of their radii even in a {}th of the time step "
+        "(steps.csv says when); use a shorter time_step",
+        record.unresolved, 1 << Simulation::kMostHalvings));
+  if (stop.stop_requested())
+    terminal::say(
+        fmt::format("particles: interrupted at t = {:.6g}; the same command continues from there",
+                    record.last_time));
+  stop.throw_if_stop_requested();
+  if (record.unconverged > 0)
+    throw Error(
+        ErrorKind::kNotConverged,
+        fmt::format("{}: {} of {} steps did not converge: residuals are up to {:.2g} (of "
+                    "the gaps; solver.tolerance is {}) and {:.2g} (of the impulses; "
+                    "solver.impulse_tolerance is {}). All results are written, and "
+                    "steps.csv says which steps; raise solver.max_iterations ({}) or the "
+                    "tolerances",
+                    c.path.string(), record.unconverged, record.steps, record.largest_residual,
+                    c.setting.solver.tolerance, record.largest_impulse_residual,
+                    c.setting.solver.impulse_tolerance, c.setting.solver.max_iterations));
+}
+
+/// For a run that was finished before this call: prints the messages of the call that finished it,
+/// and throws the same error.
+void tell_finished(const ParticlesCase& c, const EarlierRun& run, const fs::path& folder, bool json,
+                   const StopToken& stop) {
+  if (json) fmt::print("{}", results::without_provenance(read_file(folder / "run.json")));
+  terminal::say(fmt::format("particles: {} is up to date", folder.string()));
+  warn_or_fail_if_not_converged(c, run.record.totals, folder, stop);
+}
+
+}  // namespace
+
+void run_particles(const ParticlesRequest& request) {
+  const ParticlesCase c = read_particles_case(request.case_file);
+  std::vector<fs::path> inputs = {c.path};
+  if (!c.particles_file.empty()) inputs.push_back(c.particles_file);
+  if (!request.restart.empty()) inputs.emplace_back(request.restart);
+  const results::Provenance provenance = results::provenance_of({inputs, {}});
+  const fs::path folder = request.folder;
+  check_inputs_stay(c, request.restart, folder);
+  auto state = first_state(c, request.restart);
+  const LockedFolder lock(folder, results::kFolderIsLocked);
+  check_results(folder);
+  RunLog log(c, folder, provenance);
+  if (const auto earlier = find_earlier_run(c, folder, provenance, log)) {
+    if (is_finished(*earlier, c, tiny_time(c), folder)) {
+      tell_finished(c, *earlier, folder, request.json, request.stop);
+      return;
+    }
+    log.resume(earlier->record);
+    terminal::say(fmt::format("particles: the run in {} continues from t = {:.6g}, after step {}",
+                              folder.string(), earlier->state.time, earlier->state.steps));
+    state = earlier->state;
+  } else {
+    remove_results(folder);
+    log.totals().first_time = log.totals().last_time = state.time;
+  }
+  ParticleSimulation simulation(c.setting, std::move(state), request.threads, request.start_solver,
+                                request.stop);
+  Run run(c, simulation, folder, provenance, log, request.stop);
+  // After an error of writing, restart.bin stays as it is: the same command continues from there.
+  const auto failure = run.simulate();
+  std::string json;
+  try {
+    json = run.write_results();
+  } catch (const Error&) {
+    if (!failure) throw;
+  }
+  if (failure) std::rethrow_exception(failure);
+  if (request.json) fmt::print("{}", json);
+  warn_or_fail_if_not_converged(c, log.totals(), folder, request.stop);
+}
+
+}  // namespace viscontact::particles
