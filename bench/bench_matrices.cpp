@@ -1,12 +1,12 @@
-// Measures errors, error estimates, time and memory of resistance matrices of three spheres on a line
-// in unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp). Gaps are random,
-// log-uniform from 0.02 to 8 of the smaller radius beside them; every second row has unequal radii, from
-// 0.5 to 2.
+// Measures errors, error estimates, time and memory of resistance matrices of three spheres on a
+// line in unbounded fluid, beside exact ones (tests/oracles/collinear_spheres.hpp). Gaps are
+// random, log-uniform from 0.02 to 8 of the smaller radius beside them; every second row has
+// unequal radii, from 0.5 to 2.
 //
 //   bench_matrices [ROWS=20 [SEED=1]]
 //
-// Prints every entry whose error is above its estimate, then sums over all entries; last, the time of
-// one row of ten spheres.
+// Prints every entry whose error is above its estimate, then sums over all entries; last, the time
+// of one row of ten spheres.
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,8 +1,8 @@
-// Measures errors, error estimates and times of the motions across the axis and around it, at random
-// gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of random size
-// at rest or with a velocity of their own, and in a cavity. The reference is the same row at a
-// hundredth of the accuracy, whose own error was checked above a plane against exact values
-// (tests/freefem_axi/motions).
+// Measures errors, error estimates and times of the motions across the axis and around it, at
+// random gaps (log-uniform from 0.001 to 10 radii) beside a plane, a free surface, spheres of
+// random size at rest or with a velocity of their own, and in a cavity. The reference is the same
+// row at a hundredth of the accuracy, whose own error was checked above a plane against exact
+// values (tests/freefem_axi/motions).
 //
 //   bench_motions [ROWS=12 [SEED=1]]
 //

@@ -14,8 +14,8 @@
 namespace viscontact::freefem_axi {
 
 /// The kind of an edge of a boundary. kWall is a wall of the container without slip, or the body
-/// beside the sphere (the neighbour, such as a plane); kShearFree is a surface without shear stress;
-/// kInterface is a line inside the fluid, or the line where unbounded fluid is cut off.
+/// beside the sphere (the neighbour, such as a plane); kShearFree is a surface without shear
+/// stress; kInterface is a line inside the fluid, or the line where unbounded fluid is cut off.
 enum class BoundaryKind { kWall, kSphere, kAxis, kShearFree, kInterface };
 
 /// A curved edge of a boundary.

@@ -228,8 +228,8 @@ void read_domain_and_fluid(const case_file::TomlSection& root, ParticlesCase& c)
   command = with_absolute_files(std::move(command), fs::absolute(c.path).parent_path());
 }
 
-/// Reads the whole case from its parsed TOML `root` and checks it. `text` and `path` are those of the
-/// file.
+/// Reads the whole case from its parsed TOML `root` and checks it. `text` and `path` are those of
+/// the file.
 ParticlesCase particles_case_of(const case_file::TomlSection& root, std::string text,
                                 const fs::path& path) {
   auto c = case_file::titled_case<ParticlesCase>(root, std::move(text), path, true);

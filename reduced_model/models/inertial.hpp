@@ -28,9 +28,9 @@ inline constexpr std::array kInertialParameters = {kReferenceTimeStep, kRelative
 /// inertial_equation.hpp.
 ///
 /// The unknown is s = ln(q/r), with the radius r. The equation is stiff, because the film damps at
-/// the rate R/m. Errors of s decay in the film and do not add up. The first integral (4.2)
-/// of the equation holds by construction, so that it cannot check this model. The model is checked
-/// by exact states (data/reference/limit_case_states.csv) and by an integration of (4.1) in extended
+/// the rate R/m. Errors of s decay in the film and do not add up. The first integral (4.2) of the
+/// equation holds by construction, so that it cannot check this model. The model is checked by
+/// exact states (data/reference/limit_case_states.csv) and by an integration of (4.1) in extended
 /// precision.
 ///
 /// CVODE stops and restarts where f_ext or its slope jumps. The rows are at the multiples of
@@ -47,10 +47,11 @@ Trajectory simulate_inertial(const Motion& motion, const lubrication::Lubricatio
 inline constexpr std::array kInertialRoughParameters = {kReferenceTimeStep, kRelativeTolerance,
                                                         kRestitution};
 
-/// As simulate_inertial(), but with solids that touch at the gap r1 + r2, where r1 and r2 [L] are the
-/// heights of the roughness of the sphere and of its neighbour: there the velocity u becomes -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight
-/// without drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it.
-/// Without roughness this is simulate_inertial().
+/// As simulate_inertial(), but with solids that touch at the gap r1 + r2, where r1 and r2 [L] are
+/// the heights of the roughness of the sphere and of its neighbour: there the velocity u becomes
+/// -e_d u (4.14), where e_d is the restitution. The sphere rests on the solids if a flight without
+/// drag would last less than 1e-6 end_time, or if e_d = 0, until the force pulls it. Without
+/// roughness this is simulate_inertial().
 ///
 /// The velocities of Trajectory::rebounds are those that the sphere would have at the initial gap
 /// without external force, before and after the impact; the latter is 0 if the film stops the

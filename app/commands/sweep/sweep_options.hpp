@@ -52,8 +52,8 @@ CaseStudy study_of_sphere(const SweepOptions& o);
 CaseStudy study_of_swimmer(const SweepOptions& o);
 CaseStudy study_of_rolling_sphere(const SweepOptions& o);
 
-/// Computes the sweep of a case of many particles here, submits it to a cluster, or collects the rows
-/// that the cluster has finished.
+/// Computes the sweep of a case of many particles here, submits it to a cluster, or collects the
+/// rows that the cluster has finished.
 void sweep_many_particles(const SweepOptions& o);
 
 }  // namespace viscontact::app
