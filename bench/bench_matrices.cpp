@@ -19,7 +19,7 @@
 #include "bench/statistics.hpp"
 #include "tests/oracles/collinear_spheres.hpp"
 #include "viscontact/common/splitmix.hpp"
-#include "viscontact/swimmer/resistance/resistance_matrix.hpp"
+#include "viscontact/swimmer/resistance/resistance_table.hpp"
 #include "viscontact/swimmer/tabulation/collinear_spheres.hpp"
 
 namespace viscontact {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "viscontact/freefem_axi/force_table_plan.hpp"
+#include "viscontact/freefem_axi/motion_table_plan.hpp"
 #include "viscontact/freefem_axi/journal/row_record.hpp"
 #include "viscontact/freefem_axi/journal/tabulate.hpp"
 #include "viscontact/freefem_axi/tabulation.hpp"
@@ -25,7 +25,7 @@ inline Tabulation unit_tabulation(std::vector<double> gaps, double container_rad
 }
 
 /// Computes all rows and puts the table together.
-inline lubrication::ForceTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
+inline lubrication::MotionTable tabulate(const FreeFem& freefem, const Tabulation& tabulation,
                                         int jobs, const std::filesystem::path& table_path,
                                         const TabulateReport& report) {
   const auto plan = force_table_plan(tabulation);

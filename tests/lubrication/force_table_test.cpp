@@ -1,4 +1,4 @@
-#include "viscontact/lubrication/force_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,13 +45,13 @@ TEST(ForceTable, RoundTripsToTheBit) {
   table.failed_rows = {{"gap 0.1, velocity -1", "no solution: 100 unknowns"},
                        {"gap 0.1, velocity 2", "it had not ended after 1800 s"}};
   for (int i = 0; i < 300; ++i) {
-    ForceTableRow row;
+    MotionRow row;
     row.gap = random_positive(random);
     // Their product must not underflow to 0: a force opposed to its velocity is asked for.
     row.reference_velocity =
         (i % 2 == 0 ? -1 : 1) * std::ldexp(random_positive(random) > 1 ? 1.1 : 0.7, i - 150);
     row.force = -row.reference_velocity * std::ldexp(1.0 / (i + 3), 300 - i);
-    row.drag_factor = random_positive(random);
+    row.force_factor = random_positive(random);
     row.relative_error_estimate = random_positive(random);
     row.degrees_of_freedom = i * 12345;
     row.seconds = random_positive(random);
@@ -59,7 +59,7 @@ TEST(ForceTable, RoundTripsToTheBit) {
     table.rows.push_back(row);
   }
   const TemporaryFolder folder;
-  const auto path = folder.file("table.csv", write_force_table(table));
+  const auto path = folder.file("table.csv", write_motion_table(table));
   const auto back = read_force_table(path);
   EXPECT_EQ(back.viscosity, table.viscosity);
   EXPECT_EQ(back.radius, table.radius);
@@ -74,17 +74,17 @@ TEST(ForceTable, RoundTripsToTheBit) {
     EXPECT_EQ(back.rows[i].gap, table.rows[i].gap);
     EXPECT_EQ(back.rows[i].reference_velocity, table.rows[i].reference_velocity);
     EXPECT_EQ(back.rows[i].force, table.rows[i].force);
-    EXPECT_EQ(back.rows[i].drag_factor, table.rows[i].drag_factor);
+    EXPECT_EQ(back.rows[i].force_factor, table.rows[i].force_factor);
     EXPECT_EQ(back.rows[i].relative_error_estimate, table.rows[i].relative_error_estimate);
     EXPECT_EQ(back.rows[i].degrees_of_freedom, table.rows[i].degrees_of_freedom);
     EXPECT_EQ(back.rows[i].seconds, table.rows[i].seconds);
     EXPECT_EQ(back.rows[i].observed_order, table.rows[i].observed_order);
   }
-  EXPECT_EQ(write_force_table(back), read_file(path));
+  EXPECT_EQ(write_motion_table(back), read_file(path));
 }
 
 TEST(ForceTable, HasTheColumnsOfTheInterface) {
-  EXPECT_THAT(write_force_table(fitting::exact_drag_table({0.5}, {-1}, 3, 1)),
+  EXPECT_THAT(write_motion_table(fitting::exact_drag_table({0.5}, {-1}, 3, 1)),
               HasSubstr("\ngap,reference_velocity,force,drag_factor,relative_error_estimate,"
                         "degrees_of_freedom,seconds,observed_order\n0.5,-1,"));
 }
@@ -93,7 +93,7 @@ TEST(ForceTable, SaysInItsHeadWhatTheSphereApproachesAndInWhat) {
   auto table = fitting::exact_drag_table({0.5}, {-1}, 3, 1);
   table.geometry = "cavity, radius 5";
   table.container = "none";
-  const auto text = write_force_table(table);
+  const auto text = write_motion_table(table);
   EXPECT_THAT(text, HasSubstr("# geometry: cavity, radius 5\n"));
   EXPECT_THAT(text, HasSubstr("# container: none\n"));
 }
@@ -108,7 +108,7 @@ TEST(ForceTable, OfAUserNeedsGapVelocityAndForceOnly) {
   EXPECT_EQ(table.rows[0].gap, 0.5);
   EXPECT_EQ(table.rows[0].reference_velocity, -1);
   EXPECT_EQ(table.rows[0].force, 1000);
-  EXPECT_DOUBLE_EQ(table.rows[0].drag_factor, 1000 / (6 * std::numbers::pi * 3 * 2));
+  EXPECT_DOUBLE_EQ(table.rows[0].force_factor, 1000 / (6 * std::numbers::pi * 3 * 2));
   EXPECT_EQ(table.rows[0].relative_error_estimate, 0);
 }
 
@@ -119,7 +119,7 @@ TEST(ForceTable, MayHaveAForceAlongTheVelocityWhereTheNeighbourMovesOnly) {
       read_force_table(folder.file("moving.csv", kHead + ("# neighbour_moves: yes\n" + rows)));
   EXPECT_EQ(moving.rows[0].force, -1000);
   EXPECT_TRUE(moving.neighbour_moves);
-  EXPECT_THAT(write_force_table(moving), HasSubstr("# neighbour_moves: yes\n"));
+  EXPECT_THAT(write_motion_table(moving), HasSubstr("# neighbour_moves: yes\n"));
   for (const auto* line :
        {"# geometry: sphere, radius 1, velocity_ratio 0\n", "# geometry: plane\n"}) {
     const auto path = folder.file("resting.csv", kHead + (line + rows));
@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ForceTable, CutAnywhereIsRefused) {
   const TemporaryFolder folder;
-  const auto text = write_force_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
+  const auto text = write_motion_table(fitting::exact_drag_table({0.25, 0.75}, {-1}, 3, 1));
   for (std::size_t length = 0; length < text.size(); ++length)
     EXPECT_NE(bad_input([&] { read_force_table(folder.file("cut.csv", text.substr(0, length))); }),
               "")

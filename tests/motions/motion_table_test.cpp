@@ -1,5 +1,5 @@
 // The files of motion tables: what is written is read back, and what is wrong is refused.
-#include "viscontact/motions/motion_table.hpp"
+#include "viscontact/lubrication/motion_table.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,11 +28,11 @@ MotionTable table_of_a_pair() {
   table.versions["FreeFEM"] = "4.9";
   table.tabulated_motions = {lubrication::MotionKind::kApproach, lubrication::MotionKind::kRoll};
   table.failed_rows = {{"gap 0.15", "no solution: 100 unknowns"}};
-  MotionTableRow row;
+  MotionRow row;
   row.gap = 0.1;
   row.reference_velocity = -3;
   row.sphere = {-0.1, 2. / 3, 1e-7, 2e-7};
-  row.neighbour = lubrication::ActionFactors{0.01, -0.02, 3e-7, 4e-7};
+  row.neighbour = Action{0.01, -0.02, 3e-7, 4e-7};
   row.degrees_of_freedom = 1234;
   row.seconds = 1.5;
   row.observed_order = 3.9;
@@ -64,7 +64,7 @@ TEST_F(MotionTableFile, IsReadAsItWasWritten) {
   EXPECT_EQ(again.motion, lubrication::MotionKind::kRoll);
   ASSERT_EQ(again.rows.size(), 2U);
   EXPECT_EQ(again.rows[1].gap, 0.2);
-  EXPECT_EQ(again.rows[0].sphere.torque, 2. / 3);
+  EXPECT_EQ(again.rows[0].torque_factor, 2. / 3);
   EXPECT_EQ(again.rows[0].neighbour->torque_error_estimate, 4e-7);
   EXPECT_EQ(again.leading_force_factor, 1. / 3);
   EXPECT_EQ(again.tabulated_motions, table.tabulated_motions);
@@ -75,8 +75,8 @@ TEST_F(MotionTableFile, IsReadAsItWasWritten) {
 
 TEST_F(MotionTableFile, OfOthersNeedsFourColumns) {
   const auto table = read(changed("", ""));
-  EXPECT_NEAR(table.rows[0].sphere.force, 40 / (6 * std::numbers::pi), 1e-15);
-  EXPECT_NEAR(table.rows[0].sphere.torque, -2 / (8 * std::numbers::pi), 1e-16);
+  EXPECT_NEAR(table.rows[0].force_factor, 40 / (6 * std::numbers::pi), 1e-15);
+  EXPECT_NEAR(table.rows[0].torque_factor, -2 / (8 * std::numbers::pi), 1e-16);
   EXPECT_FALSE(table.rows[0].neighbour);
 }
 

@@ -1,5 +1,5 @@
 // Theory's coefficients near contact beside published ones.
-#include "viscontact/motions/near_contact.hpp"
+#include "viscontact/lubrication/near_contact.hpp"
 
 #include <gtest/gtest.h>
 

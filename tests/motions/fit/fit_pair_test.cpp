@@ -40,8 +40,8 @@ TEST_P(ShippedPair, IsTabulatedAsExactlyAsItSays) {
   const auto tables = shipped_tables(GetParam());
   for (const auto* table : {&tables.slide, &tables.roll, &tables.spin})
     for (const auto& row : (*table)->rows) {
-      EXPECT_LE(row.sphere.force_error_estimate, 1e-6) << row.gap;
-      EXPECT_LE(row.sphere.torque_error_estimate, 1e-6) << row.gap;
+      EXPECT_LE(row.relative_error_estimate, 1e-6) << row.gap;
+      EXPECT_LE(row.torque_error_estimate, 1e-6) << row.gap;
     }
   EXPECT_NEAR(tables.slide->rows.front().gap, 1e-3, 1e-18);
   EXPECT_EQ(tables.slide->rows.back().gap, 1);
@@ -131,7 +131,7 @@ TEST(PairFits, RefuseTablesThatDoNotBelongTogether) {
     change(tables);
     return bad_input([&] { (void)fit_pair(tables, {}); });
   };
-  EXPECT_THAT(refused([](PairTables& t) { t.roll->rows[3].sphere.force *= 1.01; }),
+  EXPECT_THAT(refused([](PairTables& t) { t.roll->rows[3].force_factor *= 1.01; }),
               HasSubstr("the matrix is not symmetric: slide_roll is"));
   EXPECT_THAT(refused([](PairTables& t) { t.spin->viscosity = 2; }),
               HasSubstr("different pairs: the viscosity is 1 in one and 2"));
