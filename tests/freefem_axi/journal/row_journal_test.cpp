@@ -204,7 +204,15 @@ TEST_F(RowJournalFile, RowsOfAFinishedTableCountAsFinished) {
   table_of_first.viscosity = table_of_first.radius = 1;
   table_of_first.case_hash = tabulation_hash(tabulation);
   table_of_first.versions["FreeFEM"] = "4.9";
-  table_of_first.rows = {force_row(kFirst)};
+  auto& row = table_of_first.rows.emplace_back();
+  row.gap = kFirst.point[0];
+  row.reference_velocity = kFirst.point[1];
+  row.force = kFirst.numbers[0];
+  row.force_factor = kFirst.numbers[1];
+  row.relative_error_estimate = kFirst.numbers[2];
+  row.degrees_of_freedom = kFirst.numbers[3];
+  row.seconds = kFirst.numbers[4];
+  row.observed_order = kFirst.numbers[5];
   write_file(table(), lubrication::write_motion_table(table_of_first));
   const auto of_table = read_row_record(table(), force_table_plan(tabulation));
   ASSERT_TRUE(of_table.finished.contains(point_of(kFirst)));

@@ -11,16 +11,16 @@
 #include "viscontact/common/text/csv.hpp"
 #include "viscontact/freefem_axi/motion_row.hpp"
 
-namespace viscontact::motions {
+namespace viscontact::freefem_axi {
 namespace {
 
 using lubrication::MotionKind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-freefem_axi::Tabulation in_unbounded_fluid(const std::string& geometry,
+Tabulation in_unbounded_fluid(const std::string& geometry,
                                            std::vector<double> parameters, double accuracy) {
-  freefem_axi::Tabulation tabulation = freefem_axi::unit_tabulation({1}, 1, accuracy);
+  Tabulation tabulation = unit_tabulation({1}, 1, accuracy);
   tabulation.container.reset();
   tabulation.geometry = geometry;
   tabulation.geometry_parameters = std::move(parameters);
@@ -81,10 +81,10 @@ TEST(MotionsInACavity, AreThoseOfConcentricSpheres) {
   constexpr double kRadius = 2.5, kAccuracy = 1e-5;
   const auto cavity = in_unbounded_fluid("cavity", {kRadius}, kAccuracy);
   const double gap = kRadius - 1;
-  const auto across = freefem_axi::solve_motions(freefem_axi::default_freefem(), cavity,
-                                                 freefem_axi::MotionGroup::kAcross, gap);
-  const auto around = freefem_axi::solve_motions(freefem_axi::default_freefem(), cavity,
-                                                 freefem_axi::MotionGroup::kAround, gap);
+  const auto across = solve_motions(default_freefem(), cavity,
+                                                 MotionGroup::kAcross, gap);
+  const auto around = solve_motions(default_freefem(), cavity,
+                                                 MotionGroup::kAround, gap);
   // Haberman & Sayre 1958; Happel & Brenner 1983, (4-22.11).
   const double l = 1 / kRadius;
   const double drag = (1 - std::pow(l, 5)) / (1 - 9. / 4 * l + 5. / 2 * std::pow(l, 3) -
@@ -103,10 +103,10 @@ TEST(MotionsOfAPair, AreThoseBesideAFreeSurfaceIfTheFlowIsSymmetric) {
   // normal.
   const auto surface = in_unbounded_fluid("free_surface", {}, kAccuracy);
   const auto mirrored = in_unbounded_fluid("sphere", {1, 1, -1}, kAccuracy);
-  const auto one = freefem_axi::solve_motions(freefem_axi::default_freefem(), surface,
-                                              freefem_axi::MotionGroup::kAcross, 0.2);
-  const auto pair = freefem_axi::solve_motions(freefem_axi::default_freefem(), mirrored,
-                                               freefem_axi::MotionGroup::kAcross, 0.4);
+  const auto one = solve_motions(default_freefem(), surface,
+                                              MotionGroup::kAcross, 0.2);
+  const auto pair = solve_motions(default_freefem(), mirrored,
+                                               MotionGroup::kAcross, 0.4);
   for (std::size_t motion : {0, 1}) {
     const auto& both = pair.at(motion);
     const auto& alone = one.at(motion);
@@ -156,21 +156,21 @@ TEST(MotionsOfAPair, AddUpFromThoseOfEachSphere) {
 
 TEST(Motions, OfAGeometry) {
   EXPECT_THAT(
-      freefem_axi::parse_motions({"all"}, "plane"),
+      parse_motions({"all"}, "plane"),
       ElementsAre(MotionKind::kApproach, MotionKind::kSlide, MotionKind::kRoll, MotionKind::kSpin));
-  EXPECT_THAT(freefem_axi::parse_motions({"all"}, "rough_plane"),
+  EXPECT_THAT(parse_motions({"all"}, "rough_plane"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
-  EXPECT_THAT(freefem_axi::parse_motions({"spin", "approach"}, "cavity"),
+  EXPECT_THAT(parse_motions({"spin", "approach"}, "cavity"),
               ElementsAre(MotionKind::kApproach, MotionKind::kSpin));
-  EXPECT_THAT(bad_input([] { (void)freefem_axi::parse_motions({"slide"}, "rough_plane"); }),
+  EXPECT_THAT(bad_input([] { (void)parse_motions({"slide"}, "rough_plane"); }),
               HasSubstr("beside a rough_plane a sphere has the motions approach, spin"));
-  EXPECT_THAT(bad_input([] { (void)freefem_axi::parse_motions({"glide"}, "plane"); }),
+  EXPECT_THAT(bad_input([] { (void)parse_motions({"glide"}, "plane"); }),
               HasSubstr("approach, slide, roll or spin"));
   EXPECT_THAT(bad_input([] {
-                (void)freefem_axi::parse_motions({"roll", "roll"}, "plane");
+                (void)parse_motions({"roll", "roll"}, "plane");
               }),
               HasSubstr("names roll twice"));
 }
 
 }  // namespace
-}  // namespace viscontact::motions
+}  // namespace viscontact::freefem_axi
