@@ -65,7 +65,7 @@ class JsonFields {
   }
 
   /// True if the fields are read now, so that fields_of() can check them.
-  bool reads() const { return mode_ == Mode::kReads; }
+  bool reads() const { return json_ != nullptr; }
 
   /// Throws Error(kBadInput) with "FILE:LINE: KEY WHAT". An empty `key` stands for the object.
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
@@ -79,9 +79,7 @@ class JsonFields {
   /// with fields_of(), or a vector of any of these.
   template <class Value>
   void operator()(const std::string& key, Value& value, Absence absence = Absence::kRefused) {
-    if (mode_ == Mode::kLists) {
-      keys_.insert(key);
-    } else if (mode_ == Mode::kWrites) {
+    if (!reads()) {
       if (absence == Absence::kLeftOutIfEmpty && is_empty(value)) return;
       written_[key] = json_of(value);
     } else if (is_there(key, absence)) {
@@ -113,9 +111,7 @@ class JsonFields {
   template <class Value, class Part>
   void by_name(const std::string& key, std::vector<Value>& values, std::string Value::*name,
                const Part& part, Absence absence = Absence::kRefused) {
-    if (mode_ == Mode::kLists) {
-      keys_.insert(key);
-    } else if (mode_ == Mode::kWrites) {
+    if (!reads()) {
       written_[key] = Json::object();
       for (auto& value : values) written_[key][value.*name] = json_of(part(value));
     } else if (is_there(key, absence)) {
@@ -155,31 +151,27 @@ class JsonFields {
 
   /// An object that is written and read elsewhere, and that a file may lack.
   void foreign_object(const std::string& key) {
-    if (mode_ == Mode::kLists) keys_.insert(key);
-    if (reads() && json_->contains(key)) JsonFields(*document_, json_->at(key), path_of(key));
+    if (reads() && is_there(key, Absence::kAllowed))
+      JsonFields(*document_, json_->at(key), path_of(key));
   }
 
  private:
-  enum class Mode { kLists, kWrites, kReads };
-
   JsonFields() = default;
   JsonFields(const JsonDocument& document, const Json& json, std::string path)
-      : mode_(Mode::kReads), document_(&document), json_(&json), path_(std::move(path)) {
+      : document_(&document), json_(&json), path_(std::move(path)) {
     if (!json.is_object()) fail("", fmt::format("is {}; it must be an object", shown(json)));
   }
 
-  /// Refuses keys that are no fields, and reads the fields.
+  /// Reads the fields, and refuses keys that are none.
   template <class Struct>
   void read_into(Struct& value) {
-    mode_ = Mode::kLists;
     fields_of(*this, value);
-    mode_ = Mode::kReads;
     for (const auto& [key, member] : json_->items())
       if (!keys_.contains(key)) fail(key, "is not a key of this file");
-    fields_of(*this, value);
   }
 
-  bool is_there(const std::string& key, Absence absence) const {
+  bool is_there(const std::string& key, Absence absence) {
+    keys_.insert(key);
     const bool is = json_->contains(key);
     if (!is && absence == Absence::kRefused) fail(key, "is missing; the file must have this key");
     return is;
@@ -277,8 +269,7 @@ class JsonFields {
     JsonFields(*document_, json, path_of(key)).read_into(value);
   }
 
-  Mode mode_ = Mode::kWrites;
-  std::set<std::string> keys_;
+  std::set<std::string> keys_;  ///< those that were read
   Json written_ = Json::object();
   const JsonDocument* document_ = nullptr;
   const Json* json_ = nullptr;
